@@ -1,0 +1,453 @@
+/* vox: exact collision detection for deformable tetrahedral meshes on a voxel grid.
+ *
+ * This header is the whole core library: plain C99, fixed-width types, no structs by value across
+ * the border. Its version is written here and nowhere else.
+ *
+ * Conventions that hold for every function unless its comment says otherwise
+ *   Errors    A function that can fail returns vox_result. On failure the out-parameters are left
+ *             untouched, nothing has changed, and vox_last_error() gives the reason with numbers in it.
+ *             No function prints, exits, throws or asserts on user input, in any build.
+ *   Structs   Structs whose first field is struct_size may grow. Fill them with vox_X_init or
+ *             vox_default_X; the library reads and writes only the fields that struct_size covers,
+ *             so old programs run with new libraries and the reverse.
+ *   Ownership The library copies what it is given, except positions bound as borrowed. Pointers it
+ *             hands out belong to it and live as long as their comment says.
+ *   Threads   One thread at a time may change a grid. Between changes any number of threads may read
+ *             it. Different grids are independent. vox_last_error() is per thread.
+ *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
+ */
+#ifndef VOX_VOX_H
+#define VOX_VOX_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define VOX_VERSION_MAJOR 0
+#define VOX_VERSION_MINOR 1
+#define VOX_VERSION_PATCH 0
+
+#if defined(VOX_STATIC)
+#define VOX_EXPORT
+#elif defined(_WIN32) && defined(VOX_BUILD)
+#define VOX_EXPORT __declspec(dllexport)
+#elif defined(_WIN32)
+#define VOX_EXPORT __declspec(dllimport)
+#else
+#define VOX_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. */
+#define VOX_API VOX_EXPORT
+#define VOX_EXPERIMENTAL VOX_EXPORT
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- results ---------------------------------------------------------------------------------- */
+
+typedef enum vox_result {
+    VOX_OK = 0,
+    VOX_ERROR_INVALID_ARGUMENT = -1, /* a null pointer, an unknown enum, a bad number */
+    VOX_ERROR_INVALID_HANDLE = -2,   /* a mesh id that is null, stale or from another grid */
+    VOX_ERROR_INVALID_MESH = -3,     /* a tetrahedron names a vertex that does not exist */
+    VOX_ERROR_INVALID_STATE = -4,    /* the call does not fit the state, e.g. no positions bound */
+    VOX_ERROR_NON_FINITE = -5,       /* a position is NaN or infinite */
+    VOX_ERROR_LIMIT = -6,            /* a documented limit would be passed */
+    VOX_ERROR_BUDGET = -7,           /* the grid's byte budget would be passed */
+    VOX_ERROR_OUT_OF_MEMORY = -8,    /* the allocator returned null */
+    VOX_ERROR_UNSUPPORTED = -9,      /* known, but not offered by this build or version */
+    VOX_ERROR_FILE = -10,            /* a file cannot be opened, read or written */
+    VOX_ERROR_FORMAT = -11,          /* a file is malformed */
+    VOX_ERROR_INTERNAL = -12,        /* a defect of the library: please report it */
+    VOX_RESULT_FORCE_32_BITS = 0x7fffffff
+} vox_result;
+
+/* Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread. */
+VOX_API const char* vox_result_string(vox_result result);
+
+/* This thread's last failure in words, e.g. "tet 17 names vertex 900 of 812"; "" before the first.
+ * The text lives until the thread's next failing call. Successful calls leave it alone. Never null. */
+VOX_API const char* vox_last_error(void);
+
+/* Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
+ * libraries built on vox (vox_io among them) fail in the same words. A null text counts as "". */
+VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
+
+/* ---- version ---------------------------------------------------------------------------------- */
+
+/* Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail. */
+VOX_API uint32_t vox_version(void);
+/* The same as "major.minor.patch". Static text. Cannot fail. */
+VOX_API const char* vox_version_string(void);
+/* Compiler, language level and options of this build, one line. Static text. Cannot fail. */
+VOX_API const char* vox_build_info(void);
+
+/* ---- memory and log --------------------------------------------------------------------------- */
+
+/* Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
+ * two), or null; `release` gets the same size and alignment back. Both null: the C++ runtime's heap.
+ * Called only from functions of the grid it was given to, on the calling thread. */
+typedef struct vox_allocator {
+    void* (*allocate)(size_t size, size_t alignment, void* user);
+    void (*release)(void* memory, size_t size, size_t alignment, void* user);
+    void* user;
+} vox_allocator;
+
+typedef enum vox_log_level {
+    VOX_LOG_INFO = 0,
+    VOX_LOG_WARNING = 1,
+    VOX_LOG_LEVEL_FORCE_32_BITS = 0x7fffffff
+} vox_log_level;
+
+/* Receives one line of text (no newline), valid during the call only. Null: no log. Called on the
+ * thread that called the library; it must not call the grid it came from. */
+typedef struct vox_log {
+    void (*write)(vox_log_level level, const char* text, void* user);
+    void* user;
+} vox_log;
+
+/* ---- grid ------------------------------------------------------------------------------------- */
+
+/* Limits; passing one gives VOX_ERROR_LIMIT. */
+#define VOX_MAX_MESHES 1048576u           /* per grid, at one time */
+#define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
+#define VOX_MAX_VERTICES 2147483647u      /* per grid */
+#define VOX_MAX_TETS 2147483647u          /* per grid */
+
+/* How cells are stored. Contacts do not depend on it. */
+typedef enum vox_storage {
+    VOX_STORAGE_AUTO = 0,   /* the engine's choice */
+    VOX_STORAGE_HASHED = 1, /* unbounded space: cells hashed into a table of prime size */
+    VOX_STORAGE_DENSE = 2,  /* one list per cell of a box: linear id k*nx*ny + j*nx + i */
+    VOX_STORAGE_FORCE_32_BITS = 0x7fffffff
+} vox_storage;
+
+/* Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. */
+typedef enum vox_hash {
+    VOX_HASH_MIXED = 0, /* a well-mixed 64-bit hash: the default */
+    VOX_HASH_PAPER = 1, /* i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1) */
+    VOX_HASH_FORCE_32_BITS = 0x7fffffff
+} vox_hash;
+
+/* Which algorithm runs. Contacts do not depend on it. */
+typedef enum vox_engine {
+    VOX_ENGINE_AUTO = 0,      /* the fastest one of this version */
+    VOX_ENGINE_REFERENCE = 1, /* the paper's algorithm as printed (Sect. 3) */
+    VOX_ENGINE_FORCE_32_BITS = 0x7fffffff
+} vox_engine;
+
+/* An open grid: a set of meshes and the settings they collide under. */
+typedef struct vox_grid vox_grid;
+
+typedef struct vox_grid_desc {
+    uint32_t struct_size;
+    vox_engine engine;
+    vox_storage storage;
+    vox_hash hash;
+    /* Edge length of a cell, > 0. 0 (the default): the library chooses it at the first step, and again
+     * after meshes were inserted, removed or bound anew. */
+    double cell_size;
+    /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
+     * cell. All zero (the default): the box of all positions, found at every step. */
+    double world_min[3];
+    double world_max[3];
+    /* Most bytes the grid may hold at any time; a call that would pass it fails with VOX_ERROR_BUDGET.
+     * 0: no limit. Default 4 GiB. */
+    uint64_t byte_budget;
+    /* Buckets of the hash table, raised to the next prime. 0 (the default): the first prime that is at
+     * least twice the number of vertices. */
+    uint64_t hash_table_size;
+    vox_allocator allocator;
+    vox_log log;
+} vox_grid_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers.
+ * Errors: INVALID_ARGUMENT when desc is null or struct_size is not in [4, 65536]. */
+VOX_API vox_result vox_grid_desc_init(vox_grid_desc* desc, uint32_t struct_size);
+
+static inline vox_grid_desc vox_default_grid_desc(void) {
+    vox_grid_desc desc;
+    (void)vox_grid_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* Creates a grid. desc null: all defaults. The caller owns *out_grid and ends it with
+ * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET. */
+VOX_API vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid);
+
+/* Ends a grid and releases all its memory; views and mesh ids from it are invalid. Null does nothing. */
+VOX_API void vox_grid_destroy(vox_grid* grid);
+
+/* Removes all meshes and contacts; settings stay. Old mesh ids become stale. */
+VOX_API vox_result vox_grid_clear(vox_grid* grid);
+
+/* Sets the cell size for the steps to come; 0: the library chooses. Never changes the contacts.
+ * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
+VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
+
+/* The cell size in use: the one set, or the one chosen for the last step; 0 when none was chosen yet. */
+VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
+
+/* ---- meshes ----------------------------------------------------------------------------------- */
+
+/* Names a mesh in its grid: slot and generation in one number. 0 is no mesh. Ids given out by one grid
+ * ascend in slot order, so a fresh grid orders meshes as they were inserted. A removed mesh's id never
+ * names another mesh of the grid. */
+typedef uint32_t vox_mesh;
+#define VOX_NULL_MESH 0u
+
+typedef enum vox_format {
+    VOX_FORMAT_FLOAT3 = 0, /* three IEEE 754 singles x, y, z */
+    VOX_FORMAT_FORCE_32_BITS = 0x7fffffff
+} vox_format;
+
+typedef enum vox_mesh_flags {
+    VOX_MESH_SELF_COLLISION = 1, /* also report vertices of the mesh inside its own tetrahedra */
+    VOX_MESH_COPY_POSITIONS = 2, /* copy `positions` at insertion instead of borrowing them */
+    VOX_MESH_FLAGS_FORCE_32_BITS = 0x7fffffff
+} vox_mesh_flags;
+
+/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its
+ * vertices still collide with the tetrahedra of other meshes. */
+typedef struct vox_mesh_desc {
+    uint32_t struct_size;
+    uint32_t flags; /* vox_mesh_flags, combined with | */
+    /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed: read during
+     * vox_grid_step and must stay valid and unchanged while one runs, until the mesh is removed or bound
+     * elsewhere. */
+    const void* positions;
+    uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed */
+    /* tet_count * 4 vertex indices, copied. Both windings are accepted. */
+    const uint32_t* tets;
+    uint64_t tet_count;
+    uint64_t vertex_count;
+    uint64_t user_data; /* the caller's own, given back by vox_mesh_user_data */
+    vox_format position_format;
+    uint32_t reserved; /* 0 */
+} vox_mesh_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size);
+
+static inline vox_mesh_desc vox_default_mesh_desc(void) {
+    vox_mesh_desc desc;
+    (void)vox_mesh_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* Adds a mesh. Takes part from the next step on.
+ * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh);
+
+/* Takes a mesh out. Contacts of the last step stay as they are until the next one. */
+VOX_API vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh);
+
+/* 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail. */
+VOX_API uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh);
+
+/* The user_data the mesh was inserted with. */
+VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data);
+
+/* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
+ * of vox_mesh_desc.positions; a copy made at insertion is released. Values written to the same memory
+ * between steps need no new call. */
+VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+                                           vox_format format, uint64_t byte_stride);
+
+/* ---- step and contacts ------------------------------------------------------------------------ */
+
+/* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
+ * failure they are gone and the grid stays usable. In the steady state (same meshes, no more contacts
+ * than before) it allocates nothing.
+ * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE (names mesh and vertex), BUDGET,
+ * OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_step(vox_grid* grid);
+
+/* Vertex `vertex` of mesh_a lies in the closed tetrahedron `tet` of mesh_b, which does not own it.
+ * Decided exactly for the coordinates given. Per (mesh_a, vertex, mesh_b): every tetrahedron that holds
+ * the vertex in its interior; when none does, the one of lowest index whose boundary holds it. A
+ * tetrahedron of exactly zero volume holds nothing.
+ * `barycentric` are the vertex's weights for the tetrahedron's four corners in their given order: each in
+ * [0, 1], the sum 1 to rounding. */
+typedef struct vox_contact {
+    vox_mesh mesh_a;
+    uint32_t vertex;
+    vox_mesh mesh_b;
+    uint32_t tet;
+    float barycentric[4];
+} vox_contact;
+
+/* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the
+ * next step, clear or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
+typedef struct vox_contact_view {
+    const vox_contact* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_contact_view;
+
+/* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
+VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
+
+/* Number of steps and clears so far, failed steps included. A view is valid while its epoch is this. */
+VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
+
+/* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
+VOX_API vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash);
+
+/* ---- measurements ----------------------------------------------------------------------------- */
+
+/* What the last successful step did. `skipped_degenerate`: tetrahedra of exactly zero volume. */
+typedef struct vox_counters {
+    uint32_t struct_size;
+    uint32_t meshes;
+    uint64_t vertices;
+    uint64_t tets;
+    uint64_t cells;              /* occupied cells */
+    uint64_t entries;            /* vertices in them */
+    uint64_t fullest_cell;       /* most vertices in one cell */
+    uint64_t visited_cells;      /* objective voxels looked into */
+    uint64_t visited_entries;    /* vertices met there: the box test's input */
+    uint64_t candidates;         /* vertices that passed the box test: the narrow phase's input */
+    uint64_t exact_tests;        /* orientations that needed exact arithmetic */
+    uint64_t contacts;
+    uint64_t skipped_degenerate;
+    uint64_t bytes;              /* held by the grid now, the caller's arrays not counted */
+    uint64_t peak_bytes;         /* most it ever held */
+} vox_counters;
+
+/* Writes the fields that out_counters->struct_size covers (set it first). */
+VOX_API vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters);
+
+/* Nanoseconds of the last successful step, whole and by stage. */
+typedef struct vox_profile {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t step_ns;
+    uint64_t bin_ns;      /* classify the vertices, recompute the boxes */
+    uint64_t broad_ns;    /* cells and box tests */
+    uint64_t narrow_ns;   /* exact decisions */
+    uint64_t contacts_ns; /* canonical order, barycentric coordinates */
+} vox_profile;
+
+/* Writes the fields that out_profile->struct_size covers (set it first). */
+VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile);
+
+/* ---- cell size -------------------------------------------------------------------------------- */
+
+typedef enum vox_cost_model {
+    VOX_COST_MODEL_PAPER = 0, /* the paper's z(delta), Sect. 4, Eqs. 3-8 */
+    VOX_COST_MODEL_FORCE_32_BITS = 0x7fffffff
+} vox_cost_model;
+
+/* Reading of s, the size of a tetrahedron in Eq. 4. */
+typedef enum vox_size_reading {
+    VOX_SIZE_MEAN_EDGE = 0,         /* mean length of the unique edges: reproduces the paper's tables */
+    VOX_SIZE_MEAN_LONGEST_EDGE = 1, /* mean over tets of the longest edge: the words of Sect. 4.2 */
+    VOX_SIZE_MEAN_BOX_SIDE = 2,     /* mean over tets of the longest side of the bounding box */
+    VOX_SIZE_READING_FORCE_32_BITS = 0x7fffffff
+} vox_size_reading;
+
+/* Reading of A, the facet area of Eqs. 5-7. */
+typedef enum vox_area_reading {
+    VOX_AREA_UNIQUE_FACETS = 0,   /* mean over all facets, shared ones once: reproduces the tables */
+    VOX_AREA_TET_FACETS = 1,      /* mean over the four facets of every tet */
+    VOX_AREA_BOUNDARY_FACETS = 2, /* mean over the facets of exactly one tet */
+    VOX_AREA_READING_FORCE_32_BITS = 0x7fffffff
+} vox_area_reading;
+
+typedef struct vox_suggest_desc {
+    uint32_t struct_size;
+    vox_cost_model model;
+    vox_size_reading size_reading;
+    vox_area_reading area_reading;
+    double p_nc;               /* probability that a tet has no collision, in (0, 1); default 0.99 */
+    double cost_ratio;         /* r: cost of one particle test over one cell visit, > 0; default 5 */
+    double world_edge;         /* edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
+    double zone_loss;          /* the zone is where predicted cost <= (1 + zone_loss) * minimum; default 0.05 */
+    double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000); default 2 */
+    double resolution;         /* for rules.resolution (McNeely et al. 1999): the wanted detail; 0: none */
+} vox_suggest_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_suggest_desc_init(vox_suggest_desc* desc, uint32_t struct_size);
+
+static inline vox_suggest_desc vox_default_suggest_desc(void) {
+    vox_suggest_desc desc;
+    (void)vox_suggest_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* What the meshes look like, all together. Lengths, areas and volumes in the caller's unit. */
+typedef struct vox_geometry_stats {
+    uint64_t vertices;
+    uint64_t tets;
+    uint64_t edges;           /* unique */
+    uint64_t facets;          /* unique triangles */
+    uint64_t boundary_facets; /* facets of exactly one tet */
+    uint64_t degenerate_tets; /* of exactly zero volume */
+    double mean_edge;
+    double mean_longest_edge;
+    double mean_box_side;
+    double median_box_side;
+    double mean_facet_area;
+    double mean_tet_facet_area;
+    double mean_boundary_facet_area;
+    double mean_volume; /* of |volume| */
+    double bounds_min[3];
+    double bounds_max[3];
+} vox_geometry_stats;
+
+/* Cell sizes that other rules would choose; 0 where a rule does not apply. */
+typedef struct vox_cell_size_rules {
+    double mean_edge;          /* Teschner et al. 2003 */
+    double mean_edge_multiple; /* Gregory et al. 2000: a constant times the mean edge */
+    double object_512;         /* Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes */
+    double resolution;         /* McNeely et al. 1999: the wanted resolution */
+    double mean_volume;        /* cube root of the mean tet volume (tried and rejected in Sect. 5) */
+    double median_box_side;    /* IPC Toolkit: median of the longest box sides */
+} vox_cell_size_rules;
+
+typedef struct vox_cost_sample {
+    double cell_size;
+    double cost;
+} vox_cost_sample;
+
+#define VOX_COST_CURVE_CAPACITY 64u
+
+/* A cell size and why. Costs are in visits of one cell per tetrahedron. */
+typedef struct vox_suggestion {
+    uint32_t struct_size;
+    vox_cost_model model;
+    double cell_size;
+    double cells_per_axis; /* world edge / cell size, as the paper counts */
+    double zone_min;       /* smallest and largest cell size of the zone */
+    double zone_max;
+    double predicted_cost; /* at cell_size */
+    vox_cell_size_rules rules;
+    vox_geometry_stats stats;
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* ascending in cell_size, evenly spaced in its logarithm */
+    uint32_t curve_count;
+    uint32_t reserved;
+} vox_suggestion;
+
+/* The cell size that minimises the cost model for these meshes (their positions as they are now).
+ * desc null: defaults. Set out->struct_size first; the fields it covers are written.
+ * Uses the C++ runtime's heap for the time of the call.
+ * Errors: INVALID_ARGUMENT (also: no tetrahedron at all, or all of zero size), INVALID_MESH, NON_FINITE,
+ * OUT_OF_MEMORY. */
+VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
+                                         uint64_t mesh_count, vox_suggestion* out);
+
+/* Eq. 9: how far cells-per-axis `n` lies from the optimum, in units of the optimal zone
+ * [n_min, n_max]; 0 at n = n_opt, below 1 inside the zone. All in cells per axis, > 0, n_min <= n_opt <= n_max.
+ * Where the zone has no width on the side n lies on, *out_epsilon is infinity (0 at n = n_opt). */
+VOX_API vox_result vox_zone_distance(double n, double n_min, double n_opt, double n_max,
+                                     double* out_epsilon);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
