@@ -1,9 +1,11 @@
-// How failures travel inside the library: as exceptions, caught at the C border (border.hpp) and turned
-// into a code and a text there.
+// How failures travel inside the libraries: as exceptions, caught at the C border (border.hpp) and turned into
+// a code and a text there. Header only and on public symbols alone, so that vox_io shares it.
 #pragma once
 
 #include <vox/vox.h>
 
+#include <cstdarg>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -19,13 +21,18 @@ private:
     vox_result result_;
 };
 
-// printf-style text, so that messages carry their numbers: throw Error(code, format("tet %u names ...", t)).
+// printf into a string, so that messages carry their numbers: throw Error(code, format("tet %u names ...", t)).
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
-std::string format(const char* pattern, ...);
-
-// Sets this thread's vox_last_error() text. Never throws.
-void set_last_error(const char* text) noexcept;
+inline std::string
+format(const char* pattern, ...) {
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, pattern);
+    std::vsnprintf(text, sizeof text, pattern, arguments);
+    va_end(arguments);
+    return text;
+}
 
 } // namespace vox

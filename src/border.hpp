@@ -1,0 +1,32 @@
+// The C border: every public function that can fail is `return border([&] { ... });`. Nothing that is thrown
+// inside gets out; it becomes a result code and the text of vox_last_error().
+#pragma once
+
+#include "error.hpp"
+
+#include <exception>
+#include <new>
+
+namespace vox {
+
+template <class Function> vox_result border(Function&& function) noexcept {
+    try {
+        function();
+        return VOX_OK;
+    } catch (const Error& error) {
+        return vox_fail(error.result(), error.what());
+    } catch (const std::bad_alloc&) {
+        return vox_fail(VOX_ERROR_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& error) {
+        return vox_fail(VOX_ERROR_INTERNAL, error.what());
+    } catch (...) {
+        return vox_fail(VOX_ERROR_INTERNAL, "unknown exception");
+    }
+}
+
+// Throws INVALID_ARGUMENT naming the parameter when `pointer` is null.
+inline void require(const void* pointer, const char* name) {
+    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
+}
+
+} // namespace vox
