@@ -1,0 +1,29 @@
+# Installed so that both find_package(vox) and pkg-config work.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS vox EXPORT voxTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES include/vox/vox.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+if(VOX_BUILD_IO)
+  install(TARGETS vox_io EXPORT voxTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES include/vox/vox_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+endif()
+install(EXPORT voxTargets NAMESPACE vox:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
+
+configure_package_config_file(cmake/voxConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
+# Until version 1.0 a minor version may break the ABI.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/voxConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/voxConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
+
+configure_file(cmake/vox.pc.in vox.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(VOX_BUILD_IO)
+  configure_file(cmake/vox_io.pc.in vox_io.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_io.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()

@@ -146,7 +146,7 @@ typedef struct vox_grid_desc {
     vox_storage storage;
     vox_hash hash;
     /* Edge length of a cell, > 0. 0 (the default): the library chooses it at the first step, and again
-     * after meshes were inserted, removed or bound anew. */
+     * after meshes were inserted or removed. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
      * cell. All zero (the default): the box of all positions, found at every step. */

@@ -1,0 +1,207 @@
+// The C border of the core: read the caller's structs, forward to the grid, nothing else.
+
+#include "border.hpp"
+#include "grid.hpp"
+#include "memory.hpp"
+#include "mesh_check.hpp"
+#include "structs.hpp"
+
+#include <new>
+
+using namespace vox;
+
+#define VOX_STRING_(x) #x
+#define VOX_STRING(x) VOX_STRING_(x)
+
+// ---- version --------------------------------------------------------------------------------------
+
+uint32_t vox_version(void) {
+    return VOX_VERSION_MAJOR * 1000000u + VOX_VERSION_MINOR * 1000u + VOX_VERSION_PATCH;
+}
+
+const char* vox_version_string(void) {
+    return VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH);
+}
+
+const char* vox_build_info(void) {
+    return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(
+        VOX_VERSION_PATCH)
+#if defined(__clang__)
+        ", clang " __clang_version__
+#elif defined(__GNUC__)
+        ", gcc " __VERSION__
+#elif defined(_MSC_VER)
+        ", msvc " VOX_STRING(_MSC_FULL_VER)
+#endif
+        ", C++ " VOX_STRING(__cplusplus)
+#if defined(NDEBUG)
+        ", release"
+#else
+        ", debug"
+#endif
+        ;
+}
+
+// ---- grid -----------------------------------------------------------------------------------------
+
+namespace {
+
+vox_grid_desc grid_defaults() {
+    vox_grid_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.byte_budget = 4ull << 30;
+    return desc;
+}
+
+vox_mesh_desc mesh_defaults() {
+    vox_mesh_desc desc{};
+    desc.struct_size = sizeof desc;
+    return desc;
+}
+
+} // namespace
+
+vox_result vox_grid_desc_init(vox_grid_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, grid_defaults(), "desc"); });
+}
+
+vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid) {
+    return border([&] {
+        require(out_grid, "out_grid");
+        const vox_grid_desc settings = desc ? read_struct(desc, grid_defaults(), "desc") : grid_defaults();
+        check_grid_desc(settings);
+        if (settings.byte_budget != 0 && settings.byte_budget < sizeof(vox_grid))
+            throw Error(VOX_ERROR_BUDGET,
+                        format("an empty grid needs %zu bytes, its byte budget is %llu", sizeof(vox_grid),
+                               static_cast<unsigned long long>(settings.byte_budget)));
+        void* memory = allocate(settings.allocator, sizeof(vox_grid), alignof(vox_grid));
+        if (!memory) throw std::bad_alloc();
+        try {
+            *out_grid = new (memory) vox_grid(settings, sizeof(vox_grid));
+        } catch (...) {
+            release(settings.allocator, memory, sizeof(vox_grid), alignof(vox_grid));
+            throw;
+        }
+    });
+}
+
+void vox_grid_destroy(vox_grid* grid) {
+    if (!grid) return;
+    const vox_allocator allocator = grid->allocator();
+    grid->~vox_grid();
+    release(allocator, grid, sizeof(vox_grid), alignof(vox_grid));
+}
+
+vox_result vox_grid_clear(vox_grid* grid) {
+    return border([&] {
+        require(grid, "grid");
+        grid->clear();
+    });
+}
+
+vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size) {
+    return border([&] {
+        require(grid, "grid");
+        grid->set_cell_size(cell_size);
+    });
+}
+
+vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_cell_size, "out_cell_size");
+        *out_cell_size = grid->cell_size();
+    });
+}
+
+// ---- meshes ---------------------------------------------------------------------------------------
+
+vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, mesh_defaults(), "desc"); });
+}
+
+vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_mesh, "out_mesh");
+        const vox_mesh_desc settings = read_struct(desc, mesh_defaults(), "desc");
+        *out_mesh = grid->insert(settings, check_mesh(settings, "", NullPositions::allowed));
+    });
+}
+
+vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh) {
+    return border([&] {
+        require(grid, "grid");
+        grid->remove(mesh);
+    });
+}
+
+uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh) {
+    return grid && grid->is_valid(mesh) ? 1u : 0u;
+}
+
+vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_user_data, "out_user_data");
+        *out_user_data = grid->mesh(mesh).user_data();
+    });
+}
+
+vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions, vox_format format,
+                                   uint64_t byte_stride) {
+    return border([&] {
+        require(grid, "grid");
+        Mesh& target = grid->mesh(mesh);
+        require(positions, "positions");
+        check_format(format, "");
+        target.bind({static_cast<const std::byte*>(positions), check_stride(byte_stride, target.vertex_count(), "")});
+    });
+}
+
+// ---- step and results -----------------------------------------------------------------------------
+
+vox_result vox_grid_step(vox_grid* grid) {
+    return border([&] {
+        require(grid, "grid");
+        grid->step();
+    });
+}
+
+vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_view, "out_view");
+        *out_view = grid->contacts();
+    });
+}
+
+vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_epoch, "out_epoch");
+        *out_epoch = grid->epoch();
+    });
+}
+
+vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_hash, "out_hash");
+        *out_hash = grid->hash();
+    });
+}
+
+vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters) {
+    return border([&] {
+        require(grid, "grid");
+        write_struct(out_counters, grid->counters(), "out_counters");
+    });
+}
+
+vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile) {
+    return border([&] {
+        require(grid, "grid");
+        write_struct(out_profile, grid->profile(), "out_profile");
+    });
+}

@@ -1,0 +1,239 @@
+#include "grid.hpp"
+
+#include "contacts.hpp"
+#include "error.hpp"
+#include "ids.hpp"
+#include "suggest.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace vox {
+
+void check_grid_desc(const vox_grid_desc& desc) {
+    const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
+    const auto check_enum = [&](int value, int last, const char* name) {
+        if (value < 0 || value > last) refuse(format("grid %s is %d, expected 0 to %d", name, value, last));
+    };
+    check_enum(desc.engine, VOX_ENGINE_REFERENCE, "engine");
+    check_enum(desc.storage, VOX_STORAGE_DENSE, "storage");
+    check_enum(desc.hash, VOX_HASH_PAPER, "hash");
+    if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
+        refuse(format("grid cell_size is %g, expected a finite number >= 0", desc.cell_size));
+
+    bool all_zero = true;
+    for (int axis = 0; axis < 3; ++axis)
+        all_zero = all_zero && desc.world_min[axis] == 0 && desc.world_max[axis] == 0;
+    for (int axis = 0; axis < 3 && !all_zero; ++axis) {
+        const double min = desc.world_min[axis], max = desc.world_max[axis];
+        if (!std::isfinite(min) || !std::isfinite(max) || !(min < max))
+            refuse(format("grid world is [%g, %g] on axis %d, expected finite min < max", min, max, axis));
+    }
+    if (desc.hash_table_size > VOX_MAX_VERTICES)
+        refuse(format("grid hash_table_size is %llu, expected at most %u",
+                      static_cast<unsigned long long>(desc.hash_table_size), VOX_MAX_VERTICES));
+    if (!desc.allocator.allocate != !desc.allocator.release)
+        refuse("grid allocator has one of allocate and release, expected both or none");
+}
+
+namespace {
+
+std::uint64_t nanoseconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+// pmr vectors grow without being asked to; this grows one geometrically, so that n calls copy O(n) elements.
+template <class T> void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
+    if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
+}
+
+void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
+    if (added > limit - count)
+        throw Error(VOX_ERROR_LIMIT,
+                    format("the grid holds %llu %s and cannot take %llu more, the limit is %llu",
+                           static_cast<unsigned long long>(count), what,
+                           static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
+}
+
+} // namespace
+} // namespace vox
+
+using namespace vox;
+
+vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
+    : allocator_(desc.allocator), log_(desc.log), memory_(desc.allocator, desc.byte_budget, held),
+      settings_{.storage = desc.storage,
+                .hash = desc.hash,
+                .hash_table_size = desc.hash_table_size,
+                .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
+                .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
+      cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_), free_slots_(&memory_),
+      bodies_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_) {}
+
+// ---- meshes ---------------------------------------------------------------------------------------
+
+vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
+    check_limit(vertex_count_, view.vertex_count, VOX_MAX_VERTICES, "vertices");
+    check_limit(tet_count_, view.tets.size(), VOX_MAX_TETS, "tets");
+    const bool fresh_slot = free_slots_.empty();
+    if (fresh_slot) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
+
+    // Everything that can fail comes first.
+    Mesh mesh(desc, view, &memory_);
+    if (fresh_slot) {
+        grow_capacity(slots_, slots_.size() + 1);
+        grow_capacity(free_slots_, slots_.size() + 1);
+    }
+
+    std::uint32_t slot;
+    if (fresh_slot) {
+        slot = static_cast<std::uint32_t>(slots_.size());
+        slots_.push_back({Mesh(&memory_)});
+    } else {
+        slot = free_slots_.back();
+        free_slots_.pop_back();
+    }
+    slots_[slot].mesh = std::move(mesh);
+    slots_[slot].live = true;
+    slots_[slot].generation += 1;
+    vertex_count_ += view.vertex_count;
+    tet_count_ += view.tets.size();
+    cell_size_is_stale_ = true;
+    return make_id(slot, slots_[slot].generation);
+}
+
+void vox_grid::remove(vox_mesh id) {
+    (void)mesh(id); // throws for an id that names no mesh
+    vacate(slot_of(id));
+}
+
+void vox_grid::clear() {
+    for (std::size_t slot = slots_.size(); slot-- > 0;)
+        if (slots_[slot].live) vacate(static_cast<std::uint32_t>(slot));
+    contacts_.clear();
+    ++epoch_;
+}
+
+void vox_grid::vacate(std::uint32_t slot) noexcept {
+    Slot& s = slots_[slot];
+    vertex_count_ -= s.mesh.vertex_count();
+    tet_count_ -= s.mesh.tet_count();
+    s.mesh = Mesh(&memory_);
+    s.live = false;
+    cell_size_is_stale_ = true;
+    // A slot whose generations are used up is retired, so that no old id comes to life again.
+    if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
+}
+
+const Mesh* vox_grid::find(vox_mesh id) const noexcept {
+    const std::uint32_t slot = slot_of(id);
+    if (slot >= slots_.size() || !slots_[slot].live || slots_[slot].generation != generation_of(id))
+        return nullptr;
+    return &slots_[slot].mesh;
+}
+
+const Mesh& vox_grid::mesh(vox_mesh id) const {
+    if (const Mesh* found = find(id)) return *found;
+    if (id == VOX_NULL_MESH) throw Error(VOX_ERROR_INVALID_HANDLE, "mesh id is 0, which names no mesh");
+    const std::uint32_t slot = slot_of(id);
+    if (slot >= slots_.size())
+        throw Error(VOX_ERROR_INVALID_HANDLE,
+                    format("mesh id %u names slot %u, the grid has %zu", id, slot, slots_.size()));
+    throw Error(VOX_ERROR_INVALID_HANDLE,
+                format("mesh id %u (slot %u, generation %u) is stale: the slot %s generation %u", id, slot,
+                       generation_of(id), slots_[slot].live ? "holds" : "is empty after",
+                       slots_[slot].generation));
+}
+
+Mesh& vox_grid::mesh(vox_mesh id) { return const_cast<Mesh&>(std::as_const(*this).mesh(id)); }
+
+void vox_grid::set_cell_size(double cell_size) {
+    if (!(cell_size >= 0) || std::isinf(cell_size))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("cell_size is %g, expected a finite number >= 0", cell_size));
+    cell_size_ = cell_size;
+    choose_cell_size_ = cell_size == 0;
+    cell_size_is_stale_ = true;
+}
+
+// ---- step -----------------------------------------------------------------------------------------
+
+void vox_grid::step() {
+    const std::uint64_t start = nanoseconds();
+    contacts_.clear();
+    hits_.clear();
+    ++epoch_;
+
+    vox_counters counters{};
+    vox_profile profile{};
+    try {
+        gather_bodies();
+        choose_cell_size();
+
+        settings_.cell_size = cell_size_;
+        reference_.detect(bodies_, settings_, hits_, counters, profile);
+
+        const std::uint64_t detected = nanoseconds();
+        make_contacts(bodies_, hits_, scratch_, contacts_);
+        profile.contacts_ns = nanoseconds() - detected;
+    } catch (...) {
+        contacts_.clear();
+        throw;
+    }
+
+    counters.meshes = static_cast<std::uint32_t>(bodies_.size());
+    counters.vertices = vertex_count_;
+    counters.tets = tet_count_;
+    counters.contacts = contacts_.size();
+    counters_ = counters;
+    profile.step_ns = nanoseconds() - start;
+    profile_ = profile;
+}
+
+void vox_grid::gather_bodies() {
+    bodies_.clear();
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+        const Slot& s = slots_[slot];
+        if (!s.live) continue;
+        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
+        if (!s.mesh.has_positions())
+            throw Error(VOX_ERROR_INVALID_STATE,
+                        format("mesh %u has no positions: bind some before the step", id));
+        bodies_.push_back(s.mesh.body(id));
+    }
+}
+
+void vox_grid::choose_cell_size() {
+    if (!choose_cell_size_ || !cell_size_is_stale_) return;
+    const SceneGeometry geometry = measure(bodies_);
+    if (geometry_has_extent(geometry)) {
+        cell_size_ = suggest(vox_default_suggest_desc(), geometry).cell_size;
+    } else {
+        cell_size_ = 1; // no tetrahedron of any size: nothing can touch, any cell will do
+    }
+    cell_size_is_stale_ = false;
+    write_log(VOX_LOG_INFO, format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_,
+                                   static_cast<unsigned long long>(tet_count_), bodies_.size())
+                                .c_str());
+}
+
+void vox_grid::write_log(vox_log_level level, const char* text) const {
+    if (log_.write) log_.write(level, text, log_.user);
+}
+
+// ---- results --------------------------------------------------------------------------------------
+
+vox_contact_view vox_grid::contacts() const noexcept {
+    return {contacts_.data(), sizeof(vox_contact), contacts_.size(), epoch_};
+}
+
+std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }
+
+vox_counters vox_grid::counters() const noexcept {
+    vox_counters counters = counters_;
+    counters.bytes = memory_.bytes();
+    counters.peak_bytes = memory_.peak_bytes();
+    return counters;
+}

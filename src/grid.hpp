@@ -1,0 +1,89 @@
+// A grid: meshes, settings, and step(), which runs the stages in order.
+#pragma once
+
+#include "memory.hpp"
+#include "mesh.hpp"
+#include "reference.hpp"
+#include "scene.hpp"
+
+#include <vox/vox.h>
+
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+// Throws Error(INVALID_ARGUMENT) naming the field and its value.
+void check_grid_desc(const vox_grid_desc& desc);
+
+} // namespace vox
+
+// Every public vox_grid_* and vox_mesh_* function is one member here; all throw, none changes anything when it does
+// (step: see vox_grid_step).
+struct vox_grid {
+public:
+    // `desc` is checked; `held` bytes were allocated for this object.
+    vox_grid(const vox_grid_desc& desc, std::uint64_t held);
+    vox_grid(const vox_grid&) = delete;
+    vox_grid& operator=(const vox_grid&) = delete;
+
+    void clear();
+    void set_cell_size(double cell_size);
+    double cell_size() const noexcept { return cell_size_; }
+
+    vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
+    void remove(vox_mesh mesh);
+    bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
+    vox::Mesh& mesh(vox_mesh mesh);
+    const vox::Mesh& mesh(vox_mesh mesh) const;
+
+    void step();
+
+    vox_contact_view contacts() const noexcept;
+    std::uint64_t epoch() const noexcept { return epoch_; }
+    std::uint64_t hash() const noexcept;
+    vox_counters counters() const noexcept;
+    const vox_profile& profile() const noexcept { return profile_; }
+    const vox_allocator& allocator() const noexcept { return allocator_; }
+
+private:
+    struct Slot {
+        vox::Mesh mesh;
+        std::uint32_t generation = 0; // of the mesh that lives here, or of the last one that did
+        bool live = false;
+    };
+
+    const vox::Mesh* find(vox_mesh mesh) const noexcept;
+    void vacate(std::uint32_t slot) noexcept;
+    void gather_bodies();
+    void choose_cell_size();
+    void write_log(vox_log_level level, const char* text) const;
+
+    vox_allocator allocator_;
+    vox_log log_;
+    vox::GridMemory memory_;
+
+    // settings
+    vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
+    double cell_size_;
+    bool choose_cell_size_;           // the library chooses the cell size ...
+    bool cell_size_is_stale_ = true;  // ... and has to again
+
+    // meshes
+    std::pmr::vector<Slot> slots_;
+    std::pmr::vector<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
+    std::uint64_t vertex_count_ = 0;
+    std::uint64_t tet_count_ = 0;
+
+    // one step
+    std::pmr::vector<vox::Body> bodies_;
+    vox::Reference reference_;
+    std::pmr::vector<vox::Hit> hits_;
+    std::pmr::vector<vox::Hit> scratch_;
+
+    // results
+    std::pmr::vector<vox_contact> contacts_;
+    vox_counters counters_{};
+    vox_profile profile_{};
+    std::uint64_t epoch_ = 0;
+};

@@ -1,0 +1,40 @@
+#include "memory.hpp"
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <new>
+
+namespace vox {
+
+void* allocate(const vox_allocator& allocator, std::size_t size, std::size_t alignment) noexcept {
+    if (allocator.allocate) return allocator.allocate(size, alignment, allocator.user);
+    return ::operator new(size, std::align_val_t(alignment), std::nothrow);
+}
+
+void release(const vox_allocator& allocator, void* memory, std::size_t size, std::size_t alignment) noexcept {
+    if (allocator.release)
+        allocator.release(memory, size, alignment, allocator.user);
+    else
+        ::operator delete(memory, std::align_val_t(alignment));
+}
+
+void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
+    if (budget_ != 0 && (size > budget_ || bytes_ > budget_ - size))
+        throw Error(VOX_ERROR_BUDGET,
+                    format("the grid holds %llu bytes and needs %llu more, its byte budget is %llu",
+                           static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),
+                           static_cast<unsigned long long>(budget_)));
+    void* memory = allocate(allocator_, size, alignment);
+    if (!memory) throw std::bad_alloc();
+    bytes_ += size;
+    peak_bytes_ = std::max(peak_bytes_, bytes_);
+    return memory;
+}
+
+void GridMemory::do_deallocate(void* memory, std::size_t size, std::size_t alignment) {
+    release(allocator_, memory, size, alignment);
+    bytes_ -= size;
+}
+
+} // namespace vox

@@ -1,0 +1,37 @@
+// Per-grid memory: the caller's allocator behind std::pmr, with every byte counted and a budget that is never
+// passed.
+#pragma once
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <memory_resource>
+
+namespace vox {
+
+class GridMemory final : public std::pmr::memory_resource {
+public:
+    // `held` bytes were taken from the allocator for the grid itself.
+    GridMemory(const vox_allocator& allocator, std::uint64_t byte_budget, std::uint64_t held) noexcept
+        : allocator_(allocator), budget_(byte_budget), bytes_(held), peak_bytes_(held) {}
+
+    std::uint64_t bytes() const noexcept { return bytes_; }
+    std::uint64_t peak_bytes() const noexcept { return peak_bytes_; }
+
+private:
+    // Throw Error(BUDGET) or std::bad_alloc.
+    void* do_allocate(std::size_t size, std::size_t alignment) override;
+    void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override;
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+    vox_allocator allocator_;
+    std::uint64_t budget_; // 0: none
+    std::uint64_t bytes_;
+    std::uint64_t peak_bytes_;
+};
+
+// One allocation from the caller's allocator, or the C++ heap when it has none; null when there is no memory.
+void* allocate(const vox_allocator& allocator, std::size_t size, std::size_t alignment) noexcept;
+void release(const vox_allocator& allocator, void* memory, std::size_t size, std::size_t alignment) noexcept;
+
+} // namespace vox
