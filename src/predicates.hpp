@@ -1,17 +1,73 @@
-// Exact geometric decisions: point in closed tetrahedron, orientation. Float input, the sign as if computed in
-// infinite precision.
+// Exact geometric decisions: point in closed tetrahedron, orientation. Float input, the sign as if computed
+// in infinite precision.
+//
+// Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete &
+// Computational Geometry 18, 1997: the determinant in double with the error bound A of ORIENT3D (Sect. 4.3),
+// and where the bound does not decide, exact expansions (predicates.cpp).
+//
+// Why the bound holds for all finite floats: it presumes only that no operation overflows or underflows.
+// Floats are multiples of 2^-149 below 2^128, so a difference in double is 0 or in [2^-149, 2^129), a product
+// of three is 0 or in [2^-447, 2^387), and every sum is 0 or a multiple of a rounded product's last bit, at
+// least 2^-500. All of it is well inside the normal doubles, [2^-1022, 2^1024).
 #pragma once
 
 #include "scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace vox {
 
+// The sign of orientation() by exact arithmetic.
+int exact_orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d);
+
+// A determinant in double and how far it may be from the true one.
+struct BoundedVolume {
+    double volume;
+    double error;
+
+    bool certain() const { return volume > error || -volume > error; }
+};
+
+// p - origin, each coordinate rounded once.
+inline Vec3d difference(const Vec3f& p, const Vec3f& origin) {
+    return {double(p.x) - double(origin.x), double(p.y) - double(origin.y), double(p.z) - double(origin.z)};
+}
+
+// The minor ux*vy - vx*uy and, for the error bound, the same with absolute values.
+struct Minor {
+    double value;
+    double magnitude;
+};
+
+inline Minor minor(const Vec3d& u, const Vec3d& v) {
+    const double left = u.x * v.y;
+    const double right = v.x * u.y;
+    return {left - right, std::abs(left) + std::abs(right)};
+}
+
+// det[u, v, w] by its z column, from the minors of the two other rows.
+inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Minor& uw, double wz,
+                                 const Minor& uv) {
+    constexpr double epsilon = 0x1p-53;
+    constexpr double bound = (7.0 + 56.0 * epsilon) * epsilon;
+    const double permanent =
+        std::abs(uz) * vw.magnitude + std::abs(vz) * uw.magnitude + std::abs(wz) * uv.magnitude;
+    return {uz * vw.value - vz * uw.value + wz * uv.value, bound * permanent};
+}
+
 // Sign (-1, 0, +1) of det[b-a, c-a, d-a]: positive when d lies on the side of triangle abc that its
 // counter-clockwise normal points to. `exact_tests` counts the calls that the filter could not decide.
-int orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, std::uint64_t& exact_tests);
+inline int orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
+                       std::uint64_t& exact_tests) {
+    const Vec3d u = difference(b, a), v = difference(c, a), w = difference(d, a);
+    const BoundedVolume det = determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
+    if (det.certain()) return det.volume > 0 ? 1 : -1;
+    if (det.error == 0) return 0; // every product has a factor that is exactly zero
+    ++exact_tests;
+    return exact_orientation(a, b, c, d);
+}
 
 enum class Containment : std::uint8_t {
     outside,
@@ -20,12 +76,60 @@ enum class Containment : std::uint8_t {
     degenerate // the tetrahedron has exactly zero volume and holds nothing
 };
 
-// Where p lies with respect to the closed tetrahedron abcd, of either winding.
-Containment locate(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
-                   std::uint64_t& exact_tests);
+// The volumes (times 6) of abcd with one corner replaced by p: they add up to the volume of abcd, and over it
+// they are the barycentric coordinates of p.
+inline std::array<BoundedVolume, 4> corner_volumes(const Vec3f& p, const Vec3f& a, const Vec3f& b,
+                                                   const Vec3f& c, const Vec3f& d) {
+    const Vec3d u = difference(a, p), v = difference(b, p), w = difference(c, p), x = difference(d, p);
+    const Minor uv = minor(u, v), uw = minor(u, w), ux = minor(u, x);
+    const Minor vw = minor(v, w), vx = minor(v, x), wx = minor(w, x);
+    std::array<BoundedVolume, 4> volumes = {
+        determinant(v.z, wx, w.z, vx, x.z, vw), determinant(u.z, wx, w.z, ux, x.z, uw),
+        determinant(u.z, vx, v.z, ux, x.z, uv), determinant(u.z, vw, v.z, uw, w.z, uv)};
+    volumes[1].volume = -volumes[1].volume; // p stands second and fourth: an odd number of row swaps
+    volumes[3].volume = -volumes[3].volume;
+    return volumes;
+}
 
-// Weights of the corners for a point p in the closed tetrahedron abcd of non-zero volume: each in [0, 1], within
-// 2^-20 of the true weight. The one function that makes them, so that every engine gives the same bits.
+// As locate(), for a tetrahedron of non-zero volume. The volume is the sum of the four corner volumes, so p
+// is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the winding.
+inline Containment locate_in_solid(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c,
+                                   const Vec3f& d, std::uint64_t& exact_tests) {
+    const std::array<BoundedVolume, 4> volumes = corner_volumes(p, a, b, c, d);
+    bool positive = false, negative = false, zero = false;
+    for (const BoundedVolume& v : volumes) {
+        positive |= v.volume > v.error;
+        negative |= -v.volume > v.error;
+    }
+    if (positive && negative) return Containment::outside; // decided without exact arithmetic
+    for (int i = 0; i < 4; ++i) {
+        if (volumes[std::size_t(i)].certain()) continue;
+        int sign = 0;
+        if (volumes[std::size_t(i)].error != 0) {
+            ++exact_tests;
+            sign = exact_orientation(i == 0 ? p : a, i == 1 ? p : b, i == 2 ? p : c, i == 3 ? p : d);
+        }
+        positive |= sign > 0;
+        negative |= sign < 0;
+        zero |= sign == 0;
+        if (positive && negative) return Containment::outside;
+    }
+    if (!positive && !negative) return Containment::degenerate;
+    return zero ? Containment::boundary : Containment::interior;
+}
+
+// Where p lies with respect to the closed tetrahedron abcd, of either winding.
+inline Containment locate(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
+                          std::uint64_t& exact_tests) {
+    const Containment in_solid = locate_in_solid(p, a, b, c, d, exact_tests);
+    if (in_solid == Containment::outside && orientation(a, b, c, d, exact_tests) == 0)
+        return Containment::degenerate; // four volumes of both signs that cancel
+    return in_solid;
+}
+
+// Weights of the corners for a point p in the closed tetrahedron abcd of non-zero volume: each in [0, 1],
+// within 2^-20 of the true weight. The one function that makes them, so that every engine gives the same
+// bits.
 std::array<float, 4> barycentric(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c,
                                  const Vec3f& d);
 
