@@ -1,0 +1,79 @@
+#include "mesh_check.hpp"
+
+#include "error.hpp"
+
+#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace vox {
+
+static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == alignof(std::uint32_t),
+              "tets are viewed in the caller's index array");
+
+std::size_t check_stride(std::uint64_t byte_stride, std::uint64_t vertex_count, const char* where) {
+    if (byte_stride == 0) return sizeof(Vec3f);
+    if (byte_stride < sizeof(Vec3f))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %zu", where,
+                           byte_stride, sizeof(Vec3f)));
+    // No array is larger than this; a stride that would make it so is a mistake, not a huge mesh.
+    constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
+    if (vertex_count > 0 && byte_stride > most_bytes / vertex_count)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_byte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", where,
+                           byte_stride, vertex_count));
+    return static_cast<std::size_t>(byte_stride);
+}
+
+void check_format(const vox_format& position_format, const char* where) {
+    // Copied as a number: a value outside the enum must not be read as one.
+    std::int32_t value;
+    std::memcpy(&value, &position_format, sizeof value);
+    if (value != VOX_FORMAT_FLOAT3)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_format is %" PRId32 ", not a vox_format", where, value));
+}
+
+Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
+    constexpr std::uint32_t known_flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    if (desc.flags & ~known_flags)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
+                           desc.flags & ~known_flags));
+    if (desc.reserved != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sreserved is %" PRIu32 ", expected 0", where, desc.reserved));
+    if (desc.vertex_count > VOX_MAX_VERTICES)
+        throw Error(VOX_ERROR_LIMIT, format("%svertex_count is %" PRIu64 ", the limit is %" PRIu32, where,
+                                            desc.vertex_count, VOX_MAX_VERTICES));
+    if (desc.tet_count > VOX_MAX_TETS)
+        throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
+                                            desc.tet_count, VOX_MAX_TETS));
+    check_format(desc.position_format, where);
+    const std::size_t stride = check_stride(desc.position_byte_stride, desc.vertex_count, where);
+    if (!desc.positions && desc.vertex_count > 0 && null_positions == NullPositions::rejected)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%spositions is null, vertex_count is %" PRIu64, where, desc.vertex_count));
+    if (!desc.tets && desc.tet_count > 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
+    if (reinterpret_cast<std::uintptr_t>(desc.tets) % alignof(Tet) != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
+
+    Body body;
+    body.vertex_count = static_cast<std::uint32_t>(desc.vertex_count);
+    body.positions = {static_cast<const std::byte*>(desc.positions), stride};
+    body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
+    body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
+    for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
+        for (const std::uint32_t vertex : body.tets[tet].v)
+            if (vertex >= body.vertex_count)
+                throw Error(VOX_ERROR_INVALID_MESH, format("%stet %zu names vertex %" PRIu32 " of %" PRIu32,
+                                                           where, tet, vertex, body.vertex_count));
+    return body;
+}
+
+} // namespace vox

@@ -1,0 +1,24 @@
+// What a mesh description must fulfil before anything is computed from it: shared by vox_mesh_insert and
+// vox_suggest_cell_size.
+#pragma once
+
+#include "scene.hpp"
+
+#include <vox/vox.h>
+
+namespace vox {
+
+enum class NullPositions : bool { rejected, allowed };
+
+// Checks a description that read_struct() has completed and views it as a body (mesh_id 0; the caller sets
+// it). `where` starts every error text: "" or e.g. "mesh 1: ". Throws Error: INVALID_ARGUMENT, INVALID_MESH,
+// LIMIT. The positions are not looked at: whether they are finite is known only when they are used.
+Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
+
+// A byte stride as the caller gave it (0: tightly packed) as a number of bytes, checked.
+std::size_t check_stride(std::uint64_t byte_stride, std::uint64_t vertex_count, const char* where);
+
+// Throws INVALID_ARGUMENT for a format that this version does not know.
+void check_format(const vox_format& format, const char* where);
+
+} // namespace vox
