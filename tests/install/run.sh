@@ -1,0 +1,25 @@
+#!/bin/sh
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE CC: installs into a scratch prefix and builds the two consumers there.
+set -eu
+build=$1 source=$2 cmake=$3 cc=$4
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+cp "$source/consumer.c" "$source/CMakeLists.txt" "$scratch"
+
+"$cmake" -S "$scratch" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
+    "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
+"$scratch/build/consumer"
+
+PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name vox.pc)")
+export PKG_CONFIG_PATH
+"$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
+LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
+
+# The core needs the C and C++ runtime and nothing else.
+if command -v readelf >/dev/null; then
+    library=$(find "$scratch/prefix" -name 'libvox.so' | head -n 1)
+    foreign=$(readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' |
+        grep -vE '^(libstdc\+\+|libc\+\+|libc\+\+abi|libgcc_s|libm|libc|ld-linux.*)\.so' || true)
+    [ -z "$foreign" ] || { echo "libvox.so needs $foreign"; exit 1; }
+fi

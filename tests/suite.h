@@ -1,0 +1,34 @@
+/* What every Check program here begins and ends with. */
+#ifndef VOX_TESTS_SUITE_H
+#define VOX_TESTS_SUITE_H
+
+#include <check.h>
+#include <stdlib.h>
+#include <vox/vox.h>
+
+#define ck_ok(call) \
+    do { \
+        const vox_result result_ = (call); \
+        ck_assert_msg(result_ == VOX_OK, "%s: %s (%s)", #call, vox_result_string(result_), \
+                      vox_last_error()); \
+    } while (0)
+
+/* The call fails with `code`, and its text contains `words`. */
+#define ck_fails(call, code, words) \
+    do { \
+        const vox_result result_ = (call); \
+        ck_assert_msg(result_ == (code), "%s: %s, expected %s (%s)", #call, vox_result_string(result_), \
+                      vox_result_string(code), vox_last_error()); \
+        ck_assert_msg(strstr(vox_last_error(), (words)) != NULL, "%s: the text is \"%s\", expected \"%s\" in it", \
+                      #call, vox_last_error(), (words)); \
+    } while (0)
+
+static inline int run_suite(Suite* suite) {
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+#endif

@@ -1,0 +1,392 @@
+/* Life of grids and meshes, and every function with every bad argument. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "bodies.h"
+#include "suite.h"
+
+static vox_grid* new_grid(void) {
+    vox_grid* grid = NULL;
+    ck_ok(vox_grid_create(NULL, &grid));
+    return grid;
+}
+
+/* ---- words and numbers ---- */
+
+START_TEST(version) {
+    char text[64];
+    ck_assert_uint_eq(vox_version(), VOX_VERSION_MAJOR * 1000000 + VOX_VERSION_MINOR * 1000 + VOX_VERSION_PATCH);
+    snprintf(text, sizeof text, "%d.%d.%d", VOX_VERSION_MAJOR, VOX_VERSION_MINOR, VOX_VERSION_PATCH);
+    ck_assert_str_eq(vox_version_string(), text);
+    ck_assert_ptr_nonnull(strstr(vox_build_info(), text));
+}
+END_TEST
+
+START_TEST(result_names) {
+    for (int r = VOX_ERROR_INTERNAL; r < 0; ++r)
+        ck_assert_int_eq(strncmp(vox_result_string((vox_result)r), "VOX_ERROR_", 10), 0);
+    ck_assert_str_eq(vox_result_string(VOX_OK), "VOX_OK");
+    ck_assert_str_eq(vox_result_string((vox_result)77), "unknown vox_result");
+}
+END_TEST
+
+START_TEST(last_error) {
+    char longer[3000];
+    memset(longer, 'x', sizeof longer);
+    longer[sizeof longer - 1] = 0;
+    ck_assert_int_eq(vox_fail(VOX_ERROR_FILE, "one"), VOX_ERROR_FILE);
+    ck_assert_str_eq(vox_last_error(), "one");
+    ck_assert_int_eq(vox_fail(VOX_ERROR_FILE, vox_last_error()), VOX_ERROR_FILE);
+    ck_assert_str_eq(vox_last_error(), "one");
+    vox_fail(VOX_ERROR_FILE, longer);
+    ck_assert_uint_eq(strlen(vox_last_error()), 1023);
+    vox_fail(VOX_ERROR_FILE, NULL);
+    ck_assert_str_eq(vox_last_error(), "");
+}
+END_TEST
+
+/* ---- growable structs ---- */
+
+START_TEST(struct_sizes) {
+    /* A desc of an older program: fields beyond its size stay untouched, and keep their defaults when read. */
+    unsigned char bytes[sizeof(vox_grid_desc) + 64];
+    vox_grid_desc* desc = (vox_grid_desc*)(void*)bytes;
+    const uint32_t old = offsetof(vox_grid_desc, world_min);
+    memset(bytes, 0xab, sizeof bytes);
+    ck_ok(vox_grid_desc_init(desc, old));
+    ck_assert_uint_eq(desc->struct_size, old);
+    ck_assert_double_eq(desc->cell_size, 0);
+    for (size_t i = old; i < sizeof bytes; ++i) ck_assert_uint_eq(bytes[i], 0xab);
+    desc->cell_size = 0.25;
+    vox_grid* grid = NULL;
+    double cell_size = 0;
+    ck_ok(vox_grid_create(desc, &grid)); /* the 0xab world and allocator behind it are not read */
+    ck_ok(vox_grid_cell_size(grid, &cell_size));
+    ck_assert_double_eq(cell_size, 0.25);
+    vox_grid_destroy(grid);
+
+    /* A desc of a newer program: what this version does not know stays untouched. */
+    memset(bytes, 0xab, sizeof bytes);
+    ck_ok(vox_grid_desc_init(desc, sizeof bytes));
+    ck_assert_uint_eq(desc->struct_size, sizeof bytes);
+    for (size_t i = sizeof(vox_grid_desc); i < sizeof bytes; ++i) ck_assert_uint_eq(bytes[i], 0xab);
+    ck_ok(vox_grid_create(desc, &grid));
+
+    /* The same for results. */
+    vox_counters counters[2];
+    memset(counters, 0xab, sizeof counters);
+    counters[0].struct_size = offsetof(vox_counters, tets);
+    ck_ok(vox_grid_counters(grid, counters));
+    ck_assert_uint_eq(counters[0].struct_size, offsetof(vox_counters, tets));
+    ck_assert_uint_eq(counters[0].vertices, 0);
+    ck_assert_uint_eq(counters[0].tets, 0xababababababababu);
+    counters[0].struct_size = sizeof counters;
+    ck_ok(vox_grid_counters(grid, counters));
+    ck_assert_uint_eq(counters[0].tets, 0);
+    ck_assert_uint_eq(counters[1].struct_size, 0xabababab);
+    vox_grid_destroy(grid);
+
+    const uint32_t bad[] = {0, 3, 65537, 0xffffffff};
+    for (int i = 0; i < 4; ++i) {
+        ck_fails(vox_grid_desc_init(desc, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+        vox_mesh_desc mesh;
+        ck_fails(vox_mesh_desc_init(&mesh, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+        vox_suggest_desc suggest;
+        ck_fails(vox_suggest_desc_init(&suggest, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+    }
+    ck_fails(vox_grid_desc_init(NULL, sizeof *desc), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_mesh_desc_init(NULL, sizeof *desc), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+}
+END_TEST
+
+/* ---- bad arguments ---- */
+
+START_TEST(grid_desc_fields) {
+    vox_grid* const untouched = (vox_grid*)(uintptr_t)16;
+    vox_grid* grid = untouched;
+#define REFUSED(change, words) \
+    do { \
+        vox_grid_desc desc = vox_default_grid_desc(); \
+        change; \
+        ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, words); \
+        ck_assert_ptr_eq(grid, untouched); \
+    } while (0)
+    REFUSED(desc.struct_size = 0, "struct_size is 0");
+    REFUSED(desc.engine = (vox_engine)9, "engine is 9");
+    REFUSED(desc.engine = (vox_engine)-1, "engine is -1");
+    REFUSED(desc.storage = (vox_storage)3, "storage is 3");
+    REFUSED(desc.hash = (vox_hash)2, "hash is 2");
+    REFUSED(desc.cell_size = -1, "cell_size is -1");
+    REFUSED(desc.cell_size = NAN, "cell_size is");
+    REFUSED(desc.cell_size = INFINITY, "cell_size is inf");
+    REFUSED(desc.world_min[1] = NAN, "axis");
+    REFUSED(desc.world_max[2] = 1, "[0, 0] on axis 0");
+    REFUSED(desc.world_max[2] = INFINITY, "axis");
+    REFUSED((desc.world_min[0] = 2, desc.world_max[0] = 1), "[2, 1] on axis 0");
+    REFUSED(desc.hash_table_size = UINT64_MAX, "hash_table_size is 18446744073709551615");
+    REFUSED(desc.allocator.allocate = (void* (*)(size_t, size_t, void*))(uintptr_t)8, "allocator");
+#undef REFUSED
+    vox_grid_desc tiny = vox_default_grid_desc();
+    tiny.byte_budget = 16;
+    ck_fails(vox_grid_create(&tiny, &grid), VOX_ERROR_BUDGET, "budget is 16");
+    ck_assert_ptr_eq(grid, untouched);
+    ck_fails(vox_grid_create(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_grid is null");
+}
+END_TEST
+
+START_TEST(null_arguments) {
+    vox_grid* grid = new_grid();
+    vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_mesh mesh = 0, other = 77;
+    double number = 5;
+    uint64_t count = 5;
+    vox_contact_view view = {NULL, 1, 2, 3};
+    vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
+    vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+
+    const vox_result bad = VOX_ERROR_INVALID_ARGUMENT;
+    ck_fails(vox_grid_clear(NULL), bad, "grid is null");
+    ck_fails(vox_grid_set_cell_size(NULL, 1), bad, "grid is null");
+    ck_fails(vox_grid_cell_size(NULL, &number), bad, "grid is null");
+    ck_fails(vox_grid_cell_size(grid, NULL), bad, "out_cell_size is null");
+    ck_fails(vox_mesh_insert(NULL, &desc, &other), bad, "grid is null");
+    ck_fails(vox_mesh_insert(grid, NULL, &other), bad, "desc is null");
+    ck_fails(vox_mesh_insert(grid, &desc, NULL), bad, "out_mesh is null");
+    ck_fails(vox_mesh_remove(NULL, mesh), bad, "grid is null");
+    ck_fails(vox_mesh_user_data(NULL, mesh, &count), bad, "grid is null");
+    ck_fails(vox_mesh_user_data(grid, mesh, NULL), bad, "out_user_data is null");
+    ck_fails(vox_mesh_bind_positions(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0), bad, "grid is null");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0), bad, "positions is null");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, (vox_format)9, 0), bad, "format is 9");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 11), bad, "stride is 11");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, UINT64_MAX), bad,
+             "stride is 18446744073709551615");
+    ck_fails(vox_grid_step(NULL), bad, "grid is null");
+    ck_fails(vox_grid_contacts(NULL, &view), bad, "grid is null");
+    ck_fails(vox_grid_contacts(grid, NULL), bad, "out_view is null");
+    ck_fails(vox_grid_epoch(NULL, &count), bad, "grid is null");
+    ck_fails(vox_grid_epoch(grid, NULL), bad, "out_epoch is null");
+    ck_fails(vox_grid_hash(NULL, &count), bad, "grid is null");
+    ck_fails(vox_grid_hash(grid, NULL), bad, "out_hash is null");
+    ck_fails(vox_grid_counters(NULL, &counters), bad, "grid is null");
+    ck_fails(vox_grid_counters(grid, NULL), bad, "out_counters is null");
+    ck_fails(vox_grid_profile(NULL, &profile), bad, "grid is null");
+    ck_fails(vox_grid_profile(grid, NULL), bad, "out_profile is null");
+    counters.struct_size = 0;
+    ck_fails(vox_grid_counters(grid, &counters), bad, "struct_size is 0");
+    profile.struct_size = 1u << 20;
+    ck_fails(vox_grid_profile(grid, &profile), bad, "struct_size is 1048576");
+    const double sizes[] = {-1, NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < 4; ++i)
+        ck_fails(vox_grid_set_cell_size(grid, sizes[i]), bad, "cell_size is");
+    ck_assert_uint_eq(vox_mesh_is_valid(NULL, mesh), 0);
+    vox_grid_destroy(NULL);
+
+    /* Nothing was written, nothing has changed. */
+    ck_assert_uint_eq(other, 77);
+    ck_assert_double_eq(number, 5);
+    ck_assert_uint_eq(count, 5);
+    ck_assert_uint_eq(view.epoch, 3);
+    ck_assert_uint_eq(counters.tets, 9);
+    ck_assert_uint_eq(profile.step_ns, 9);
+    ck_ok(vox_grid_epoch(grid, &count));
+    ck_assert_uint_eq(count, 0);
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, mesh), 1);
+    ck_ok(vox_grid_step(grid));
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+START_TEST(mesh_desc_fields) {
+    vox_grid* grid = new_grid();
+    vox_mesh mesh = 77;
+    uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
+#define REFUSED(change, code, words) \
+    do { \
+        vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1); \
+        change; \
+        ck_fails(vox_mesh_insert(grid, &desc, &mesh), code, words); \
+        ck_assert_uint_eq(mesh, 77); \
+    } while (0)
+    REFUSED(desc.struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
+    REFUSED(desc.flags = 0x80, VOX_ERROR_INVALID_ARGUMENT, "0x80");
+    REFUSED(desc.reserved = 3, VOX_ERROR_INVALID_ARGUMENT, "reserved is 3");
+    REFUSED(desc.position_format = (vox_format)4, VOX_ERROR_INVALID_ARGUMENT, "format is 4");
+    REFUSED(desc.position_byte_stride = 8, VOX_ERROR_INVALID_ARGUMENT, "stride is 8");
+    REFUSED(desc.tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "tets is null");
+    REFUSED(desc.vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "vertex_count is 1099511627776");
+    REFUSED(desc.tet_count = 1ull << 62, VOX_ERROR_LIMIT, "tet_count is 4611686018427387904");
+    REFUSED((desc.tets = tets, desc.tet_count = 2), VOX_ERROR_INVALID_MESH, "tet 1 names vertex 4 of 4");
+    REFUSED(desc.vertex_count = 0, VOX_ERROR_INVALID_MESH, "tet 0 names vertex 0 of 0");
+#undef REFUSED
+    vox_counters counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_counters(grid, &counters));
+    ck_assert_uint_eq(counters.meshes, 0);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* ---- mesh ids ---- */
+
+START_TEST(ids) {
+    vox_grid* grid = new_grid();
+    vox_grid* foreign = new_grid();
+    const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_mesh a = 0, b = 0, c = 0, elsewhere = 0;
+    ck_ok(vox_mesh_insert(grid, &desc, &a));
+    ck_ok(vox_mesh_insert(grid, &desc, &b));
+    for (int i = 0; i < 3; ++i) ck_ok(vox_mesh_insert(foreign, &desc, &elsewhere));
+    ck_assert_uint_ne(a, VOX_NULL_MESH);
+    ck_assert_uint_lt(a, b);
+
+    const vox_mesh wrong[] = {VOX_NULL_MESH, elsewhere, 0xffffffffu, a + 1, b ^ 0x800u};
+    uint64_t data = 5;
+    for (int i = 0; i < 5; ++i) {
+        ck_fails(vox_mesh_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_fails(vox_mesh_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_fails(vox_mesh_bind_positions(grid, wrong[i], unit_tet_positions, VOX_FORMAT_FLOAT3, 0),
+                 VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_assert_uint_eq(vox_mesh_is_valid(grid, wrong[i]), 0);
+    }
+    ck_ok(vox_mesh_remove(grid, a));
+    ck_fails(vox_mesh_remove(grid, a), VOX_ERROR_INVALID_HANDLE, "stale");
+    ck_ok(vox_mesh_insert(grid, &desc, &c)); /* takes a's slot, not a's id */
+    ck_assert_uint_ne(c, a);
+    ck_assert_uint_lt(c, b);
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, a), 0);
+    ck_ok(vox_grid_clear(grid));
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, b), 0);
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, c), 0);
+    vox_grid_destroy(grid);
+    vox_grid_destroy(foreign);
+}
+END_TEST
+
+START_TEST(generations_run_out) {
+    vox_grid* grid = new_grid();
+    const vox_mesh_desc desc = vox_default_mesh_desc();
+    vox_mesh first = 0, mesh = 0, last = 0;
+    ck_ok(vox_mesh_insert(grid, &desc, &first));
+    ck_ok(vox_mesh_remove(grid, first));
+    for (uint32_t use = 2; use <= VOX_MAX_GENERATIONS; ++use) {
+        ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+        ck_assert_uint_lt(mesh - first, VOX_MAX_GENERATIONS); /* still the first slot */
+        ck_ok(vox_mesh_remove(grid, mesh));
+    }
+    ck_ok(vox_mesh_insert(grid, &desc, &last)); /* the slot is retired: another one */
+    ck_assert_uint_gt(last - first, VOX_MAX_GENERATIONS - 1);
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, first), 0);
+    ck_assert_uint_eq(vox_mesh_is_valid(grid, mesh), 0);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+START_TEST(user_data) {
+    vox_grid* grid = new_grid();
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.user_data = 0x123456789abcdef0u;
+    vox_mesh mesh = 0;
+    uint64_t data = 0;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_user_data(grid, mesh, &data));
+    ck_assert_uint_eq(data, 0x123456789abcdef0u);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* ---- cell size ---- */
+
+static char logged[256];
+static int log_lines;
+static void keep_line(vox_log_level level, const char* text, void* user) {
+    ck_assert_int_eq(level, VOX_LOG_INFO);
+    ck_assert_ptr_eq(user, logged);
+    snprintf(logged, sizeof logged, "%s", text);
+    ++log_lines;
+}
+
+START_TEST(cell_size_is_chosen) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.log.write = keep_line;
+    desc.log.user = logged;
+    vox_grid* grid = NULL;
+    body box = make_box(4, 0.5f, 0, 0, 0);
+    vox_mesh_desc mesh_desc = body_desc(&box);
+    vox_mesh mesh = 0;
+    double cell_size = -1, again = -1;
+    ck_ok(vox_grid_create(&desc, &grid));
+    ck_ok(vox_grid_cell_size(grid, &cell_size));
+    ck_assert_double_eq(cell_size, 0); /* none yet */
+    ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_cell_size(grid, &cell_size));
+
+    vox_suggestion suggestion = {.struct_size = sizeof suggestion};
+    ck_ok(vox_suggest_cell_size(NULL, &mesh_desc, 1, &suggestion));
+    ck_assert_double_eq(cell_size, suggestion.cell_size);
+    ck_assert_int_eq(log_lines, 1);
+    ck_assert_ptr_nonnull(strstr(logged, "cell size"));
+
+    ck_ok(vox_grid_step(grid)); /* nothing new: not chosen again */
+    ck_assert_int_eq(log_lines, 1);
+    body fine = make_box(8, 0.0625f, 5, 0, 0);
+    mesh_desc = body_desc(&fine);
+    ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(log_lines, 2);
+    ck_ok(vox_grid_cell_size(grid, &again));
+    ck_assert_double_lt(again, cell_size);
+
+    ck_ok(vox_grid_set_cell_size(grid, 3));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_cell_size(grid, &again));
+    ck_assert_double_eq(again, 3);
+    ck_assert_int_eq(log_lines, 2);
+    vox_grid_destroy(grid);
+    free_body(&box);
+    free_body(&fine);
+}
+END_TEST
+
+START_TEST(cell_size_without_extent) {
+    /* Meshes that suggest nothing: the grid still steps. */
+    const float point[12] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
+    vox_grid* grid = new_grid();
+    vox_mesh mesh = 0;
+    ck_ok(vox_grid_step(grid));
+    vox_mesh_desc desc = array_desc(point, 4, NULL, 0);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    desc = array_desc(point, 4, unit_tet, 1);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    vox_counters counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_counters(grid, &counters));
+    ck_assert_uint_eq(counters.contacts, 0);
+    ck_assert_uint_eq(counters.skipped_degenerate, 1);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("grid");
+    TCase* tests = tcase_create("grid");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, version);
+    tcase_add_test(tests, result_names);
+    tcase_add_test(tests, last_error);
+    tcase_add_test(tests, struct_sizes);
+    tcase_add_test(tests, grid_desc_fields);
+    tcase_add_test(tests, null_arguments);
+    tcase_add_test(tests, mesh_desc_fields);
+    tcase_add_test(tests, ids);
+    tcase_add_test(tests, generations_run_out);
+    tcase_add_test(tests, user_data);
+    tcase_add_test(tests, cell_size_is_chosen);
+    tcase_add_test(tests, cell_size_without_extent);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}

@@ -1,0 +1,237 @@
+/* The per-grid allocator, the byte budget, and what a failed allocation leaves behind. */
+#include <string.h>
+
+#include "bodies.h"
+#include "suite.h"
+
+/* Counts what is held, checks that it comes back as it was given, and fails at the call it is told to. */
+typedef struct ledger {
+    size_t bytes;
+    size_t blocks;
+    uint64_t calls;
+    uint64_t fail_at; /* the call that returns null; 0: none */
+} ledger;
+
+typedef struct block {
+    size_t size, alignment;
+} block;
+
+static void* counted_allocate(size_t size, size_t alignment, void* user) {
+    ledger* l = (ledger*)user;
+    if (++l->calls == l->fail_at) return NULL;
+    const size_t head = alignment > sizeof(block) ? alignment : sizeof(block);
+    unsigned char* memory = NULL;
+    ck_assert_int_eq(posix_memalign((void**)&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment,
+                                    (head + size + alignment - 1) / alignment * alignment),
+                     0);
+    block* b = (block*)(void*)(memory + head - sizeof(block));
+    b->size = size;
+    b->alignment = alignment;
+    memset(memory + head, 0xcd, size);
+    l->bytes += size;
+    l->blocks += 1;
+    return memory + head;
+}
+
+static void counted_release(void* memory, size_t size, size_t alignment, void* user) {
+    ledger* l = (ledger*)user;
+    const size_t head = alignment > sizeof(block) ? alignment : sizeof(block);
+    const block* b = (const block*)(const void*)((unsigned char*)memory - sizeof(block));
+    ck_assert_uint_eq(b->size, size);
+    ck_assert_uint_eq(b->alignment, alignment);
+    l->bytes -= size;
+    l->blocks -= 1;
+    free((unsigned char*)memory - head);
+}
+
+static vox_grid_desc counted_desc(ledger* l) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.allocator.allocate = counted_allocate;
+    desc.allocator.release = counted_release;
+    desc.allocator.user = l;
+    desc.cell_size = 0.25;
+    return desc;
+}
+
+START_TEST(everything_comes_back) {
+    ledger l = {0, 0, 0, 0};
+    const vox_grid_desc desc = counted_desc(&l);
+    body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
+    vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
+    b.flags = VOX_MESH_COPY_POSITIONS;
+    vox_grid* grid = NULL;
+    vox_mesh mesh = 0;
+    ck_ok(vox_grid_create(&desc, &grid));
+    for (int round = 0; round < 3; ++round) {
+        ck_ok(vox_mesh_insert(grid, &a, &mesh));
+        ck_ok(vox_mesh_insert(grid, &b, &mesh));
+        ck_ok(vox_grid_step(grid));
+        vox_counters counters = {.struct_size = sizeof counters};
+        ck_ok(vox_grid_counters(grid, &counters));
+        ck_assert_uint_eq(counters.bytes, l.bytes); /* what counters say is what the allocator saw */
+        ck_ok(vox_grid_clear(grid));
+    }
+    vox_grid_destroy(grid);
+    ck_assert_uint_eq(l.bytes, 0);
+    ck_assert_uint_eq(l.blocks, 0);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+START_TEST(steady_state_allocates_nothing) {
+    ledger l = {0, 0, 0, 0};
+    vox_grid_desc desc = counted_desc(&l);
+    body box = make_box(8, 0.125f, 0, 0, 0), other = make_box(8, 0.125f, 0.2f, 0.3f, 0.2f);
+    vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
+    a.flags = VOX_MESH_SELF_COLLISION;
+    for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
+        vox_grid* grid = NULL;
+        vox_mesh mesh = 0;
+        desc.storage = (vox_storage)storage;
+        desc.world_max[0] = desc.world_max[1] = desc.world_max[2] = 2;
+        ck_ok(vox_grid_create(&desc, &grid));
+        ck_ok(vox_mesh_insert(grid, &a, &mesh));
+        ck_ok(vox_mesh_insert(grid, &b, &mesh));
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_step(grid));
+        const uint64_t calls = l.calls;
+        for (int frame = 0; frame < 10; ++frame) {
+            for (uint32_t v = 0; v < other.vertex_count; ++v) other.positions[3 * v] += 0.001f; /* moving apart */
+            ck_ok(vox_grid_step(grid));
+        }
+        ck_assert_uint_eq(l.calls, calls);
+        vox_grid_destroy(grid);
+    }
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+/* One whole life; stops at the first failure and returns it. */
+static vox_result life(const vox_grid_desc* desc, const vox_mesh_desc* a, const vox_mesh_desc* b, ledger* l,
+                       uint64_t* out_hash) {
+    vox_grid* grid = NULL;
+    vox_mesh mesh_a = 0, mesh_b = 0;
+    vox_result result = vox_grid_create(desc, &grid);
+    if (result != VOX_OK) {
+        ck_assert_ptr_null(grid);
+        return result;
+    }
+    result = vox_mesh_insert(grid, a, &mesh_a);
+    if (result == VOX_OK) result = vox_mesh_insert(grid, b, &mesh_b);
+    if (result == VOX_OK) result = vox_grid_step(grid);
+    if (result != VOX_OK) {
+        /* Nothing is half done: from here on it works, and gives what it would have given. */
+        vox_contact_view view = {NULL, 0, 9, 0};
+        l->fail_at = 0;
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_eq(view.count, 0);
+        if (!mesh_a) ck_ok(vox_mesh_insert(grid, a, &mesh_a));
+        if (!mesh_b) ck_ok(vox_mesh_insert(grid, b, &mesh_b));
+        ck_ok(vox_grid_step(grid));
+    }
+    ck_ok(vox_grid_hash(grid, out_hash));
+    vox_grid_destroy(grid);
+    return result;
+}
+
+START_TEST(allocation_n_fails) {
+    ledger l = {0, 0, 0, 0};
+    vox_grid_desc desc = counted_desc(&l);
+    body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
+    const vox_mesh_desc a = body_desc(&box);
+    vox_mesh_desc b = body_desc(&other);
+    b.flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION;
+    for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
+        uint64_t expected = 0, hash = 0;
+        desc.storage = (vox_storage)storage;
+        ck_ok(life(&desc, &a, &b, &l, &expected));
+        uint64_t n = 1;
+        for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK; ++n) {
+            l.calls = 0;
+            l.fail_at = n;
+            result = life(&desc, &a, &b, &l, &hash);
+            ck_assert(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY);
+            if (n > 1 || result == VOX_OK) ck_assert_uint_eq(hash, expected);
+            ck_assert_uint_eq(l.bytes, 0);
+        }
+        ck_assert_uint_gt(n, 10); /* there were allocations to fail */
+    }
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+START_TEST(budget_is_kept) {
+    ledger l = {0, 0, 0, 0};
+    vox_grid_desc desc = counted_desc(&l);
+    body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
+    const vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
+    uint64_t expected = 0, needed = 0;
+    ck_ok(life(&desc, &a, &b, &l, &expected));
+
+    vox_grid* grid = NULL;
+    vox_mesh mesh = 0;
+    vox_counters counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_create(&desc, &grid));
+    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    ck_ok(vox_mesh_insert(grid, &b, &mesh));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_counters(grid, &counters));
+    needed = counters.peak_bytes;
+    vox_grid_destroy(grid);
+
+    for (uint64_t budget = 256; budget < needed; budget += 1 + needed / 97) {
+        desc.byte_budget = budget;
+        vox_result result = vox_grid_create(&desc, &grid);
+        if (result == VOX_OK) {
+            result = vox_mesh_insert(grid, &a, &mesh);
+            if (result == VOX_OK) result = vox_mesh_insert(grid, &b, &mesh);
+            if (result == VOX_OK) result = vox_grid_step(grid);
+            ck_assert_uint_le(l.bytes, budget);
+            ck_ok(vox_grid_counters(grid, &counters));
+            ck_assert_uint_le(counters.peak_bytes, budget);
+            vox_grid_destroy(grid);
+        }
+        ck_assert_int_eq(result, VOX_ERROR_BUDGET);
+        ck_assert_ptr_nonnull(strstr(vox_last_error(), "budget"));
+        ck_assert_uint_eq(l.bytes, 0);
+    }
+    desc.byte_budget = needed;
+    uint64_t hash = 0;
+    ck_ok(life(&desc, &a, &b, &l, &hash));
+    ck_assert_uint_eq(hash, expected);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+START_TEST(many_meshes) {
+    /* Insertion stays cheap and ids stay unique when meshes come by the thousand. */
+    vox_grid* grid = NULL;
+    vox_mesh meshes[3000];
+    const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    ck_ok(vox_grid_create(NULL, &grid));
+    for (int i = 0; i < 3000; ++i) {
+        ck_ok(vox_mesh_insert(grid, &desc, &meshes[i]));
+        if (i) ck_assert_uint_gt(meshes[i], meshes[i - 1]);
+    }
+    for (int i = 0; i < 3000; i += 2) ck_ok(vox_mesh_remove(grid, meshes[i]));
+    for (int i = 0; i < 3000; ++i) ck_assert_uint_eq(vox_mesh_is_valid(grid, meshes[i]), i % 2);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("memory");
+    TCase* tests = tcase_create("memory");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, everything_comes_back);
+    tcase_add_test(tests, steady_state_allocates_nothing);
+    tcase_add_test(tests, allocation_n_fails);
+    tcase_add_test(tests, budget_is_kept);
+    tcase_add_test(tests, many_meshes);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
