@@ -1,5 +1,5 @@
-// From hits to contacts: the canonical order and the one-contact rule for shared faces (design: contact semantics of
-// vox_contact), barycentric coordinates, and the hash.
+// From hits to contacts: the canonical order and the one-contact rule for shared faces (see vox_contact),
+// barycentric coordinates, and the hash.
 #pragma once
 
 #include "scene.hpp"
@@ -12,12 +12,19 @@
 
 namespace vox {
 
-// Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to. `scratch` is a
-// buffer kept from step to step.
+// Sorts `hits` (any order in, duplicates not allowed; the order of (body_b, tet) is fastest) and writes the
+// contacts they amount to; `hits` is left with the ones that became contacts. `scratch` is a buffer kept from
+// step to step.
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
                    std::pmr::vector<vox_contact>& contacts);
 
-// vox_grid_hash of a list of contacts.
+// vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
+// order and padding do not matter. Each contact is taken as the four 64-bit words
+//     mesh_a + vertex * 2^32, mesh_b + tet * 2^32, and the bits of barycentric[0] + [1] * 2^32, [2] + [3] *
+//     2^32;
+// a word w turns the state h, at first the number of contacts, into h' = m ^ (m >> 29) with
+//     m = (h ^ w) * 0x9fb21c651e98df25 mod 2^64,
+// a bijection of h for every w and of w for every h.
 std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept;
 
 } // namespace vox

@@ -3,10 +3,12 @@
 // paper's cost function.
 #pragma once
 
+#include "reference_grid.hpp"
 #include "scene.hpp"
 
 #include <vox/vox.h>
 
+#include <array>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -21,19 +23,46 @@ struct ReferenceSettings {
     Vec3d world_min{}, world_max{}; // dense storage: both zero means the box of all positions
 };
 
-// The engine's buffers live here from step to step, so that the steady state allocates nothing.
+// The engine's buffers live here from step to step, so that the steady state allocates nothing (dense storage
+// in the box of all positions may, when that box grows).
 class Reference {
 public:
     explicit Reference(std::pmr::memory_resource* memory);
 
     // Appends a Hit for every vertex in a closed tetrahedron that does not own it (all of them: canonical
-    // filtering is contacts.hpp's). Throws Error(NON_FINITE) naming mesh and vertex; sets the counters from
-    // `cells` to `skipped_degenerate` and the stage times from `bin_ns` to `narrow_ns`.
+    // filtering is contacts.hpp's), in the order of (body_b, tet). Throws Error(NON_FINITE) naming mesh and
+    // vertex, Error(LIMIT or BUDGET) when the cells do not fit; may be called again after that. Sets the
+    // counters from `cells` to `skipped_degenerate` and the stage times from `bin_ns` to `narrow_ns`.
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
 private:
-    std::pmr::vector<Vec3f> points_;
+    struct Candidate {
+        std::uint32_t tet;
+        std::uint32_t particle;
+    };
+
+    struct Step; // arguments of detect() and what is found on the way
+
+    void load_particles(std::span<const Body> bodies);
+    void compute_boxes(Step& step);
+    Lattice prepare_dense(const ReferenceSettings& settings, DenseAddress& address);
+    Modulus prepare_hashed(const ReferenceSettings& settings);
+    template <class Address>
+    void run(Step& step, const Lattice& lattice, const Address& address);
+    template <class Address>
+    void classify(Step& step, const Lattice& lattice, const Address& address);
+    template <class Address>
+    void broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Lattice& lattice,
+                     const Address& address);
+    void narrow_phase(Step& step, std::uint32_t body);
+
+    std::pmr::vector<Particle> particles_;  // of all bodies, one after the other
+    std::pmr::vector<std::uint32_t> first_; // each body's first particle, and the end
+    std::pmr::vector<Box3f> boxes_;         // of the tetrahedra of all bodies; empty when degenerate
+    CellLists cells_;
+    std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
+    std::size_t candidate_count_ = 0;
 };
 
 } // namespace vox

@@ -1,0 +1,288 @@
+// The paper, Sect. 3 and Fig. 1, step by step: pass one recomputes the boxes and classifies all particles;
+// pass two runs the broad and the narrow phase for each tetrahedron.
+#include "reference.hpp"
+
+#include "error.hpp"
+#include "predicates.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <new>
+
+namespace vox {
+
+struct Reference::Step {
+    std::span<const Body> bodies;
+    const ReferenceSettings& settings;
+    std::pmr::vector<Hit>& hits;
+    vox_counters& counters;
+    vox_profile& profile;
+};
+
+namespace {
+
+std::uint64_t nanoseconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+Box3f empty_box() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+bool is_empty(const Box3f& box) { return box.min.x > box.max.x; }
+
+void extend(Box3f& box, const Vec3f& p) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
+
+bool contains(const Box3f& box, const Vec3f& p) {
+    // Not &&: most particles fail one of the six comparisons at random, and one branch is cheaper than six.
+    return bool(int(p.x >= box.min.x) & int(p.x <= box.max.x) & int(p.y >= box.min.y) &
+                int(p.y <= box.max.y) & int(p.z >= box.min.z) & int(p.z <= box.max.z));
+}
+
+bool in_range(const CellCoord& at, const CellCoord& min, const CellCoord& max) {
+    return at.i >= min.i && at.i <= max.i && at.j >= min.j && at.j <= max.j && at.k >= min.k && at.k <= max.k;
+}
+
+double cells_between(const CellCoord& min, const CellCoord& max) {
+    return (double(max.i) - min.i + 1) * (double(max.j) - min.j + 1) * (double(max.k) - min.k + 1);
+}
+
+} // namespace
+
+Reference::Reference(std::pmr::memory_resource* memory)
+    : particles_(memory), first_(memory), boxes_(memory), cells_(memory) {}
+
+void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
+                       std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
+    counters.cells = counters.entries = counters.fullest_cell = 0;
+    counters.visited_cells = counters.visited_entries = counters.candidates = 0;
+    counters.exact_tests = counters.skipped_degenerate = 0;
+    profile.bin_ns = profile.broad_ns = profile.narrow_ns = 0;
+    candidate_count_ = 0;
+
+    Step step{bodies, settings, hits, counters, profile};
+    const std::uint64_t start = nanoseconds();
+    load_particles(bodies);
+    compute_boxes(step);
+    profile.bin_ns = nanoseconds() - start;
+
+    // Hashed storage knows no borders; 2^30 cells each way are enough for floats at any sensible cell size,
+    // and clamping beyond keeps the order.
+    constexpr std::int32_t far = 1 << 30;
+    const Lattice unbounded({0, 0, 0}, settings.cell_size, {-far, -far, -far}, {far, far, far});
+    if (settings.storage == VOX_STORAGE_DENSE) {
+        DenseAddress address{};
+        const Lattice lattice = prepare_dense(settings, address);
+        run(step, lattice, address);
+    } else if (settings.hash == VOX_HASH_PAPER) {
+        run(step, unbounded, PaperAddress{prepare_hashed(settings)});
+    } else {
+        run(step, unbounded, MixedAddress{prepare_hashed(settings)});
+    }
+}
+
+template <class Address>
+void Reference::run(Step& step, const Lattice& lattice, const Address& address) {
+    const std::uint64_t start = nanoseconds();
+    classify(step, lattice, address);
+    const std::uint64_t classified = nanoseconds();
+    step.profile.bin_ns += classified - start;
+
+    const Box3f* boxes = boxes_.data();
+    for (std::uint32_t body = 0; body < step.bodies.size(); ++body) {
+        broad_phase(step, body, boxes, lattice, address);
+        narrow_phase(step, body);
+        boxes += step.bodies[body].tets.size();
+    }
+    step.profile.broad_ns = nanoseconds() - classified - step.profile.narrow_ns;
+}
+
+// ---- pass one -------------------------------------------------------------------------------------
+
+void Reference::load_particles(std::span<const Body> bodies) {
+    std::size_t count = 0;
+    first_.clear();
+    for (const Body& body : bodies) {
+        first_.push_back(std::uint32_t(count));
+        count += body.vertex_count;
+    }
+    first_.push_back(std::uint32_t(count));
+
+    particles_.resize(count);
+    Particle* particle = particles_.data();
+    for (const Body& body : bodies) {
+        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+            const Vec3f p = body.positions[v];
+            if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+                throw Error(VOX_ERROR_NON_FINITE,
+                            format("mesh %u, vertex %u: position (%g, %g, %g) is not finite", body.mesh_id, v,
+                                   double(p.x), double(p.y), double(p.z)));
+            *particle++ = {p, CellLists::none};
+        }
+    }
+}
+
+// Boxes from the deformed positions. A tetrahedron of zero volume holds nothing and gets an empty box.
+void Reference::compute_boxes(Step& step) {
+    std::size_t count = 0;
+    for (const Body& body : step.bodies) count += body.tets.size();
+    boxes_.resize(count);
+
+    Box3f* box = boxes_.data();
+    for (std::size_t b = 0; b < step.bodies.size(); ++b) {
+        const Particle* own = particles_.data() + first_[b];
+        for (const Tet& tet : step.bodies[b].tets) {
+            const Vec3f corner[4] = {own[tet.v[0]].position, own[tet.v[1]].position, own[tet.v[2]].position,
+                                     own[tet.v[3]].position};
+            *box = empty_box();
+            if (orientation(corner[0], corner[1], corner[2], corner[3], step.counters.exact_tests) == 0)
+                ++step.counters.skipped_degenerate;
+            else
+                for (const Vec3f& p : corner) extend(*box, p);
+            ++box;
+        }
+    }
+}
+
+// The box of cells of dense storage; its lattice counts from the box's corner.
+Lattice Reference::prepare_dense(const ReferenceSettings& settings, DenseAddress& address) {
+    Vec3d min = settings.world_min, max = settings.world_max;
+    const bool automatic = min.x == 0 && min.y == 0 && min.z == 0 && max.x == 0 && max.y == 0 && max.z == 0;
+    if (automatic && !particles_.empty()) {
+        Box3f box = empty_box();
+        for (const Particle& particle : particles_) extend(box, particle.position);
+        min = {box.min.x, box.min.y, box.min.z};
+        max = {box.max.x, box.max.y, box.max.z};
+    }
+    const auto cells_along = [&](double from, double to) {
+        return std::max(1.0, std::ceil((to - from) / settings.cell_size));
+    };
+    const double nx = cells_along(min.x, max.x), ny = cells_along(min.y, max.y),
+                 nz = cells_along(min.z, max.z);
+    const double count = nx * ny * nz;
+    const auto wanted = [&] {
+        return format("dense storage needs %.0f x %.0f x %.0f cells of size %g, %.0f bytes", nx, ny, nz,
+                      settings.cell_size, count * double(sizeof(std::uint32_t)));
+    };
+    if (!(count < 0x1p31))
+        throw Error(VOX_ERROR_LIMIT, format("%s; the limit is 2^31 cells", wanted().c_str()));
+    try {
+        cells_.reset(std::size_t(count), particles_.size());
+    } catch (const Error& error) {
+        throw Error(error.result(), format("%s: %s", wanted().c_str(), error.what()));
+    } catch (const std::bad_alloc&) {
+        throw Error(VOX_ERROR_OUT_OF_MEMORY, format("%s: out of memory", wanted().c_str()));
+    }
+    address = {std::uint32_t(nx), std::uint32_t(ny)};
+    return Lattice(min, settings.cell_size, {0, 0, 0},
+                   {std::int32_t(nx) - 1, std::int32_t(ny) - 1, std::int32_t(nz) - 1});
+}
+
+// The hash table: prime, and at least twice the number of particles unless the caller says otherwise.
+Modulus Reference::prepare_hashed(const ReferenceSettings& settings) {
+    const std::uint64_t wanted =
+        settings.hash_table_size != 0 ? settings.hash_table_size : std::uint64_t(particles_.size()) * 2;
+    const std::uint32_t size = next_prime(wanted);
+    cells_.reset(size, particles_.size());
+    return Modulus(size);
+}
+
+template <class Address>
+void Reference::classify(Step& step, const Lattice& lattice, const Address& address) {
+    std::uint32_t fullest = 0;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+        Particle& particle = particles_[p];
+        const CellCoord at = lattice.cell_of(particle.position);
+        const std::uint32_t bucket = address.bucket(address.row(at.j, at.k), at.i);
+        fullest = std::max(fullest, cells_.insert(bucket, at, particle, std::uint32_t(p)));
+    }
+    step.counters.cells = cells_.occupied().size();
+    step.counters.entries = particles_.size();
+    step.counters.fullest_cell = fullest;
+}
+
+// ---- pass two -------------------------------------------------------------------------------------
+
+template <class Address>
+void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Lattice& lattice,
+                            const Address& address) {
+    const std::span<const Tet> tets = step.bodies[body].tets;
+    const Particle* particles = particles_.data();
+    const std::uint32_t first_own = first_[body];
+    // Particles of the body itself are passed over, unless it collides with itself; then only the corners
+    // are.
+    const std::uint32_t own_count = step.bodies[body].self_collision ? 0 : step.bodies[body].vertex_count;
+    std::uint64_t visited_cells = 0, visited_entries = 0;
+
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+        const Box3f& box = boxes[t];
+        if (is_empty(box)) continue;
+
+        const auto visit = [&](const Cell& cell) {
+            visited_entries += cell.count;
+            for (std::uint32_t p = cell.first; p != CellLists::none; p = particles[p].next) {
+                if (p - first_own < own_count || !contains(box, particles[p].position)) continue;
+                const std::uint32_t v =
+                    p - first_own; // in the body's own numbering, when it is one of its own
+                const std::uint32_t* corner = tets[t].v;
+                if (v == corner[0] || v == corner[1] || v == corner[2] || v == corner[3]) continue;
+                candidates_[candidate_count_++] = {std::uint32_t(t), p};
+                if (candidate_count_ == candidates_.size()) narrow_phase(step, body);
+            }
+        };
+
+        const CellCoord min = lattice.cell_of(box.min), max = lattice.cell_of(box.max);
+        if (cells_between(min, max) > double(cells_.occupied().size())) {
+            // More objective voxels than occupied ones (a sliver, a far vertex, tiny cells): go through the
+            // occupied ones instead. The same particles are met, and a tetrahedron never costs more than one
+            // such pass.
+            for (const Cell& cell : cells_.occupied()) {
+                if (!in_range(cell.at, min, max)) continue;
+                ++visited_cells;
+                visit(cell);
+            }
+            continue;
+        }
+        for (std::int32_t k = min.k; k <= max.k; ++k) {
+            for (std::int32_t j = min.j; j <= max.j; ++j) {
+                const auto row = address.row(j, k);
+                for (std::int32_t i = min.i; i <= max.i; ++i) {
+                    ++visited_cells;
+                    if (const Cell* cell = cells_.find(address.bucket(row, i), {i, j, k})) visit(*cell);
+                }
+            }
+        }
+    }
+    step.counters.visited_cells += visited_cells;
+    step.counters.visited_entries += visited_entries;
+}
+
+// Decides the collected candidates of tetrahedra of `body`.
+void Reference::narrow_phase(Step& step, std::uint32_t body) {
+    const std::uint64_t start = nanoseconds();
+    const std::span<const Tet> tets = step.bodies[body].tets;
+    const Particle* own = particles_.data() + first_[body];
+    for (std::size_t c = 0; c < candidate_count_; ++c) {
+        const Candidate& candidate = candidates_[c];
+        const Tet& tet = tets[candidate.tet];
+        const Containment found = locate_in_solid(
+            particles_[candidate.particle].position, own[tet.v[0]].position, own[tet.v[1]].position,
+            own[tet.v[2]].position, own[tet.v[3]].position, step.counters.exact_tests);
+        if (found == Containment::outside) continue;
+        // The body of the particle: the last one that does not start after it.
+        const auto after = std::upper_bound(first_.begin(), first_.end(), candidate.particle);
+        const auto body_a = std::uint32_t(after - first_.begin() - 1);
+        step.hits.push_back({body_a, candidate.particle - first_[body_a], body, candidate.tet & 0x7fffffffu,
+                             found == Containment::interior});
+    }
+    step.counters.candidates += candidate_count_;
+    candidate_count_ = 0;
+    step.profile.narrow_ns += nanoseconds() - start;
+}
+
+} // namespace vox

@@ -1,0 +1,181 @@
+// The voxel grid of the reference engine: cubic cells, each with the list of the particles in it. Two
+// storages and two hashes that differ only in how a cell's coordinates become a bucket:
+//   dense   linear id k*nx*ny + j*nx + i in a box of cells (paper, Sect. 3)
+//   hashed  a hash modulo a prime: Teschner, Heidelberger, Mueller, Pomeranets, Gross, "Optimized Spatial
+//   Hashing for
+//           Collision Detection of Deformable Objects", VMV 2003; or a well-mixed 64-bit hash
+// A bucket holds the occupied cells that fell into it, by their true coordinates, so two cells that share a
+// bucket are never taken for one another.
+#pragma once
+
+#include "scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+struct CellCoord {
+    std::int32_t i, j, k;
+
+    bool operator==(const CellCoord&) const = default;
+};
+
+// The only way from a position to a cell, for particles and for the corners of boxes alike. It is monotone on
+// each axis, rounding and clamping included, so a particle inside a box is always in one of the box's cells.
+class Lattice {
+public:
+    Lattice(const Vec3d& origin, double cell_size, const CellCoord& min, const CellCoord& max)
+        : origin_(origin), inverse_(std::min(1 / cell_size, std::numeric_limits<double>::max())), min_(min),
+          max_(max) {}
+
+    CellCoord cell_of(const Vec3f& p) const {
+        return {along_axis(p.x, origin_.x, min_.i, max_.i), along_axis(p.y, origin_.y, min_.j, max_.j),
+                along_axis(p.z, origin_.z, min_.k, max_.k)};
+    }
+
+private:
+    std::int32_t along_axis(float x, double origin, std::int32_t min, std::int32_t max) const {
+        // An infinite product is clamped before it becomes an integer; a NaN cannot arise.
+        const double scaled = std::min(std::max((double(x) - origin) * inverse_, double(min)), double(max));
+        const auto truncated = static_cast<std::int32_t>(scaled);
+        return truncated - (double(truncated) > scaled); // floor
+    }
+
+    Vec3d origin_;
+    double inverse_;
+    CellCoord min_, max_;
+};
+
+// number % divisor for 32-bit numbers by multiplication: Lemire, Kaser, Kurz, "Faster remainder by direct
+// computation", Software: Practice and Experience 49, 2019.
+class Modulus {
+public:
+    explicit Modulus(std::uint32_t divisor)
+        : divisor_(divisor), reciprocal_(std::numeric_limits<std::uint64_t>::max() / divisor + 1) {}
+
+    std::uint32_t operator()(std::uint32_t number) const {
+        const std::uint64_t fraction = reciprocal_ * number;
+        // The high half of the 96-bit product fraction * divisor.
+        return std::uint32_t(((fraction >> 32) * divisor_ + (((fraction & 0xffffffffu) * divisor_) >> 32)) >>
+                             32);
+    }
+
+private:
+    std::uint64_t divisor_;
+    std::uint64_t reciprocal_;
+};
+
+// The three addresses: row(j, k) is the part that is the same for a row of cells along x, bucket(row, i) the
+// rest.
+struct DenseAddress {
+    std::uint32_t nx, ny;
+
+    std::uint32_t row(std::int32_t j, std::int32_t k) const {
+        return (std::uint32_t(k) * ny + std::uint32_t(j)) * nx;
+    }
+    std::uint32_t bucket(std::uint32_t row, std::int32_t i) const { return row + std::uint32_t(i); }
+};
+
+struct PaperAddress { // in 32-bit unsigned arithmetic, which wraps for negative coordinates too
+    Modulus table;
+
+    std::uint32_t row(std::int32_t j, std::int32_t k) const {
+        return std::uint32_t(j) * 19349663u ^ std::uint32_t(k) * 83492791u;
+    }
+    std::uint32_t bucket(std::uint32_t row, std::int32_t i) const {
+        return table(row ^ std::uint32_t(i) * 73856093u);
+    }
+};
+
+struct MixedAddress { // odd multipliers of 64 bits, folded and multiplied again; the upper half is taken
+    Modulus table;
+
+    std::uint64_t row(std::int32_t j, std::int32_t k) const {
+        return std::uint64_t(std::int64_t(j)) * 0xc2b2ae3d27d4eb4fu +
+               std::uint64_t(std::int64_t(k)) * 0x165667b19e3779f9u;
+    }
+    std::uint32_t bucket(std::uint64_t row, std::int32_t i) const {
+        std::uint64_t h = row + std::uint64_t(std::int64_t(i)) * 0x9e3779b97f4a7c15u;
+        h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93u;
+        return table(std::uint32_t(h >> 32));
+    }
+};
+
+// An occupied cell and the head of its list of particles.
+struct Cell {
+    CellCoord at;
+    std::uint32_t first;
+    std::uint32_t count;
+    std::uint32_t next; // cell in the same bucket
+};
+
+// A particle of the scene, packed with its link in the list of its cell.
+struct Particle {
+    Vec3f position;
+    std::uint32_t next;
+};
+
+class CellLists {
+public:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    explicit CellLists(std::pmr::memory_resource* memory) : heads_(memory), cells_(memory) {}
+
+    // Empties the grid and makes room for `particle_count` occupied cells.
+    void reset(std::size_t bucket_count, std::size_t particle_count) {
+        cells_.clear();
+        // Given back before more is taken, so that the two never count against the budget together.
+        if (bucket_count > heads_.capacity())
+            heads_ = std::pmr::vector<std::uint32_t>(heads_.get_allocator());
+        heads_.assign(bucket_count, none);
+        cells_.reserve(particle_count);
+    }
+
+    // The occupied cell at these coordinates of this bucket, or null.
+    const Cell* find(std::uint32_t bucket, const CellCoord& at) const {
+        for (std::uint32_t c = heads_[bucket]; c != none; c = cells_[c].next)
+            if (cells_[c].at == at) return &cells_[c];
+        return nullptr;
+    }
+
+    // Puts particle `index` at the head of its cell's list; returns how many are in the cell now.
+    std::uint32_t insert(std::uint32_t bucket, const CellCoord& at, Particle& particle, std::uint32_t index) {
+        std::uint32_t c = heads_[bucket];
+        while (c != none && cells_[c].at != at) c = cells_[c].next;
+        if (c == none) {
+            c = std::uint32_t(cells_.size());
+            cells_.push_back({at, none, 0, heads_[bucket]});
+            heads_[bucket] = c;
+        }
+        particle.next = cells_[c].first;
+        cells_[c].first = index;
+        return ++cells_[c].count;
+    }
+
+    const std::pmr::vector<Cell>& occupied() const { return cells_; }
+
+private:
+    std::pmr::vector<std::uint32_t> heads_; // by bucket
+    std::pmr::vector<Cell> cells_;
+};
+
+// The smallest prime that is at least `number`, or the largest of 32 bits.
+inline std::uint32_t next_prime(std::uint64_t number) {
+    const auto is_prime = [](std::uint64_t n) {
+        if (n % 2 == 0) return n == 2;
+        for (std::uint64_t d = 3; d * d <= n; d += 2)
+            if (n % d == 0) return false;
+        return n > 1;
+    };
+    constexpr std::uint64_t largest = 4294967291u;
+    number = std::clamp<std::uint64_t>(number, 2, largest);
+    while (!is_prime(number)) ++number;
+    return std::uint32_t(number);
+}
+
+} // namespace vox
