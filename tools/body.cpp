@@ -1,0 +1,63 @@
+#include "body.hpp"
+
+#include "failure.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+namespace tool {
+
+namespace {
+
+// Rounds to nearest. A double beyond float's range must not be converted; whatever rounds to a finite float
+// lies below this bound, the middle between the largest float and the power of two after it.
+constexpr double float_range = 0x1.ffffffp127;
+
+void place(Body& body, const Placement& placement) {
+    body.positions.resize(3 * body.view.vertex_count);
+    for (std::size_t i = 0; i < body.positions.size(); ++i) {
+        const double moved = body.view.positions[i] * placement.scale + placement.offset[i % 3];
+        if (!(std::abs(moved) < float_range)) {
+            char words[160];
+            std::snprintf(words, sizeof words, "vertex %zu has coordinate %.9g, which no float can hold",
+                          i / 3, moved);
+            check(vox_fail(VOX_ERROR_NON_FINITE, (body.name + ": " + words).c_str()));
+        }
+        body.positions[i] = static_cast<float>(moved);
+    }
+}
+
+} // namespace
+
+Body own_body(const std::string& name, vox_io_mesh* mesh) {
+    Body body;
+    body.name = name;
+    body.mesh.reset(mesh);
+    check(vox_io_mesh_get(mesh, &body.view));
+    place(body, {});
+    return body;
+}
+
+Body load_body(const std::string& path, const Placement& placement) {
+    Body body;
+    body.name = path;
+    vox_io_mesh* mesh = nullptr;
+    check(vox_io_load(path.c_str(), nullptr, &mesh));
+    body.mesh.reset(mesh);
+    check(vox_io_mesh_get(mesh, &body.view));
+    place(body, placement);
+    return body;
+}
+
+vox_mesh_desc mesh_desc(const Body& body) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = body.positions.data();
+    desc.vertex_count = body.view.vertex_count;
+    desc.tets = body.view.tets;
+    desc.tet_count = body.view.tet_count;
+    return desc;
+}
+
+} // namespace tool

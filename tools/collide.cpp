@@ -1,0 +1,110 @@
+// vox collide: the contacts between two mesh files, or within one.
+#include "body.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "stepping.hpp"
+
+#include <cstdio>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::string a, b;
+    bool self = false;
+    std::vector<double> offset = {0, 0, 0};
+    double scale = 1;
+    vox_grid_desc grid = vox_default_grid_desc();
+    std::uint32_t repeat = 1;
+    std::uint64_t limit = 10;
+    bool json = false;
+};
+
+const Choices<vox_engine> engines = {{"auto", VOX_ENGINE_AUTO}, {"reference", VOX_ENGINE_REFERENCE}};
+const Choices<vox_storage> storages = {
+    {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
+const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
+
+double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
+
+void print_text(const Options& options, const vox_grid* grid, const std::vector<Body>& bodies,
+                const std::vector<vox_mesh>& ids, const vox_profile& profile) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        std::printf("%c  %s: %llu vertices, %llu tetrahedra\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
+                    static_cast<unsigned long long>(bodies[i].view.vertex_count),
+                    static_cast<unsigned long long>(bodies[i].view.tet_count));
+    const vox_contact_view view = contacts_of(grid);
+    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
+                view.count == 1 ? "contact" : "contacts");
+    const std::uint64_t shown = view.count < options.limit ? view.count : options.limit;
+    if (shown > 0) std::printf("  %12s %14s   weights of the corners\n", "vertex", "in tet");
+    for (std::uint64_t i = 0; i < shown; ++i) {
+        const vox_contact contact = contact_at(view, i);
+        const float* weight = contact.barycentric;
+        std::printf("  %c %10u   %c %10u   %.9g %.9g %.9g %.9g\n",
+                    place_of(ids, contact.mesh_a) == 0 ? 'A' : 'B', contact.vertex,
+                    place_of(ids, contact.mesh_b) == 0 ? 'A' : 'B', contact.tet,
+                    static_cast<double>(weight[0]), static_cast<double>(weight[1]),
+                    static_cast<double>(weight[2]), static_cast<double>(weight[3]));
+    }
+    if (shown < view.count)
+        std::printf("  and %llu more (--limit N prints N of them, --json all)\n",
+                    static_cast<unsigned long long>(view.count - shown));
+    double cell_size = 0;
+    check(vox_grid_cell_size(grid, &cell_size));
+    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size);
+    std::printf("step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f (%s)\n",
+                milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
+                milliseconds(profile.narrow_ns), milliseconds(profile.contacts_ns),
+                options.repeat == 1 ? "one step; --repeat N gives medians"
+                                    : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
+}
+
+void run(const Options& options) {
+    if (options.b.empty() && !options.self)
+        wrong_usage("collide needs a second mesh, or --self for the self-collision of the first");
+    std::vector<Body> bodies;
+    bodies.push_back(load_body(options.a));
+    if (!options.b.empty()) {
+        const Placement placement{options.scale, {options.offset[0], options.offset[1], options.offset[2]}};
+        bodies.push_back(load_body(options.b, placement));
+    }
+    std::vector<vox_mesh> ids;
+    const Grid grid = make_grid(options.grid, bodies, options.self, ids);
+    const vox_profile profile = measure_steps(grid.get(), options.repeat);
+    if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
+    Json json = {{"meshes", body_list(bodies)}};
+    add_collision(json, grid.get(), ids, profile);
+    print(json);
+}
+
+} // namespace
+
+void add_collide(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("collide", "Contacts between two meshes, or within one");
+    command->add_option("A", options->a, "Mesh file")->required();
+    CLI::Option* b = command->add_option("B", options->b, "Second mesh file");
+    command->add_flag("--self", options->self, "Also the contacts of a mesh with itself");
+    command->add_option("--scale", options->scale, "Scales B, before the offset")->check(finite())->needs(b);
+    command->add_option("--offset", options->offset, "Moves B")
+        ->expected(3)
+        ->type_name("X Y Z")
+        ->check(finite())
+        ->needs(b);
+    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");
+    command->add_option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
+        ->check(not_negative());
+    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
+    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
+    command->add_option("--repeat", options->repeat, "Steps to time, after one to warm up")
+        ->check(CLI::Range(1u, 1000000u));
+    command->add_option("--limit", options->limit, "Contacts to print as text");
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace tool

@@ -1,0 +1,30 @@
+// How a command fails. Bad input ends in exit code 1 with the library's own words; wrong usage ends in exit
+// code 2 and travels as one of CLI11's parse errors.
+#pragma once
+
+#include <vox/vox.h>
+
+#include <CLI/CLI.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace tool {
+
+class Failure : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// Every call of the library goes through here.
+inline void check(vox_result result) {
+    if (result == VOX_OK) return;
+    const std::string words = vox_last_error();
+    throw Failure(words.empty() ? vox_result_string(result) : words);
+}
+
+[[noreturn]] inline void wrong_usage(const std::string& words) {
+    throw CLI::ValidationError(words);
+}
+
+} // namespace tool

@@ -1,0 +1,113 @@
+// vox info: what is in a mesh file.
+#include "body.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "report.hpp"
+#include "shape.hpp"
+
+#include <cstdio>
+#include <sstream>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> files;
+    bool json = false;
+};
+
+struct Info {
+    std::string file;
+    Shape shape;
+    vox_io_report report{};
+    std::vector<std::string> warnings;
+};
+
+Info read_info(const std::string& file) {
+    Info info;
+    info.file = file;
+    vox_io_mesh* loaded = nullptr;
+    check(vox_io_load(file.c_str(), nullptr, &loaded));
+    const std::unique_ptr<vox_io_mesh, MeshDeleter> mesh(loaded);
+    vox_io_mesh_view view{};
+    check(vox_io_mesh_get(mesh.get(), &view));
+    info.shape = measure_shape(view);
+    info.report.struct_size = sizeof info.report;
+    check(vox_io_mesh_report(mesh.get(), &info.report));
+    std::istringstream lines(vox_io_mesh_warnings(mesh.get()));
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty()) info.warnings.push_back(line);
+    return info;
+}
+
+Json to_json(const Info& info) {
+    const vox_io_report& report = info.report;
+    return {{"file", info.file},
+            {"format", vox_io_format_string(report.format)},
+            {"vertices", report.vertices},
+            {"tets", report.tets},
+            {"surface_triangles", report.boundary_facets},
+            {"mean_edge", number(info.shape.mean_edge)},
+            {"mean_longest_edge", number(info.shape.mean_longest_edge)},
+            {"mean_facet_area", number(info.shape.mean_facet_area)},
+            {"mean_volume", number(info.shape.mean_volume)},
+            {"volume", number(report.volume)},
+            {"inverted", report.inverted_tets},
+            {"degenerate", report.degenerate_tets},
+            {"duplicate_vertices", report.duplicate_vertices},
+            {"duplicate_tets", report.duplicate_tets},
+            {"unused_vertices", report.unused_vertices},
+            {"non_manifold_facets", report.non_manifold_facets},
+            {"components", report.components},
+            {"skipped_elements", report.skipped_elements},
+            {"second_order_tets", report.second_order_tets},
+            {"bounds", bounds(report.bounds_min, report.bounds_max)},
+            {"warnings", info.warnings}};
+}
+
+void print_mean(const char* name, std::optional<double> value) {
+    if (value) std::printf("  %-18s %.9g\n", name, *value);
+}
+
+void print_text(const Info& info) {
+    const vox_io_report& report = info.report;
+    std::printf("%s\n", info.file.c_str());
+    std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
+    std::printf("  %-18s %llu\n", "vertices", static_cast<unsigned long long>(report.vertices));
+    std::printf("  %-18s %llu\n", "tetrahedra", static_cast<unsigned long long>(report.tets));
+    std::printf("  %-18s %llu\n", "surface triangles",
+                static_cast<unsigned long long>(report.boundary_facets));
+    print_mean("mean edge", info.shape.mean_edge);
+    print_mean("mean longest edge", info.shape.mean_longest_edge);
+    print_mean("mean facet area", info.shape.mean_facet_area);
+    print_mean("mean volume", info.shape.mean_volume);
+    const double *min = report.bounds_min, *max = report.bounds_max;
+    std::printf("  %-18s %.9g %.9g %.9g to %.9g %.9g %.9g\n", "bounds", min[0], min[1], min[2], max[0],
+                max[1], max[2]);
+    for (const std::string& warning : info.warnings) std::printf("  warning: %s\n", warning.c_str());
+}
+
+void run(const Options& options) {
+    Json meshes = Json::array();
+    for (const std::string& file : options.files) {
+        const Info info = read_info(file);
+        if (options.json)
+            meshes.push_back(to_json(info));
+        else
+            print_text(info);
+    }
+    if (options.json) print({{"meshes", std::move(meshes)}});
+}
+
+} // namespace
+
+void add_info(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "What is in a mesh file");
+    command->add_option("MESH", options->files, "Mesh files")->required();
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace tool

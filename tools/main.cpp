@@ -1,0 +1,55 @@
+// vox: the command line. Exit codes: 0 success, 1 bad input, 2 wrong usage.
+#include "commands.hpp"
+#include "failure.hpp"
+#include "report.hpp"
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+int fail(const char* words) {
+    std::fflush(stdout); // what came before the failure stays before it
+    std::fprintf(stderr, "vox: %s\n", words);
+    return 1;
+}
+
+int wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    std::fprintf(stderr, "vox: %s\nRun 'vox %s--help' for the usage.\n", error.what(),
+                 chosen.empty() ? "" : (chosen.front()->get_name() + " ").c_str());
+    return 2;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Exact collision detection for deformable tetrahedral meshes on a voxel grid", "vox");
+    app.set_version_flag("--version", std::string("vox ") + vox_version_string() + "\n" + vox_build_info());
+    app.require_subcommand(1);
+    tool::add_demo(app);
+    tool::add_info(app);
+    tool::add_suggest(app);
+    tool::add_collide(app);
+    try {
+        app.parse(argc, argv); // runs the command, too
+        tool::finish_output();
+        return 0;
+    } catch (const CLI::Success& request) { // --help, --version
+        app.exit(request);
+        tool::finish_output();
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        return wrong_usage(app, error);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory");
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+}

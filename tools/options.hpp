@@ -1,0 +1,65 @@
+// Kinds of option values that CLI11 has no check for. All refuse with exit code 2.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tool {
+
+// Names a user may give and what they stand for; the first is the default.
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+template <class Value>
+const std::string& name_of(const Choices<Value>& choices, Value value) {
+    for (const auto& [name, meaning] : choices)
+        if (meaning == value) return name;
+    return choices.front().first;
+}
+
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& flag, Value& value, const Choices<Value>& choices,
+                        const std::string& description) {
+    std::string names;
+    for (const auto& [name, meaning] : choices) names += (names.empty() ? "" : "|") + name;
+    const auto choose = [&value, choices, flag, names](const std::string& given) {
+        for (const auto& [name, meaning] : choices)
+            if (given == name) {
+                value = meaning;
+                return;
+            }
+        throw CLI::ValidationError(flag, "expected " + names + ", found " + given);
+    };
+    return app.add_option_function<std::string>(flag, choose, description)->type_name(names);
+}
+
+// Finite numbers in an open or half-open range; `words` says which, e.g. "a number above 0".
+template <class Accept>
+CLI::Validator number_check(Accept accept, const std::string& words) {
+    return CLI::Validator(
+        [accept, words](const std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            const bool whole = !text.empty() && *end == '\0';
+            return whole && std::isfinite(value) && accept(value) ? std::string()
+                                                                  : "expected " + words + ", found " + text;
+        },
+        "");
+}
+
+inline CLI::Validator finite() {
+    return number_check([](double) { return true; }, "a finite number");
+}
+inline CLI::Validator positive() {
+    return number_check([](double value) { return value > 0; }, "a number above 0");
+}
+inline CLI::Validator not_negative() {
+    return number_check([](double value) { return value >= 0; }, "0 or a number above");
+}
+
+} // namespace tool

@@ -1,0 +1,160 @@
+#include "report.hpp"
+
+#include "failure.hpp"
+#include "stepping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+namespace tool {
+
+namespace {
+
+const char* model_name(vox_cost_model model) {
+    switch (model) {
+    case VOX_COST_MODEL_PAPER:
+        return "paper";
+    case VOX_COST_MODEL_FORCE_32_BITS:
+        break;
+    }
+    return "unknown";
+}
+
+// A rule that does not apply has cell size 0 in the library.
+Json rule(double cell_size) { return cell_size > 0 ? number(cell_size) : Json(nullptr); }
+
+Json rules(const vox_cell_size_rules& rules) {
+    return {{"mean_edge", rule(rules.mean_edge)},     {"mean_edge_multiple", rule(rules.mean_edge_multiple)},
+            {"object_512", rule(rules.object_512)},   {"resolution", rule(rules.resolution)},
+            {"mean_volume", rule(rules.mean_volume)}, {"median_box_side", rule(rules.median_box_side)}};
+}
+
+Json stats(const vox_geometry_stats& stats) {
+    return {{"vertices", stats.vertices},
+            {"tets", stats.tets},
+            {"edges", stats.edges},
+            {"facets", stats.facets},
+            {"boundary_facets", stats.boundary_facets},
+            {"degenerate_tets", stats.degenerate_tets},
+            {"mean_edge", number(stats.mean_edge)},
+            {"mean_longest_edge", number(stats.mean_longest_edge)},
+            {"mean_box_side", number(stats.mean_box_side)},
+            {"median_box_side", number(stats.median_box_side)},
+            {"mean_facet_area", number(stats.mean_facet_area)},
+            {"mean_tet_facet_area", number(stats.mean_tet_facet_area)},
+            {"mean_boundary_facet_area", number(stats.mean_boundary_facet_area)},
+            {"mean_volume", number(stats.mean_volume)},
+            {"bounds", bounds(stats.bounds_min, stats.bounds_max)}};
+}
+
+Json counters(const vox_grid* grid) {
+    vox_counters counters{};
+    counters.struct_size = sizeof counters;
+    check(vox_grid_counters(grid, &counters));
+    return {{"meshes", counters.meshes},
+            {"vertices", counters.vertices},
+            {"tets", counters.tets},
+            {"cells", counters.cells},
+            {"entries", counters.entries},
+            {"fullest_cell", counters.fullest_cell},
+            {"visited_cells", counters.visited_cells},
+            {"visited_entries", counters.visited_entries},
+            {"candidates", counters.candidates},
+            {"exact_tests", counters.exact_tests},
+            {"contacts", counters.contacts},
+            {"skipped_degenerate", counters.skipped_degenerate},
+            {"bytes", counters.bytes},
+            {"peak_bytes", counters.peak_bytes}};
+}
+
+} // namespace
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
+
+Json point(const double (&coordinates)[3]) {
+    return Json::array({number(coordinates[0]), number(coordinates[1]), number(coordinates[2])});
+}
+
+Json bounds(const double (&min)[3], const double (&max)[3]) {
+    return {{"min", point(min)}, {"max", point(max)}};
+}
+
+void add_suggestion(Json& json, const vox_suggestion& suggestion) {
+    json["cell_size"] = number(suggestion.cell_size);
+    json["cells_per_axis"] = number(suggestion.cells_per_axis);
+    json["zone"] = {{"min", number(suggestion.zone_min)}, {"max", number(suggestion.zone_max)}};
+    json["predicted_cost"] = number(suggestion.predicted_cost);
+    json["model"] = model_name(suggestion.model);
+    json["rules"] = rules(suggestion.rules);
+    json["stats"] = stats(suggestion.stats);
+    Json curve = Json::array();
+    for (std::uint32_t i = 0; i < suggestion.curve_count; ++i)
+        curve.push_back({{"cell_size", number(suggestion.curve[i].cell_size)},
+                         {"cost", number(suggestion.curve[i].cost)}});
+    json["curve"] = std::move(curve);
+}
+
+void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
+                   const vox_profile& profile) {
+    const vox_contact_view view = contacts_of(grid);
+    json["contact_count"] = view.count;
+    Json contacts = Json::array();
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        const vox_contact contact = contact_at(view, i);
+        const float* weight = contact.barycentric;
+        contacts.push_back(
+            {{"mesh_a", place_of(ids, contact.mesh_a)},
+             {"vertex", contact.vertex},
+             {"mesh_b", place_of(ids, contact.mesh_b)},
+             {"tet", contact.tet},
+             {"barycentric", {number(weight[0]), number(weight[1]), number(weight[2]), number(weight[3])}}});
+    }
+    json["contacts"] = std::move(contacts);
+    json["hash"] = hash_of(grid);
+    double cell_size = 0;
+    check(vox_grid_cell_size(grid, &cell_size));
+    json["cell_size"] = number(cell_size);
+    json["profile"] = {{"step_ns", profile.step_ns},
+                       {"bin_ns", profile.bin_ns},
+                       {"broad_ns", profile.broad_ns},
+                       {"narrow_ns", profile.narrow_ns},
+                       {"contacts_ns", profile.contacts_ns}};
+    json["counters"] = counters(grid);
+}
+
+Json body_list(const std::vector<Body>& bodies) {
+    Json list = Json::array();
+    for (const Body& body : bodies)
+        list.push_back(
+            {{"file", body.name}, {"vertices", body.view.vertex_count}, {"tets", body.view.tet_count}});
+    return list;
+}
+
+std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh) {
+    return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), mesh) - ids.begin());
+}
+
+std::string hash_of(const vox_grid* grid) {
+    std::uint64_t hash = 0;
+    check(vox_grid_hash(grid, &hash));
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+void print(const Json& json) {
+    // File names need not be UTF-8, but JSON must be.
+    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void finish_output() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Failure(std::string("cannot write to standard output: ") + std::strerror(errno));
+}
+
+} // namespace tool

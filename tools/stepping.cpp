@@ -1,0 +1,66 @@
+#include "stepping.hpp"
+
+#include "failure.hpp"
+#include "terminal.hpp"
+
+#include <algorithm>
+
+namespace tool {
+
+Grid make_grid(const vox_grid_desc& desc, std::span<const Body> bodies, bool self_collision,
+               std::vector<vox_mesh>& ids) {
+    vox_grid* created = nullptr;
+    check(vox_grid_create(&desc, &created));
+    Grid grid(created);
+    ids.clear();
+    for (const Body& body : bodies) {
+        vox_mesh_desc mesh = mesh_desc(body);
+        if (self_collision) mesh.flags |= VOX_MESH_SELF_COLLISION;
+        vox_mesh id = VOX_NULL_MESH;
+        check(vox_mesh_insert(grid.get(), &mesh, &id));
+        ids.push_back(id);
+    }
+    return grid;
+}
+
+vox_profile profile_of(const vox_grid* grid) {
+    vox_profile profile{};
+    profile.struct_size = sizeof profile;
+    check(vox_grid_profile(grid, &profile));
+    return profile;
+}
+
+vox_contact_view contacts_of(const vox_grid* grid) {
+    vox_contact_view view{};
+    check(vox_grid_contacts(grid, &view));
+    return view;
+}
+
+vox_profile median(std::span<const vox_profile> profiles) {
+    std::vector<std::uint64_t> times(profiles.size());
+    const auto median_of = [&](std::uint64_t vox_profile::*time) {
+        for (std::size_t i = 0; i < profiles.size(); ++i) times[i] = profiles[i].*time;
+        std::sort(times.begin(), times.end());
+        const std::size_t middle = times.size() / 2;
+        return times.size() % 2 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
+    };
+    vox_profile result = profiles.front();
+    for (const auto time : {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns,
+                            &vox_profile::narrow_ns, &vox_profile::contacts_ns})
+        result.*time = median_of(time);
+    return result;
+}
+
+vox_profile measure_steps(vox_grid* grid, std::uint32_t repeat) {
+    Progress progress("step", repeat + std::uint64_t{1});
+    check(vox_grid_step(grid));
+    std::vector<vox_profile> profiles;
+    for (std::uint32_t i = 0; i < repeat; ++i) {
+        progress.show(i + std::uint64_t{2});
+        check(vox_grid_step(grid));
+        profiles.push_back(profile_of(grid));
+    }
+    return median(profiles);
+}
+
+} // namespace tool

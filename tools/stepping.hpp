@@ -1,0 +1,41 @@
+// A grid with bodies in it, and the time of its steps.
+#pragma once
+
+#include "body.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tool {
+
+struct GridDeleter {
+    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
+};
+using Grid = std::unique_ptr<vox_grid, GridDeleter>;
+
+// Creates a grid and inserts the bodies, whose positions it borrows. ids[i] names bodies[i].
+Grid make_grid(const vox_grid_desc& desc, std::span<const Body> bodies, bool self_collision,
+               std::vector<vox_mesh>& ids);
+
+vox_profile profile_of(const vox_grid* grid);
+vox_contact_view contacts_of(const vox_grid* grid);
+
+inline vox_contact contact_at(const vox_contact_view& view, std::uint64_t index) {
+    vox_contact contact;
+    std::memcpy(&contact, reinterpret_cast<const char*>(view.data) + index * view.byte_stride,
+                sizeof contact);
+    return contact;
+}
+
+// The median of each time by itself. At least one profile.
+vox_profile median(std::span<const vox_profile> profiles);
+
+// One step to warm up, then the median of `repeat` more.
+vox_profile measure_steps(vox_grid* grid, std::uint32_t repeat);
+
+} // namespace tool

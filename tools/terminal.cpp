@@ -1,0 +1,142 @@
+#include "terminal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace tool {
+
+namespace {
+
+bool standard_error_is_terminal() {
+#ifdef _WIN32
+    return _isatty(_fileno(stderr)) != 0;
+#else
+    return isatty(STDERR_FILENO) != 0;
+#endif
+}
+
+std::string repeated(std::string_view text, int count) {
+    std::string result;
+    for (int i = 0; i < count; ++i) result += text;
+    return result;
+}
+
+// Blocks that fill 0 to 8 eighths of a character from below.
+constexpr const char* columns_utf8[9] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+// Blocks that fill 0 to 7 eighths from the left.
+constexpr const char* rows_utf8[8] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+
+} // namespace
+
+Progress::Progress(const char* what, std::uint64_t total)
+    : what_(what), total_(total), terminal_(standard_error_is_terminal()),
+      begin_(std::chrono::steady_clock::now()) {}
+
+Progress::~Progress() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::show(std::uint64_t number) {
+    if (!terminal_ || std::chrono::steady_clock::now() - begin_ < std::chrono::milliseconds(500)) return;
+    std::fprintf(stderr, "\r\033[Kvox: %s %llu of %llu", what_, static_cast<unsigned long long>(number),
+                 static_cast<unsigned long long>(total_));
+    std::fflush(stderr);
+    shown_ = true;
+}
+
+bool locale_is_utf8() {
+    // The first of these that is set and not empty decides, as POSIX has it.
+    for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+        const char* value = std::getenv(variable);
+        if (!value || !*value) continue;
+        std::string name = value;
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+        return name.find("utf-8") != std::string::npos || name.find("utf8") != std::string::npos;
+    }
+    return false;
+}
+
+std::string bar(double fraction, int width) {
+    fraction = std::clamp(fraction, 0.0, 1.0);
+    if (!locale_is_utf8()) {
+        const int length = static_cast<int>(std::lround(fraction * width));
+        return repeated("#", fraction > 0 ? std::max(length, 1) : 0);
+    }
+    int eighths = static_cast<int>(std::lround(fraction * width * 8));
+    if (fraction > 0) eighths = std::max(eighths, 1);
+    return repeated("█", eighths / 8) + rows_utf8[eighths % 8];
+}
+
+std::string cost_curve(const vox_suggestion& suggestion) {
+    const int columns = static_cast<int>(suggestion.curve_count);
+    if (columns < 2) return {};
+    const bool utf8 = locale_is_utf8();
+    // The interesting part is near the minimum: the chart's floor is 0 and its top three times the minimum.
+    constexpr int height = 8;
+    constexpr double top = 3;
+    const char* indent = "       ";
+
+    std::string text;
+    for (int row = height; row >= 1; --row) {
+        char label[16] = "";
+        const double level = top * row / height;
+        if (row == height) std::snprintf(label, sizeof label, ">%.0fx", level);
+        if (std::abs(level - 1.5) < 1e-9) std::snprintf(label, sizeof label, "%.1fx", level);
+        char head[32];
+        std::snprintf(head, sizeof head, "%6s ", label);
+        text += head;
+        std::string line;
+        for (int column = 0; column < columns; ++column) {
+            const double cost = suggestion.curve[column].cost / suggestion.predicted_cost;
+            const int eighths = static_cast<int>(std::lround(cost / top * height * 8)) - (row - 1) * 8;
+            if (utf8)
+                line += columns_utf8[std::clamp(eighths, 0, 8)];
+            else
+                line += eighths >= 4 ? '#' : ' ';
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+
+    // The curve is even in the logarithm of the cell size, so a cell size has its column.
+    const double first = std::log(suggestion.curve[0].cell_size);
+    const double last = std::log(suggestion.curve[columns - 1].cell_size);
+    const auto column_of = [&](double cell_size) {
+        const double place = (std::log(cell_size) - first) / (last - first) * (columns - 1);
+        return std::clamp(static_cast<int>(std::lround(place)), 0, columns - 1);
+    };
+    const int zone_begin = column_of(suggestion.zone_min), zone_end = column_of(suggestion.zone_max);
+    const int best = std::clamp(column_of(suggestion.cell_size), zone_begin, zone_end);
+    text += indent + repeated(" ", zone_begin) + repeated(utf8 ? "─" : "-", best - zone_begin) +
+            (utf8 ? "▲" : "^") + repeated(utf8 ? "─" : "-", zone_end - best) + "\n";
+
+    char left[32], right[32], middle[48];
+    std::snprintf(left, sizeof left, "%.3g", suggestion.curve[0].cell_size);
+    std::snprintf(right, sizeof right, "%.3g", suggestion.curve[columns - 1].cell_size);
+    std::snprintf(middle, sizeof middle, "%.4g", suggestion.cell_size);
+    std::string scale(static_cast<std::size_t>(columns), ' ');
+    const auto write = [&](int column, const char* words) {
+        const std::string_view word = words;
+        const int begin = std::clamp(column, 0, std::max(0, columns - static_cast<int>(word.size())));
+        for (std::size_t i = 0; i < word.size(); ++i) {
+            const std::size_t at = static_cast<std::size_t>(begin) + i;
+            if (at < scale.size()) scale[at] = word[i];
+        }
+    };
+    write(0, left);
+    write(columns, right);
+    write(best - static_cast<int>(std::string_view(middle).size()) / 2, middle);
+    return text + indent + scale + "\n";
+}
+
+} // namespace tool

@@ -1,0 +1,40 @@
+// What a command shows a person: progress on standard error, bars and curves in characters.
+#pragma once
+
+#include <vox/vox.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace tool {
+
+// "vox: step 3 of 100", overwritten in place, on standard error. Silent when that is no terminal, and for the
+// first half second, so that short work shows nothing. Wiped when it ends.
+class Progress {
+public:
+    Progress(const char* what, std::uint64_t total);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void show(std::uint64_t number);
+
+private:
+    const char* what_;
+    std::uint64_t total_;
+    bool terminal_;
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+// Whether the locale of the environment can print the block and line characters of Unicode.
+bool locale_is_utf8();
+
+// A horizontal bar of at most `width` characters for a fraction in [0, 1].
+std::string bar(double fraction, int width);
+
+// The predicted cost over the cell size, one column a sample, with the zone and the suggestion marked below.
+std::string cost_curve(const vox_suggestion& suggestion);
+
+} // namespace tool
