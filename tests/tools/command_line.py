@@ -1,0 +1,302 @@
+"""The command line on files made here: exit codes, words on standard error, JSON keys, the demo, and Table 2 of
+the paper on the lattice spheres that the demo makes."""
+
+import os
+import re
+import tempfile
+import unittest
+
+from vox import run, run_json
+
+# Two tetrahedra on one face, and a vertex 6 that no element uses.
+TWO_TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (9, 9, 9)]
+TETS = [(1, 2, 3, 4), (2, 3, 4, 5)]
+
+SUGGEST_KEYS = ["cell_size", "cells_per_axis", "zone", "predicted_cost", "model", "rules", "stats", "curve"]
+COLLIDE_KEYS = ["contact_count", "contacts", "hash", "cell_size", "profile", "counters"]
+INFO_KEYS = ["file", "format", "vertices", "tets", "surface_triangles", "mean_edge", "mean_longest_edge",
+             "mean_facet_area", "mean_volume", "inverted", "degenerate", "duplicate_vertices", "bounds", "warnings"]
+
+
+def msh(points, tets=(), triangles=()):
+    """Gmsh 2.2 text; elements count vertices from 1."""
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(points)]
+    lines += ["%d %r %r %r" % (i + 1, *p) for i, p in enumerate(points)]
+    elements = [(4, t) for t in tets] + [(2, t) for t in triangles]
+    lines += ["$EndNodes", "$Elements", len(elements)]
+    lines += ["%d %d 0 %s" % (i + 1, kind, " ".join(map(str, t))) for i, (kind, t) in enumerate(elements)]
+    return "\n".join(map(str, lines + ["$EndElements", ""]))
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.two = self.file("two.msh", msh(TWO_TETS[:5], TETS))
+        self.one = self.file("one.msh", msh(TWO_TETS[:4], TETS[:1]))
+        self.surface = self.file("surface.msh", msh(TWO_TETS[:4], (), [(1, 2, 3), (2, 3, 4)]))
+
+    def file(self, name, text):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w", encoding="ascii") as file:
+            file.write(text)
+        return path
+
+    def refused(self, code, pattern, *arguments):
+        """vox ends with `code`, says nothing on standard output and one thing on standard error."""
+        for json in [], ["--json"]:
+            done = run(*arguments, *json)
+            words = done.stderr.decode()
+            self.assertEqual(done.returncode, code, (arguments, words))
+            self.assertEqual(done.stdout, b"", arguments)
+            self.assertRegex(words, r"\Avox: ")
+            self.assertRegex(words, pattern)
+            self.assertEqual(words.count("\n"), 1 if code == 1 else 2, words)
+
+    # ---- usage ----
+
+    def test_version_and_help(self):
+        done = run("--version")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout.decode(), r"\Avox \d+\.\d+\.\d+\n.+\n\Z")
+        self.assertEqual(done.stderr, b"")
+        for command in [], ["info"], ["suggest"], ["collide"], ["demo"]:
+            done = run(*command, "--help")
+            self.assertEqual(done.returncode, 0, command)
+            self.assertIn(b"--help", done.stdout)
+            self.assertEqual(done.stderr, b"")
+
+    def test_wrong_usage(self):
+        for arguments in (
+            [], ["nonsense"], ["--nonsense"], ["info"], ["suggest"], ["collide"], ["info", self.two, "--nonsense"],
+            ["collide", self.two],                              # neither B nor --self
+            ["collide", self.two, "--self", "--offset", 1, 0, 0],  # moves B, and there is none
+            ["collide", self.two, "--self", "--scale", 2],
+            ["collide", self.two, self.two, self.two],
+            ["collide", self.two, self.two, "--offset", 1, 2],
+            ["collide", self.two, self.two, "--offset", 1, 2, "nan"],
+            ["collide", self.two, self.two, "--scale", "inf"],
+            ["collide", self.two, self.two, "--scale", "2x"],
+            ["collide", self.two, self.two, "--cell-size", -1],
+            ["collide", self.two, self.two, "--cell-size", "nan"],
+            ["collide", self.two, self.two, "--engine", "warp"],
+            ["collide", self.two, self.two, "--storage", "1"],
+            ["collide", self.two, self.two, "--hash", "md5"],
+            ["collide", self.two, self.two, "--repeat", 0],
+            ["collide", self.two, self.two, "--repeat", -3],
+            ["collide", self.two, self.two, "--limit", "few"],
+            ["suggest", self.two, "--p-nc", 1], ["suggest", self.two, "--p-nc", 0],
+            ["suggest", self.two, "--ratio", 0], ["suggest", self.two, "--world", -4],
+            ["suggest", self.two, "--model", "guess"], ["suggest", self.two, "--size-reading", "guess"],
+            ["suggest", self.two, "--area-reading", "guess"], ["suggest", self.two, "--factor", "nan"],
+            ["demo", "--tets", 0], ["demo", "--frames", 0], ["demo", self.two],
+        ):
+            with self.subTest(arguments=arguments):
+                self.refused(2, "--help", *arguments)
+
+    def test_bad_input(self):
+        missing = os.path.join(self.folder.name, "missing.msh")
+        index = self.file("index.msh", msh(TWO_TETS[:4], [(1, 2, 3, 900)]))
+        garbage = self.file("garbage.msh", "neither a mesh nor anything else\n")
+        empty = self.file("empty.msh", "")
+        flat = self.file("flat.msh", msh([(2, 2, 2)] * 4, TETS[:1]))
+        for command in ["info"], ["suggest"], ["collide", self.two], ["collide", "--self"]:
+            self.refused(1, re.escape(missing), *command, missing)
+            self.refused(1, re.escape(index) + ".*900", *command, index)
+            self.refused(1, re.escape(garbage), *command, garbage)
+            self.refused(1, re.escape(empty), *command, empty)
+            self.refused(1, re.escape(self.folder.name), *command, self.folder.name)
+        self.refused(1, "tet", "suggest", self.surface)  # no tetrahedron
+        self.refused(1, ".", "suggest", flat)            # none that has a size
+
+    def test_coordinates_beyond_float(self):
+        far = self.file("far.msh", msh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0), (0, 0, 1)], TETS[:1]))
+        self.refused(1, re.escape(far) + ".*vertex 1 .*1e\\+39", "collide", far, self.two)
+        self.refused(1, "one.msh.*vertex", "collide", self.two, self.one, "--offset", "1e300", 0, 0)
+        self.refused(1, "one.msh.*vertex", "collide", self.two, self.one, "--scale", "1e200", "--offset", 0, 0, 1)
+        # Scaled back into range they are as good as any: the product is taken in double.
+        found = run_json("collide", self.two, far, "--scale", "1e-39")
+        self.assertEqual(found["counters"]["vertices"], 9)
+        # info describes the file, and a mean of squares that overflows is null, never Infinity.
+        huge = self.file("huge.msh", msh([(0, 0, 0), (1e300, 0, 0), (0, 1e300, 0), (0, 0, 1e300)], TETS[:1]))
+        self.assertIsNone(run_json("info", huge)["meshes"][0]["mean_volume"])
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
+    def test_output_that_cannot_be_written(self):
+        import subprocess
+        from vox import TOOL
+        for arguments in ["--version"], ["--help"], ["info", self.two], ["info", self.two, "--json"]:
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([TOOL, *arguments], stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, 1, arguments)
+            self.assertIn(b"vox: cannot write to standard output", done.stderr)
+
+    # ---- info ----
+
+    def test_info(self):
+        points = TWO_TETS + [TWO_TETS[0]]
+        odd = self.file("odd.msh", msh(points, TETS + [(1, 2, 3, 3)]))
+        meshes = run_json("info", self.two, odd)["meshes"]
+        self.assertEqual(len(meshes), 2)
+        for mesh in meshes:
+            for key in INFO_KEYS:
+                self.assertIn(key, mesh)
+        two, odd = meshes
+        self.assertEqual((two["file"], two["vertices"], two["tets"], two["surface_triangles"]), (self.two, 5, 2, 6))
+        self.assertEqual(two["warnings"] == [], two["inverted"] == 0)
+        root = 2 ** 0.5
+        self.assertAlmostEqual(two["mean_edge"], (3 + 6 * root) / 9, 12)  # three legs; 3 + 3 diagonals
+        self.assertAlmostEqual(two["mean_longest_edge"], root, 12)
+        self.assertAlmostEqual(two["mean_facet_area"], (3 * 0.5 + 4 * 3 ** 0.5 / 2) / 7, 12)
+        self.assertAlmostEqual(two["mean_volume"], (1 / 6 + 1 / 3) / 2, 12)
+        self.assertEqual(two["bounds"], {"min": [0, 0, 0], "max": [1, 1, 1]})
+        self.assertEqual((odd["degenerate"], odd["duplicate_vertices"], odd["unused_vertices"]), (1, 1, 2))
+        self.assertTrue(odd["warnings"])
+
+    def test_info_of_a_surface(self):
+        surface = run_json("info", self.surface)["meshes"][0]
+        self.assertEqual((surface["tets"], surface["surface_triangles"]), (0, 2))
+        self.assertIsNone(surface["mean_volume"])
+        self.assertAlmostEqual(surface["mean_edge"], (2 + 3 * 2 ** 0.5) / 5, 12)
+
+    def test_info_as_text(self):
+        text = run("info", self.two).stdout.decode()
+        self.assertRegex(text, r"vertices +5\n")
+        self.assertRegex(text, r"mean volume +0\.25\n")
+
+    def test_names_that_are_no_utf8(self):
+        path = os.path.join(os.fsencode(self.folder.name), b"\xff.msh")
+        with open(path, "w") as file:
+            file.write(msh(TWO_TETS[:5], TETS))
+        self.assertIn("\ufffd", run_json("info", path)["meshes"][0]["file"])
+
+    # ---- suggest ----
+
+    def test_suggest(self):
+        found = run_json("suggest", self.two, self.one, "--world", 8, "--factor", 3, "--resolution", 0.25)
+        for key in SUGGEST_KEYS:
+            self.assertIn(key, found)
+        self.assertEqual(found["model"], "paper")
+        self.assertLess(found["zone"]["min"], found["cell_size"])
+        self.assertGreater(found["zone"]["max"], found["cell_size"])
+        self.assertAlmostEqual(found["cells_per_axis"], 8 / found["cell_size"], 9)
+        self.assertAlmostEqual(found["rules"]["mean_edge_multiple"], 3 * found["rules"]["mean_edge"], 9)
+        self.assertEqual(found["rules"]["resolution"], 0.25)
+        self.assertEqual(found["stats"]["tets"], 3)
+        sizes = [sample["cell_size"] for sample in found["curve"]]
+        self.assertEqual(sizes, sorted(sizes))
+        self.assertGreater(len(sizes), 1)
+        self.assertLessEqual(found["predicted_cost"], min(s["cost"] for s in found["curve"]) * (1 + 1e-12))
+        self.assertIsNone(run_json("suggest", self.two)["rules"]["resolution"])
+
+    def test_suggest_solves_the_cubic(self):
+        """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
+        for size, s_key in (("mean-edge", "mean_edge"), ("mean-longest-edge", "mean_longest_edge"),
+                            ("mean-box-side", "mean_box_side")):
+            for area, a_key in (("unique-facets", "mean_facet_area"), ("tet-facets", "mean_tet_facet_area"),
+                                ("boundary-facets", "mean_boundary_facet_area")):
+                for p_nc, ratio in ((0.99, 5), (0.9, 0.5)):
+                    found = run_json("suggest", self.two, "--size-reading", size, "--area-reading", area, "--p-nc",
+                                     p_nc, "--ratio", ratio, "--model", "paper")
+                    s, a, d = found["stats"][s_key], found["stats"][a_key], found["cell_size"]
+                    k = (1 - p_nc) * ratio * 3 * 3 ** 0.5 / (2 * a)
+                    self.assertAlmostEqual((4 * k * d ** 3 - s * k * d ** 2) / (3 * s * p_nc), 1, 6)
+
+    def test_suggest_as_text(self):
+        plain = run("suggest", self.two, LC_ALL="C").stdout
+        self.assertTrue(plain.isascii())
+        self.assertIn(b"#", plain)
+        drawn = run("suggest", self.two, LC_ALL="C.UTF-8").stdout.decode()
+        self.assertIn("\u2588", drawn)
+        for text in plain.decode(), drawn:
+            self.assertRegex(text, r"\ASuggested cell size [0-9.]+, ")
+
+    # ---- collide ----
+
+    def test_collide(self):
+        found = run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--repeat", 3)
+        for key in COLLIDE_KEYS:
+            self.assertIn(key, found)
+        self.assertNotIn("penetrations", found)
+        # B's first corner lies in A's first tet; A's last vertex, (1, 1, 1), and its others lie outside B.
+        self.assertEqual(found["contact_count"], 1)
+        contact = found["contacts"][0]
+        self.assertEqual([contact[k] for k in ("mesh_a", "vertex", "mesh_b", "tet")], [1, 0, 0, 0])
+        for weight, expected in zip(contact["barycentric"], (0.4, 0.1, 0.2, 0.3)):
+            self.assertAlmostEqual(weight, expected, 6)
+        self.assertRegex(found["hash"], r"\A[0-9a-f]{16}\Z")
+        self.assertEqual([m["file"] for m in found["meshes"]], [self.two, self.one])
+        for key in "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns":
+            self.assertGreaterEqual(found["profile"][key], 0)
+        self.assertEqual(found["counters"]["contacts"], 1)
+
+    def test_scale_comes_before_offset(self):
+        # B's far corner (1, 0, 0) goes to 0.5 * 1 + 0.1; the other order would take it to 0.55.
+        found = run_json("collide", self.one, self.one, "--scale", 0.5, "--offset", 0.1, 0.2, 0.1)
+        weights = {c["vertex"]: c["barycentric"] for c in found["contacts"] if c["mesh_a"] == 1}
+        self.assertAlmostEqual(weights[1][1], 0.6, 6)
+
+    def test_negative_and_exponent_offsets(self):
+        found = run_json("collide", self.one, self.one, "--offset", "-1e-1", "-.1", -0.1)
+        self.assertEqual([(c["mesh_a"], c["vertex"]) for c in found["contacts"]], [(0, 0)])
+
+    def test_self_collision(self):
+        # A second tetrahedron whose corner pokes into the first, in one mesh.
+        points = TWO_TETS[:4] + [(0.1, 0.1, 0.1), (-1, 0, 0), (-1, 1, 0), (-1, 0, 1)]
+        folded = self.file("folded.msh", msh(points, [(1, 2, 3, 4), (5, 6, 7, 8)]))
+        found = run_json("collide", folded, "--self")
+        self.assertIn((0, 4, 0, 0), [(c["mesh_a"], c["vertex"], c["mesh_b"], c["tet"]) for c in found["contacts"]])
+        alone = found["contact_count"]
+        apart = ["collide", folded, folded, "--offset", 50, 0, 0]
+        self.assertEqual(run_json(*apart)["contact_count"], 0)
+        self.assertEqual(run_json(*apart, "--self")["contact_count"], 2 * alone)
+
+    def test_surface_takes_part_with_its_vertices(self):
+        found = run_json("collide", self.surface, self.one, "--offset", -0.1, -0.1, -0.1)
+        self.assertEqual([(c["mesh_a"], c["vertex"], c["mesh_b"]) for c in found["contacts"]], [(0, 0, 1)])
+
+    def test_collide_as_text(self):
+        done = run("collide", self.two, self.two, "--limit", 2)
+        text = done.stdout.decode()
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(done.stderr, b"")
+        self.assertRegex(text, r"\n10 contacts\n")
+        self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+ ", text, re.M)), 2)
+        self.assertIn("and 8 more", text)
+
+    # ---- demo ----
+
+    def test_demo(self):
+        found = run_json("demo", "--tets", 1500, "--frames", 5)
+        for key in SUGGEST_KEYS + COLLIDE_KEYS + ["frames", "comparison"]:
+            self.assertIn(key, found)
+        self.assertEqual([frame["frame"] for frame in found["frames"]], list(range(5)))
+        most = max(frame["contacts"] for frame in found["frames"])
+        self.assertGreater(most, 0)
+        self.assertEqual(found["frames"][found["frame"]]["contacts"], most)
+        self.assertEqual(found["contact_count"], most)
+        self.assertEqual(len(found["contacts"]), most)
+        self.assertEqual(found["comparison"]["suggested"]["cell_size"], found["cell_size"])
+        self.assertEqual(found["comparison"]["mean_edge"]["cell_size"], found["rules"]["mean_edge"])
+        again = run_json("demo", "--tets", 1500, "--frames", 5)
+        self.assertEqual(found["hash"], again["hash"])
+
+    def test_demo_as_text(self):
+        done = run("demo", "--tets", 1000, "--frames", 3)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertTrue(done.stdout.isascii())
+        self.assertEqual(len(re.findall(rb"^ +\d+ +\d+ +[0-9.]+ ms", done.stdout, re.M)), 3)
+        self.assertIn(b"mean edge", done.stdout)
+
+    def test_table_2(self):
+        """n_trad and n_a of Table 2: cells per axis of a world of edge 4, for unit spheres of these many tets."""
+        for tets, n_trad, n_a in ((41937, 41.90, 28.73), (52326, 45.16, 30.94), (60688, 47.40, 32.49),
+                                  (72631, 50.29, 34.48), (80927, 51.90, 35.65)):
+            with self.subTest(tets=tets):
+                found = run_json("demo", "--tets", tets, "--frames", 1)  # frame 0 has the shape at rest
+                self.assertAlmostEqual(4 / found["rules"]["mean_edge"] / n_trad, 1, delta=0.01)
+                self.assertAlmostEqual(4 / found["cell_size"] / n_a, 1, delta=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()

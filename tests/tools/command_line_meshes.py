@@ -1,0 +1,123 @@
+"""The answers that the project promises on real bodies: contacts of the paper's models, exact, whatever the cell
+size, storage and hash; and the paper's Table 2 on its lattice spheres. Reads the folder VOX_MESHES."""
+
+import os
+import sys
+import unittest
+
+from vox import run, run_json
+
+MESHES = os.environ["VOX_MESHES"]
+
+# Dense storage has no hash; hashed storage has two.
+STORAGES = (["--storage", "dense"], ["--storage", "hashed", "--hash", "mixed"],
+            ["--storage", "hashed", "--hash", "paper"])
+
+
+def mesh(name):
+    return os.path.join(MESHES, name)
+
+
+class Contacts(unittest.TestCase):
+    def check_scene(self, count, edges, *arguments):
+        """`count` contacts and one hash for every storage and every cell size, given in mean edges of A."""
+        found = run_json("collide", *arguments)
+        self.assertEqual(found["contact_count"], count)
+        self.assertEqual(len(found["contacts"]), count)
+        order = [(c["mesh_a"], c["vertex"], c["mesh_b"], c["tet"]) for c in found["contacts"]]
+        self.assertEqual(order, sorted(set(order)))
+        for contact in found["contacts"]:
+            self.assertAlmostEqual(sum(contact["barycentric"]), 1, 5)
+            self.assertTrue(all(0 <= weight <= 1 for weight in contact["barycentric"]))
+        mean_edge = run_json("info", arguments[0])["meshes"][0]["mean_edge"]
+        for storage in STORAGES:
+            for factor in edges:
+                with self.subTest(arguments=arguments, storage=storage, factor=factor):
+                    size = repr(factor * mean_edge)
+                    other = run_json("collide", *arguments, "--cell-size", size, *storage)
+                    self.assertEqual(other["cell_size"], float(size))
+                    self.assertEqual((other["contact_count"], other["hash"]), (count, found["hash"]))
+
+    def test_bunny_pair(self):
+        self.check_scene(1310, (0.2, 0.5, 1, 1.5, 3, 8), mesh("paper/bunny.msh"), mesh("paper/bunny.msh"), "--offset",
+                         1.0, 0.3, 0.1)
+
+    def test_sphere_pair(self):
+        self.check_scene(128, (0.2, 1.5, 8), mesh("paper/sphere01.msh"), mesh("paper/sphere01.msh"), "--offset", 1.9,
+                         0, 0)
+
+    def test_coincident_spheres(self):
+        self.check_scene(16366, (0.2, 1.5, 8), mesh("paper/sphere01.msh"), mesh("paper/sphere01.msh"), "--offset", 0,
+                         0, 0)
+
+    def test_cow_with_itself(self):
+        self.check_scene(0, (0.2, 1.5, 8), mesh("paper/cow.msh"), "--self")
+
+    def test_tetgen_files_give_the_same(self):
+        found = run_json("collide", mesh("paper/sphere01.node"), mesh("paper/sphere01.ele"), "--offset", 1.9, 0, 0)
+        gmsh = run_json("collide", mesh("paper/sphere01.msh"), mesh("paper/sphere01.msh"), "--offset", 1.9, 0, 0)
+        self.assertEqual((found["contact_count"], found["hash"]), (128, gmsh["hash"]))
+
+    def test_engines(self):
+        scene = ["collide", mesh("paper/bunny.msh"), mesh("paper/bunny.msh"), "--offset", 1.0, 0.3, 0.1]
+        hashes = {run_json(*scene, "--engine", engine)["hash"] for engine in ("auto", "reference")}
+        self.assertEqual(len(hashes), 1)
+
+
+class Suggest(unittest.TestCase):
+    def test_table_2(self):
+        for name, n_trad, n_a in (("sphere01", 41.90, 28.73), ("sphere03", 47.40, 32.49)):
+            found = run_json("suggest", "--model", "paper", "--world", 4, mesh(f"paper-lattice/{name}_lattice.msh"))
+            self.assertAlmostEqual(4 / found["rules"]["mean_edge"] / n_trad, 1, delta=0.01)
+            self.assertAlmostEqual(found["cells_per_axis"] / n_a, 1, delta=0.01)
+
+    def test_agrees_with_info(self):
+        for name in "bunny", "cow", "armadillo":
+            stats = run_json("suggest", mesh(f"paper/{name}.msh"))["stats"]
+            info = run_json("info", mesh(f"paper/{name}.msh"))["meshes"][0]
+            self.assertEqual((stats["vertices"], stats["tets"], stats["boundary_facets"]),
+                             (info["vertices"], info["tets"], info["surface_triangles"]))
+            for key in "mean_edge", "mean_longest_edge", "mean_facet_area", "mean_volume":
+                self.assertAlmostEqual(stats[key] / info[key], 1, delta=1e-6)
+
+
+class Info(unittest.TestCase):
+    def test_counts(self):
+        for name, vertices, tets, triangles, mean_edge in (("bunny", 4717, 20426, 5486, 0.08901),
+                                                           ("sphere01", 8183, 41883, 4740, 0.10028)):
+            found = run_json("info", mesh(f"paper/{name}.msh"))["meshes"][0]
+            self.assertEqual((found["vertices"], found["tets"], found["surface_triangles"]),
+                             (vertices, tets, triangles))
+            self.assertAlmostEqual(found["mean_edge"], mean_edge, delta=1e-5)
+            self.assertEqual((found["inverted"], found["degenerate"], found["warnings"]), (0, 0, []))
+
+    def test_surface(self):
+        found = run_json("info", mesh("surfaces/bunny.obj"))["meshes"][0]
+        self.assertEqual((found["vertices"], found["tets"]), (8904, 0))
+        self.assertIsNone(found["mean_volume"])
+        self.assertGreater(found["mean_edge"], 0)
+
+
+class Hostile(unittest.TestCase):
+    def test_every_bad_file_ends_with_0_or_1(self):
+        """What a reader must answer is tested with the readers; here: one object or one complaint, no crash."""
+        folder = mesh("bad")
+        # Other extensions are formats that come later, or go through the surface reader's many formats.
+        names = [n for n in sorted(os.listdir(folder)) if n.endswith((".msh", ".node"))]
+        self.assertGreater(len(names), 50)
+        for name in names:
+            with self.subTest(name=name):
+                done = run("info", os.path.join(folder, name), "--json")
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                if done.returncode == 0:
+                    self.assertEqual(run_json("info", os.path.join(folder, name))["meshes"][0]["file"][-4:], name[-4:])
+                else:
+                    self.assertEqual(done.stdout, b"")
+                    self.assertRegex(done.stderr.decode(errors="replace"), r"\Avox: .")
+
+
+if __name__ == "__main__":
+    if not os.path.isdir(MESHES):
+        print(f"no meshes in {MESHES}: set VOX_MESHES to the folder that holds them")
+        sys.exit(1 if os.environ.get("VOX_REQUIRE_MESHES") else 77)
+    unittest.main()

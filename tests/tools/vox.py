@@ -1,0 +1,46 @@
+"""Runs the vox command line for the tests beside this file."""
+
+import json
+import math
+import os
+import subprocess
+
+TOOL = os.environ["VOX_TOOL"]
+
+
+def run(*arguments, **variables):
+    """Runs vox with more environment variables; a run of ten minutes counts as hung."""
+    environment = {**os.environ, "LC_ALL": "C", **variables}
+    command = [TOOL, *(a if isinstance(a, bytes) else str(a) for a in arguments)]
+    return subprocess.run(command, capture_output=True, env=environment, timeout=600)
+
+
+def _no_constant(name):
+    raise ValueError(f"{name} is no JSON number")
+
+
+def run_json(*arguments):
+    """The object that vox prints with --json; fails unless that is all it prints, in strict JSON."""
+    done = run(*arguments, "--json")
+    if done.returncode != 0:
+        raise AssertionError(f"{arguments}: exit code {done.returncode}, {done.stderr.decode()!r}")
+    if done.stderr:
+        raise AssertionError(f"{arguments}: standard error has {done.stderr.decode()!r}")
+    text = done.stdout.decode("utf-8")
+    found = json.loads(text, parse_constant=_no_constant)
+    if not isinstance(found, dict) or not text.endswith("}\n"):
+        raise AssertionError(f"{arguments}: standard output is not one object and a newline")
+    for value in numbers(found):
+        if not math.isfinite(value):
+            raise AssertionError(f"{arguments}: a number overflows")
+    return found
+
+
+def numbers(value):
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        for element in value:
+            yield from numbers(element)
+    elif isinstance(value, (int, float)):
+        yield float(value)
