@@ -1,0 +1,160 @@
+// Hits to contacts: the order, the rule for shared boundaries, the hash.
+#include "contacts.hpp"
+#include "scenes.hpp"
+#include "suite.h"
+
+#include <set>
+#include <tuple>
+
+using namespace vox;
+
+namespace {
+
+constexpr Vec3f corner_positions[4] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+
+// All vertices at (1, 1, 1) but for the first four, all tetrahedra (0, 1, 2, 3): only the indices differ.
+Mesh uniform_mesh(std::size_t vertices, std::size_t tets) {
+    Mesh mesh;
+    mesh.positions.assign(corner_positions, corner_positions + 4);
+    mesh.positions.resize(vertices, Vec3f{1, 1, 1});
+    mesh.tets.assign(tets, Tet{{0, 1, 2, 3}});
+    return mesh;
+}
+
+using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+
+Key key(const Hit& hit) { return {hit.body_a, hit.vertex, hit.body_b, hit.tet}; }
+
+// The rule of vox_contact, read literally.
+std::vector<Hit> expected_hits(const std::pmr::vector<Hit>& hits) {
+    std::vector<Hit> expected;
+    for (const Hit& hit : hits) {
+        bool first = true, any_interior = false;
+        for (const Hit& other : hits) {
+            if (other.body_a != hit.body_a || other.vertex != hit.vertex || other.body_b != hit.body_b)
+                continue;
+            any_interior |= other.interior != 0;
+            first &= other.tet >= hit.tet;
+        }
+        if (hit.interior || (!any_interior && first)) expected.push_back(hit);
+    }
+    std::sort(expected.begin(), expected.end(), [](const Hit& x, const Hit& y) { return key(x) < key(y); });
+    return expected;
+}
+
+// The hits are between 300 bodies that all look like `mesh`.
+void check(const Mesh& mesh, std::pmr::vector<Hit> hits) {
+    const std::vector<Hit> expected = expected_hits(hits);
+    const Positions positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)};
+    const Body view{0, static_cast<std::uint32_t>(mesh.positions.size()), positions, mesh.tets, true};
+    std::vector<Body> views(300, view);
+    for (std::size_t b = 0; b < views.size(); ++b)
+        views[b].mesh_id = static_cast<std::uint32_t>(1000 + 3 * b);
+    std::pmr::vector<Hit> scratch;
+    std::pmr::vector<vox_contact> contacts(5); // left-overs of another step
+    make_contacts(views, hits, scratch, contacts);
+    ck_assert_uint_eq(contacts.size(), expected.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        ck_assert_uint_eq(contacts[i].mesh_a, 1000 + 3 * expected[i].body_a);
+        ck_assert_uint_eq(contacts[i].vertex, expected[i].vertex);
+        ck_assert_uint_eq(contacts[i].mesh_b, 1000 + 3 * expected[i].body_b);
+        ck_assert_uint_eq(contacts[i].tet, expected[i].tet);
+        for (const float weight : contacts[i].barycentric) ck_assert_float_eq(weight, 0.25f);
+    }
+}
+
+Hit hit(std::uint32_t body_a, std::uint32_t vertex, std::uint32_t body_b, std::uint32_t tet, bool interior) {
+    return {body_a, vertex, body_b, tet & 0x7fffffffu, interior};
+}
+
+START_TEST(any_order_of_hits_becomes_canonical) {
+    const Scene scene =
+        uniform_scene(300, 80000, 70000); // bodies, vertices and tets of one, two and three digits
+    Random random{21};
+    for (const std::uint32_t count : {0u, 1u, 2u, 100u, 255u, 256u, 257u, 1500u}) {
+        for (const std::uint32_t spread : {1u, 2u, 300u}) {        // of bodies
+            for (const std::uint32_t range : {3u, 200u, 66000u}) { // of vertices and tets
+                std::set<Key> keys;
+                for (std::uint32_t i = 0; i < count; ++i)
+                    keys.emplace(random.below(spread), 4 + random.below(range), random.below(spread),
+                                 random.below(range));
+                std::pmr::vector<Hit> sorted_hits, hits;
+                for (const auto& [body_a, vertex, body_b, tet] : keys)
+                    sorted_hits.push_back(hit(body_a, vertex, body_b, tet, random.below(3) == 0));
+                check(mesh, sorted_hits);
+                for (const std::uint32_t i : permutation(random, sorted_hits.size()))
+                    hits.push_back(sorted_hits[i]);
+                check(mesh, hits);
+                std::stable_sort(hits.begin(), hits.end(),
+                                 [](const Hit& x, const Hit& y) { // as an engine gives them
+                                     return std::pair(x.body_b, std::uint32_t(x.tet)) <
+                                            std::pair(y.body_b, std::uint32_t(y.tet));
+                                 });
+                check(mesh, hits);
+            }
+        }
+    }
+}
+END_TEST
+
+START_TEST(interior_hits_hide_boundary_ones) {
+    const Mesh mesh = uniform_mesh(10, 10);
+    check(mesh, {hit(0, 4, 1, 7, false), hit(0, 4, 1, 3, false), hit(0, 4, 1, 5, false)});
+    check(mesh, {hit(0, 4, 1, 7, true), hit(0, 4, 1, 3, false), hit(0, 4, 1, 5, true)});
+    check(mesh,
+          {hit(0, 4, 1, 7, true), hit(0, 4, 2, 3, false), hit(0, 5, 1, 5, false), hit(1, 4, 1, 2, false)});
+}
+END_TEST
+
+vox_contact contact(std::uint32_t a, std::uint32_t vertex, std::uint32_t b, std::uint32_t tet, float w0,
+                    float w1, float w2, float w3) {
+    return {a, vertex, b, tet, {w0, w1, w2, w3}};
+}
+
+START_TEST(hash_is_as_documented) {
+    // Both numbers from a separate program after the words in contacts.hpp.
+    ck_assert_uint_eq(hash_contacts({}), 0);
+    const vox_contact two[] = {contact(1, 2, 3, 4, 0.5f, 0.25f, 0.125f, 0.125f),
+                               contact(4294967295u, 0, 7, 2147483646u, 1, 0, 0, 0)};
+    ck_assert_uint_eq(hash_contacts(two), 0xf71c9ed4018d3c52u);
+}
+END_TEST
+
+START_TEST(hash_tells_every_field_and_the_order) {
+    std::vector<vox_contact> list(3, contact(1, 2, 3, 4, 0.5f, 0.25f, 0.125f, 0.125f));
+    list[1].vertex = 9;
+    std::set<std::uint64_t> hashes{hash_contacts(list)};
+    const auto differs = [&hashes](std::vector<vox_contact> changed, auto&& change) {
+        change(changed);
+        ck_assert(hashes.insert(hash_contacts(changed)).second);
+    };
+    using List = std::vector<vox_contact>&;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        differs(list, [i](List l) { ++l[i].mesh_a; });
+        differs(list, [i](List l) { l[i].vertex += 20; });
+        differs(list, [i](List l) { ++l[i].mesh_b; });
+        differs(list, [i](List l) { ++l[i].tet; });
+        for (std::size_t w = 0; w < 4; ++w)
+            differs(list,
+                    [i, w](List l) { l[i].barycentric[w] = std::nextafter(l[i].barycentric[w], 2.0f); });
+    }
+    differs(list, [](List l) { std::swap(l[0], l[1]); });
+    differs(list, [](List l) { l.pop_back(); });
+    differs(list, [](List l) { l.clear(); });
+    differs(list, [](List l) { l.push_back(vox_contact{}); });
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("canonical contacts");
+    TCase* tests = tcase_create("contacts");
+    tcase_set_timeout(tests, 0); // a slow machine is no failure
+    tcase_add_test(tests, any_order_of_hits_becomes_canonical);
+    tcase_add_test(tests, interior_hits_hide_boundary_ones);
+    tcase_add_test(tests, hash_is_as_documented);
+    tcase_add_test(tests, hash_tells_every_field_and_the_order);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}

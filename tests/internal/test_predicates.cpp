@@ -1,0 +1,236 @@
+// The predicates against GMP: every sign, every containment, every weight, on points of every kind.
+#include "oracle.h"
+#include "predicates.hpp"
+#include "random.hpp"
+#include "suite.h"
+
+#include <algorithm>
+#include <cfloat>
+
+using namespace vox;
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+Vec3f vec(const Point& p) { return {p[0], p[1], p[2]}; }
+
+float nudge(float value, int steps) {
+    for (; steps > 0; --steps) value = std::nextafter(value, FLT_MAX);
+    for (; steps < 0; ++steps) value = std::nextafter(value, -FLT_MAX);
+    return value;
+}
+
+// ---- kinds of points ------------------------------------------------------------------------------
+
+struct Case {
+    Point p, corner[4];
+};
+
+using Coordinate = float (*)(Random&);
+
+float unit_range(Random& r) { return r.uniform(-1, 1); }
+float small_grid(Random& r) { return static_cast<float>(r.below(4)); } // most determinants are 0
+float fine_grid(Random& r) { return static_cast<float>(r.below(257)) / 64.0f - 2.0f; }
+float far_away(Random& r) { return 1e6f + r.uniform(-1, 1); } // few bits are left: near-degenerate
+float huge(Random& r) { return r.uniform(-1e30, 1e30); }
+float largest(Random& r) { return r.below(2) ? FLT_MAX : r.below(2) ? -FLT_MAX : r.uniform(-1, 1); }
+float denormal(Random& r) { return static_cast<float>(r.below(9)) * FLT_TRUE_MIN; }
+float tiny(Random& r) { return r.uniform(-1e-38, 1e-38); }
+float one_huge_among_small(Random& r) { return r.below(8) == 0 ? 1e30f : r.uniform(-1, 1); }
+float exponents_apart(Random& r) {
+    return std::ldexp(r.uniform(-1, 1), static_cast<int>(r.below(250)) - 125);
+}
+float any_bits(Random& r) { return r.any_finite(); }
+float few_ulps(Random& r) { return nudge(0.5f, static_cast<int>(r.below(5))); } // 0.5 and its neighbours
+
+constexpr Coordinate coordinates[] = {
+    unit_range, small_grid,           fine_grid,       far_away, huge,    largest, denormal,
+    tiny,       one_huge_among_small, exponents_apart, any_bits, few_ulps};
+
+Case independent_points(Random& r, Coordinate coordinate) {
+    Case c;
+    for (float& x : c.p) x = coordinate(r);
+    for (Point& corner : c.corner)
+        for (float& x : corner) x = coordinate(r);
+    return c;
+}
+
+// A point rounded from a combination of some of the corners: in, on, or an ulp off the tetrahedron or its
+// parts.
+Case point_on_part(Random& r, Coordinate coordinate) {
+    Case c = independent_points(r, coordinate);
+    const std::uint32_t parts = 1 + r.below(4);
+    double weight[4] = {}, total = 0;
+    for (std::uint32_t i = 0; i < parts; ++i) total += weight[i] = r.below(2) ? 1 : r.unit() + 1e-9;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (std::size_t i = 0; i < 4; ++i) sum += weight[i] / total * static_cast<double>(c.corner[i][axis]);
+        c.p[axis] = static_cast<float>(std::clamp(sum, -double(FLT_MAX), double(FLT_MAX)));
+        if (r.below(4) == 0 && std::isfinite(nudge(c.p[axis], 1))) c.p[axis] = nudge(c.p[axis], 1);
+    }
+    return c;
+}
+
+// The fourth corner is rounded from the plane of the others: a sliver of a few ulps, or flat.
+Case flattened(Random& r, Coordinate coordinate) {
+    Case c = point_on_part(r, coordinate);
+    const double s = r.unit(), t = r.unit() * (1 - s);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double a = c.corner[0][axis], b = c.corner[1][axis], d = c.corner[2][axis];
+        c.corner[3][axis] = static_cast<float>((1 - s - t) * a + s * b + t * d);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (const Point& corner : c.corner) sum += static_cast<double>(corner[axis]) / 4;
+        c.p[axis] = static_cast<float>(sum);
+    }
+    return c;
+}
+
+using Kind = Case (*)(Random&, Coordinate);
+constexpr Kind kinds[] = {independent_points, point_on_part, flattened};
+constexpr int cases_per_kind = 6000;
+
+template <class Function>
+void for_each_case(Function&& function) {
+    Random random{1};
+    for (const Kind kind : kinds)
+        for (const Coordinate coordinate : coordinates)
+            for (int i = 0; i < cases_per_kind; ++i) function(kind(random, coordinate));
+}
+
+oracle_containment oracle(const Case& c) {
+    const float* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                     c.corner[3].data()};
+    return oracle_locate(c.p.data(), corners);
+}
+
+Containment containment(oracle_containment where) {
+    switch (where) {
+    case ORACLE_BOUNDARY:
+        return Containment::boundary;
+    case ORACLE_INTERIOR:
+        return Containment::interior;
+    case ORACLE_DEGENERATE:
+        return Containment::degenerate;
+    default:
+        return Containment::outside;
+    }
+}
+
+// ---- tests ----------------------------------------------------------------------------------------
+
+START_TEST(orientation_has_the_exact_sign) {
+    std::uint64_t exact_tests = 0;
+    int seen[3] = {};
+    for_each_case([&](const Case& c) {
+        const int expected = oracle_orientation(c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                                c.corner[3].data());
+        ck_assert_int_eq(
+            orientation(vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3]), exact_tests),
+            expected);
+        ck_assert_int_eq(
+            orientation(vec(c.corner[1]), vec(c.corner[0]), vec(c.corner[2]), vec(c.corner[3]), exact_tests),
+            -expected);
+        ck_assert_int_eq(
+            exact_orientation(vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3])),
+            expected);
+        ++seen[expected + 1];
+    });
+    for (const int count : seen) ck_assert_int_gt(count, 10000); // the cases are of every sign
+    ck_assert_uint_gt(exact_tests, 1000);                        // and the exact path was taken
+}
+END_TEST
+
+START_TEST(orientation_sign_follows_its_definition) {
+    std::uint64_t exact_tests = 0;
+    const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}; // counter-clockwise seen from +z
+    ck_assert_int_eq(orientation(a, b, c, {0, 0, 1}, exact_tests), 1);
+    ck_assert_int_eq(orientation(a, b, c, {0, 0, -1}, exact_tests), -1);
+    ck_assert_int_eq(orientation(a, b, c, {5, 7, 0}, exact_tests), 0);
+    ck_assert_int_eq(orientation(a, b, c, {0, 0, FLT_TRUE_MIN}, exact_tests), 1);
+}
+END_TEST
+
+START_TEST(filter_decides_clear_cases_alone) {
+    Random random{3};
+    std::uint64_t exact_tests = 0;
+    const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3f p{random.uniform(0.01, 0.3), random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)};
+        ck_assert(locate(p, a, b, c, d, exact_tests) == Containment::interior);
+        ck_assert(locate({p.x + 1, p.y, p.z}, a, b, c, d, exact_tests) == Containment::outside);
+    }
+    ck_assert_uint_eq(exact_tests, 0);
+}
+END_TEST
+
+START_TEST(locate_is_exact) {
+    std::uint64_t exact_tests = 0;
+    int seen[4] = {};
+    for_each_case([&](const Case& c) {
+        const Containment expected = containment(oracle(c));
+        const Vec3f p = vec(c.p),
+                    q[4] = {vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3])};
+        ck_assert(locate(p, q[0], q[1], q[2], q[3], exact_tests) == expected);
+        ck_assert(locate(p, q[0], q[1], q[3], q[2], exact_tests) == expected); // the other winding
+        if (expected != Containment::degenerate)
+            ck_assert(locate_in_solid(p, q[0], q[1], q[2], q[3], exact_tests) == expected);
+        ++seen[static_cast<int>(expected)];
+    });
+    for (const int count : seen) ck_assert_int_gt(count, 2000);
+    ck_assert_uint_gt(exact_tests, 1000);
+}
+END_TEST
+
+START_TEST(barycentric_is_near_the_true_weights) {
+    int tested = 0;
+    for_each_case([&](const Case& c) {
+        const oracle_containment where = oracle(c);
+        if (where != ORACLE_INTERIOR && where != ORACLE_BOUNDARY) return;
+        const float* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                         c.corner[3].data()};
+        double expected[4];
+        oracle_barycentric(c.p.data(), corners, expected);
+        const std::array<float, 4> weights =
+            barycentric(vec(c.p), vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3]));
+        double sum = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            ck_assert_double_le(std::abs(static_cast<double>(weights[i]) - expected[i]), 0x1p-20);
+            ck_assert_float_ge(weights[i], 0);
+            ck_assert_float_le(weights[i], 1);
+            ck_assert(!std::signbit(weights[i]));
+            sum += static_cast<double>(weights[i]);
+        }
+        ck_assert_double_le(std::abs(sum - 1), 0x1p-22);
+        ++tested;
+    });
+    ck_assert_int_gt(tested, 20000);
+}
+END_TEST
+
+START_TEST(barycentric_of_corners_is_one) {
+    const Vec3f q[4] = {{1e30f, 0, 0}, {0, 1, 0}, {0, 0, 1e-30f}, {FLT_TRUE_MIN, 0, 0}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::array<float, 4> weights = barycentric(q[i], q[0], q[1], q[2], q[3]);
+        for (std::size_t j = 0; j < 4; ++j) ck_assert_float_eq(weights[j], i == j ? 1.0f : 0.0f);
+    }
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("predicates");
+    TCase* tests = tcase_create("exactness");
+    tcase_set_timeout(tests, 0); // a slow machine is no failure
+    tcase_add_test(tests, orientation_has_the_exact_sign);
+    tcase_add_test(tests, orientation_sign_follows_its_definition);
+    tcase_add_test(tests, filter_decides_clear_cases_alone);
+    tcase_add_test(tests, locate_is_exact);
+    tcase_add_test(tests, barycentric_is_near_the_true_weights);
+    tcase_add_test(tests, barycentric_of_corners_is_one);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}

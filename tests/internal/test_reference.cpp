@@ -1,0 +1,608 @@
+// The reference engine against brute force in exact arithmetic, on scenes of every kind, for all storages and
+// for cell sizes from absurdly small to absurdly large.
+#include "contacts.hpp"
+#include "error.hpp"
+#include "reference.hpp"
+#include "scenes.hpp"
+#include "suite.h"
+
+#include <cstring>
+#include <string>
+#include <tuple>
+
+using namespace vox;
+
+namespace {
+
+// Counts allocations and refuses what does not fit.
+class Memory final : public std::pmr::memory_resource {
+public:
+    std::size_t allocations = 0;
+    std::size_t bytes = 0;
+    std::size_t budget = std::size_t(1) << 26;
+
+private:
+    void* do_allocate(std::size_t size, std::size_t alignment) override {
+        if (size > budget - bytes) throw Error(VOX_ERROR_BUDGET, format("%zu bytes do not fit", size));
+        ++allocations;
+        bytes += size;
+        return std::pmr::new_delete_resource()->allocate(size, alignment);
+    }
+    void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+        bytes -= size;
+        std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+    }
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+// The engine with all that it keeps from step to step.
+struct Engine {
+    Memory memory;
+    Reference reference{&memory};
+    std::pmr::vector<Hit> hits{&memory}, scratch{&memory};
+    std::pmr::vector<vox_contact> contacts{&memory};
+    vox_counters counters{};
+    vox_profile profile{};
+
+    void detect(const Scene& scene, const ReferenceSettings& settings) {
+        hits.clear();
+        reference.detect(bodies(scene), settings, hits, counters, profile);
+    }
+    void step(const Scene& scene, const ReferenceSettings& settings) {
+        detect(scene, settings);
+        make_contacts(bodies(scene), hits, scratch, contacts);
+    }
+};
+
+struct Storage {
+    vox_storage storage;
+    vox_hash hash;
+    std::uint64_t table_size;
+    bool small_world; // dense storage in a box that much of the scene lies outside of
+};
+
+constexpr Storage storages[] = {
+    {VOX_STORAGE_HASHED, VOX_HASH_MIXED, 0, false}, {VOX_STORAGE_HASHED, VOX_HASH_PAPER, 0, false},
+    {VOX_STORAGE_AUTO, VOX_HASH_MIXED, 1, false}, // two buckets: nearly every cell collides
+    {VOX_STORAGE_HASHED, VOX_HASH_PAPER, 7, false}, {VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, false},
+    {VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, true},
+};
+
+// In mean edges.
+constexpr double cell_sizes[] = {0.2, 0.5, 1, 1.5, 3, 8, 1e-6, 1e6};
+
+ReferenceSettings settings_of(const Storage& storage, double cell_size) {
+    ReferenceSettings settings{cell_size, storage.storage, storage.hash, storage.table_size, {}, {}};
+    if (storage.small_world) {
+        settings.world_min = {-1.5 * cell_size, -1.5 * cell_size, 0};
+        settings.world_max = {1.5 * cell_size, 2 * cell_size, 0.5 * cell_size};
+    }
+    return settings;
+}
+
+// Cells that dense storage needs for the box of all positions.
+double dense_cells(const Scene& scene, double cell_size) {
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        double min = 0, max = 0;
+        bool first = true;
+        for (const Mesh& mesh : scene)
+            for (const Vec3f& p : mesh.positions) {
+                const double x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+                min = first ? x : std::min(min, x);
+                max = first ? x : std::max(max, x);
+                first = false;
+            }
+        count *= std::max(1.0, std::ceil((max - min) / cell_size));
+    }
+    return count;
+}
+
+void check_contacts(const std::pmr::vector<vox_contact>& found, const oracle_contact* expected,
+                    std::size_t count) {
+    ck_assert_uint_eq(found.size(), count);
+    for (std::size_t i = 0; i < count; ++i) {
+        ck_assert_uint_eq(found[i].mesh_a, expected[i].mesh_a);
+        ck_assert_uint_eq(found[i].vertex, expected[i].vertex);
+        ck_assert_uint_eq(found[i].mesh_b, expected[i].mesh_b);
+        ck_assert_uint_eq(found[i].tet, expected[i].tet);
+        for (std::size_t w = 0; w < 4; ++w)
+            ck_assert_double_le(std::abs(double(found[i].barycentric[w]) - expected[i].barycentric[w]),
+                                0x1p-20);
+    }
+}
+
+// Every storage and cell size gives the oracle's contacts. Returns their number.
+std::size_t check_scene(Engine& engine, const Scene& scene) {
+    const std::vector<oracle_mesh> meshes = oracle_meshes(scene);
+    const auto mesh_count = static_cast<std::uint32_t>(meshes.size());
+    oracle_contact* expected;
+    const std::size_t count = oracle_contacts(meshes.data(), mesh_count, &expected);
+    const std::size_t degenerate = oracle_degenerate_tets(meshes.data(), mesh_count);
+    std::size_t vertices = 0;
+    for (const Mesh& mesh : scene) vertices += mesh.positions.size();
+
+    const double edge = mean_edge(scene);
+    std::uint64_t hash = 0;
+    bool first = true;
+    for (const double factor : cell_sizes) {
+        for (const Storage& storage : storages) {
+            const ReferenceSettings settings = settings_of(storage, factor * edge);
+            try {
+                engine.step(scene, settings);
+            } catch (const Error& error) {
+                // Only dense storage may refuse, and only when its cells are too many.
+                ck_assert(storage.storage == VOX_STORAGE_DENSE && !storage.small_world);
+                ck_assert_double_gt(dense_cells(scene, settings.cell_size), 1e6);
+                ck_assert(error.result() == VOX_ERROR_LIMIT || error.result() == VOX_ERROR_BUDGET);
+                ck_assert_ptr_nonnull(std::strstr(error.what(), "cells of size"));
+                continue;
+            }
+            check_contacts(engine.contacts, expected, count);
+            if (first) hash = hash_contacts(engine.contacts);
+            first = false;
+            ck_assert_uint_eq(hash_contacts(engine.contacts), hash); // the weights too, bit for bit
+
+            const vox_counters& c = engine.counters;
+            ck_assert_uint_eq(c.skipped_degenerate, degenerate);
+            ck_assert_uint_eq(c.entries, vertices);
+            ck_assert_uint_le(c.cells, c.entries);
+            ck_assert_uint_le(c.fullest_cell, c.entries);
+            ck_assert_uint_ge(c.fullest_cell * c.cells, c.entries);
+            ck_assert_uint_le(c.candidates, c.visited_entries);
+            ck_assert_uint_ge(c.candidates, count);
+        }
+    }
+    free(expected);
+    return count;
+}
+
+float unit_range(Random& r) { return r.uniform(-1, 1); }
+float quantised(Random& r) { return static_cast<float>(r.below(9)) / 4.0f - 1.0f; }
+float any_bits(Random& r) { return r.any_finite(); }
+float far_quantised(Random& r) { return -1e6f + static_cast<float>(r.below(16)) / 16.0f; }
+
+Scene two_blocks(const Vec3d& offset) { return {block(2, 2, 2, {0, 0, 0}, 1), block(2, 2, 2, offset, 1)}; }
+
+// ---- against brute force --------------------------------------------------------------------------
+
+START_TEST(random_soups) {
+    Engine engine;
+    Random random{11};
+    std::size_t contacts = 0;
+    for (int i = 0; i < 60; ++i) {
+        for (float (*coordinate)(Random&) : {unit_range, quantised, any_bits, far_quantised}) {
+            Scene scene{soup(random, 4 + random.below(30), random.below(60), coordinate),
+                        soup(random, 4 + random.below(30), random.below(60), coordinate)};
+            if (random.below(2))
+                scene.push_back(soup(random, 1 + random.below(9), 0, coordinate)); // points only
+            for (Mesh& mesh : scene) mesh.self_collision = random.below(2);
+            contacts += check_scene(engine, scene);
+        }
+    }
+    ck_assert_uint_gt(contacts, 3000);
+}
+END_TEST
+
+START_TEST(jittered_blocks_in_all_units) {
+    Engine engine;
+    Random random{12};
+    std::size_t contacts = 0;
+    for (int i = 0; i < 15; ++i) {
+        const Vec3d offset{1.5 * random.unit(), 1.5 * random.unit(), 1.5 * random.unit()};
+        Scene scene = two_blocks(offset);
+        for (Mesh& mesh : scene) {
+            mesh = jittered(mesh, random, 0.6); // many tetrahedra fold over
+            mesh.self_collision = true;
+        }
+        contacts += check_scene(engine, scene);
+        for (const float scale : {1e-3f, 1e3f, 1e-30f, 1e30f})
+            contacts += check_scene(engine, mapped(scene, [=](const Vec3f& p) {
+                                        return Vec3f{p.x * scale, p.y * scale, p.z * scale};
+                                    }));
+        for (const float far : {1e6f, -1e6f}) // few bits are left: vertices coincide, tetrahedra are flat
+            contacts += check_scene(engine, mapped(scene, [=](const Vec3f& p) {
+                                        return Vec3f{p.x + far, p.y - far, p.z + far};
+                                    }));
+    }
+    ck_assert_uint_gt(contacts, 1000);
+}
+END_TEST
+
+START_TEST(aligned_blocks) {
+    Engine engine;
+    for (double x = -2; x <= 2; x += 0.5)
+        for (const double y : {0.0, 0.25, 1.0})
+            for (const double z : {0.0, 0.5, 2.0}) {
+                Scene scene = two_blocks({x, y, z});
+                check_scene(engine, scene);
+                ck_assert_uint_eq(check_scene(engine, swapped_winding(scene)), check_scene(engine, scene));
+            }
+}
+END_TEST
+
+START_TEST(one_mesh_inside_another) {
+    Engine engine;
+    const Scene scene{block(3, 3, 3, {-3, -3, -3}, 2), block(1, 1, 1, {0.25, 0.375, 0.3125}, 0.125)};
+    ck_assert_uint_eq(check_scene(engine, scene), 8);
+}
+END_TEST
+
+START_TEST(coincident_bodies_and_duplicate_tets) {
+    Engine engine;
+    Scene scene{block(2, 2, 2, {0, 0, 0}, 1), block(2, 2, 2, {0, 0, 0}, 1)};
+    scene[0].tets.insert(scene[0].tets.end(), scene[1].tets.begin(), scene[1].tets.end());
+    scene[0].self_collision = true;
+    // Every vertex of each body lies on corners of the other: one contact each. Within a body, all tetrahedra
+    // that touch a vertex own it.
+    ck_assert_uint_eq(check_scene(engine, scene), 2 * 27);
+}
+END_TEST
+
+START_TEST(shared_parts_give_one_contact) {
+    Engine engine;
+    Scene scene{block(2, 2, 2, {0, 0, 0}, 1), Mesh{}};
+    const Vec3f on_face{1, 0.25f, 0.5f}, on_edge{1, 1, 0.5f}, on_corner{1, 1, 1}, inside{0.25f, 0.5f, 0.75f};
+    for (const Vec3f& p : {on_face, on_edge, on_corner, inside}) {
+        scene[1].positions = {p};
+        ck_assert_uint_eq(check_scene(engine, scene), 1);
+    }
+    // Interior to a tetrahedron and on a face of another: the interior ones alone are reported.
+    scene[1].positions = {on_face};
+    scene[0].positions.insert(scene[0].positions.end(), {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 8}});
+    scene[0].tets.push_back({{27, 28, 29, 30}});
+    scene[0].tets.push_back({{27, 29, 28, 30}});
+    ck_assert_uint_eq(check_scene(engine, scene), 2);
+    ck_assert_uint_eq(engine.contacts[0].tet, 48);
+    ck_assert_uint_eq(engine.contacts[1].tet, 49);
+}
+END_TEST
+
+START_TEST(flat_tets_hold_nothing) {
+    Engine engine;
+    Scene scene = two_blocks({0.5, 0.5, 0.5});
+    for (Vec3f& p : scene[0].positions) p.z = 0.5f;
+    check_scene(engine, scene); // the flat body's vertices still lie in the other one
+    ck_assert_uint_gt(engine.contacts.size(), 0);
+    for (const vox_contact& contact : engine.contacts) ck_assert_uint_eq(contact.mesh_b, 1);
+    ck_assert_uint_eq(engine.counters.skipped_degenerate, 48);
+    for (Vec3f& p : scene[1].positions) p = {0.5f, 0.5f, 0.5f};
+    ck_assert_uint_eq(check_scene(engine, scene), 0);
+    ck_assert_uint_eq(engine.counters.skipped_degenerate, 96);
+}
+END_TEST
+
+START_TEST(far_vertices_and_slivers) {
+    Engine engine;
+    Random random{13};
+    for (const float far : {1e30f, -3e38f, 1000.0f}) {
+        for (std::uint32_t i = 0; i < 9; ++i) {
+            Scene scene = two_blocks({0.5, 0.25, 0.75});
+            for (Mesh& mesh : scene) {
+                mesh = jittered(mesh, random, 0.2);
+                mesh.self_collision = true;
+            }
+            (&scene[0].positions[3 * i].x)[i % 3] = far; // all tetrahedra at this vertex become slivers
+            check_scene(engine, scene);
+        }
+    }
+}
+END_TEST
+
+START_TEST(empty_and_minimal_scenes) {
+    Engine engine;
+    ck_assert_uint_eq(check_scene(engine, {}), 0);
+    ck_assert_uint_eq(check_scene(engine, {Mesh{}, Mesh{}}), 0);
+    ck_assert_uint_eq(
+        check_scene(engine, {Mesh{{{1, 2, 3}}, {}, true}, Mesh{}, Mesh{{{1, 2, 3}}, {}, false}}), 0);
+    const Mesh tet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{{0, 1, 2, 3}}}, true};
+    ck_assert_uint_eq(check_scene(engine, {tet}), 0);
+    ck_assert_uint_eq(check_scene(engine, {tet, Mesh{}, Mesh{{{0.25f, 0.25f, 0.25f}}, {}, false}}), 1);
+}
+END_TEST
+
+START_TEST(more_candidates_than_any_block) {
+    Engine engine;
+    Random random{14};
+    Scene scene{soup(random, 9000, 0, unit_range), Mesh{}};
+    scene[1].positions = {{-9, -9, -9}, {9, -9, -9}, {-9, 9, -9}, {-9, -9, 9}};
+    scene[1].tets = {{{0, 1, 2, 3}}, {{0, 2, 1, 3}}};
+    for (Vec3f& p : scene[0].positions) p = {p.x - 6, p.y - 6, p.z - 6};
+    for (const double cell_size : {0.01, 1.0, 100.0}) {
+        engine.step(scene, settings_of(storages[0], cell_size));
+        ck_assert_uint_eq(engine.counters.candidates, 18000);
+        ck_assert_uint_eq(engine.contacts.size(), 18000);
+    }
+}
+END_TEST
+
+// ---- properties -----------------------------------------------------------------------------------
+
+// What does not change when a scene is moved, scaled, or turned inside out.
+std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, bool>>
+sorted_hits(Engine& engine, const Scene& scene, double cell_size) {
+    engine.detect(scene, settings_of(storages[0], cell_size));
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, bool>> hits;
+    for (const Hit& hit : engine.hits)
+        hits.emplace_back(hit.body_a, hit.vertex, hit.body_b, hit.tet, hit.interior);
+    std::sort(hits.begin(), hits.end());
+    return hits;
+}
+
+Scene quantised_scene(Random& random) {
+    Scene scene{soup(random, 40, 60, quantised), block(2, 3, 1, {-1, -1.25, -0.5}, 0.75)};
+    for (Mesh& mesh : scene) mesh.self_collision = true;
+    return scene;
+}
+
+START_TEST(moving_and_scaling_change_nothing) {
+    Engine engine;
+    Random random{15};
+    for (int i = 0; i < 20; ++i) {
+        const Scene scene = quantised_scene(random);
+        const auto expected = sorted_hits(engine, scene, 0.7);
+        ck_assert_uint_gt(expected.size(), 0);
+        for (const float d : {1.0f, -1024.0f, 65536.0f}) // exact: the coordinates are multiples of 1/4
+            ck_assert(sorted_hits(engine,
+                                  mapped(scene,
+                                         [=](const Vec3f& p) {
+                                             return Vec3f{p.x + d, p.y - d, p.z + 2 * d};
+                                         }),
+                                  0.7) == expected);
+        for (const int exponent : {-120, -20, 1, 20, 120})
+            ck_assert(sorted_hits(engine,
+                                  mapped(scene,
+                                         [=](const Vec3f& p) {
+                                             return Vec3f{std::ldexp(p.x, exponent),
+                                                          std::ldexp(p.y, exponent),
+                                                          std::ldexp(p.z, exponent)};
+                                         }),
+                                  std::ldexp(0.7, exponent)) == expected);
+        ck_assert(sorted_hits(engine, swapped_winding(scene), 0.7) == expected);
+    }
+}
+END_TEST
+
+START_TEST(shuffling_renames_and_no_more) {
+    Engine engine;
+    Random random{16};
+    for (int i = 0; i < 20; ++i) {
+        const Scene scene = quantised_scene(random);
+        const auto expected = sorted_hits(engine, scene, 0.7);
+        Scene shuffled = scene;
+        std::vector<std::vector<std::uint32_t>> old_vertex, old_tet; // by mesh, from new index to old
+        for (std::size_t m = 0; m < scene.size(); ++m) {
+            old_vertex.push_back(permutation(random, scene[m].positions.size()));
+            old_tet.push_back(permutation(random, scene[m].tets.size()));
+            std::vector<std::uint32_t> new_vertex(scene[m].positions.size());
+            for (std::uint32_t v = 0; v < new_vertex.size(); ++v) {
+                new_vertex[old_vertex[m][v]] = v;
+                shuffled[m].positions[v] = scene[m].positions[old_vertex[m][v]];
+            }
+            for (std::size_t t = 0; t < scene[m].tets.size(); ++t)
+                for (std::size_t c = 0; c < 4; ++c)
+                    shuffled[m].tets[t].v[c] = new_vertex[scene[m].tets[old_tet[m][t]].v[c]];
+        }
+        auto hits = sorted_hits(engine, shuffled, 0.7);
+        for (auto& [body_a, vertex, body_b, tet, interior] : hits) {
+            vertex = old_vertex[body_a][vertex];
+            tet = old_tet[body_b][tet];
+        }
+        std::sort(hits.begin(), hits.end());
+        ck_assert(hits == expected);
+    }
+}
+END_TEST
+
+// ---- counters, errors, memory ---------------------------------------------------------------------
+
+START_TEST(counters_of_a_scene_counted_by_hand) {
+    // Cells of size 1. The tetrahedron's box is [0.5, 2.5]^3: 27 objective voxels. Points: two in one of
+    // them, of which one is outside the box; one in another, inside the box but outside the tetrahedron; one
+    // elsewhere.
+    const Scene scene{
+        Mesh{{{0.5f, 0.5f, 0.5f}, {2.5f, 0.5f, 0.5f}, {0.5f, 2.5f, 0.5f}, {0.5f, 0.5f, 2.5f}},
+             {{{0, 1, 2, 3}}},
+             false},
+        Mesh{{{0.75f, 0.75f, 0.75f}, {0.25f, 0.75f, 0.75f}, {2.25f, 2.25f, 2.25f}, {-5, -5, -5}}, {}, false}};
+    Engine engine;
+    for (const vox_hash hash : {VOX_HASH_MIXED, VOX_HASH_PAPER}) {
+        engine.step(scene, {1, VOX_STORAGE_HASHED, hash, 0, {}, {}});
+        const vox_counters& c = engine.counters;
+        ck_assert_uint_eq(c.entries, 8);
+        ck_assert_uint_eq(c.cells,
+                          6); // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2), (-5,-5,-5) one
+        ck_assert_uint_eq(c.fullest_cell, 3);
+        ck_assert_uint_eq(c.visited_cells,
+                          5); // 27 voxels are more than the 6 occupied: only these are visited
+        ck_assert_uint_eq(c.visited_entries, 7);
+        ck_assert_uint_eq(c.candidates, 2);
+        ck_assert_uint_eq(c.exact_tests, 0);
+        ck_assert_uint_eq(engine.contacts.size(), 1);
+    }
+    // Two cells an axis: the far point has one for itself, all others share one.
+    engine.step(scene, {5, VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, {-5, -5, -5}, {5, 5, 5}});
+    ck_assert_uint_eq(engine.counters.cells, 2);
+    ck_assert_uint_eq(engine.counters.visited_cells, 1);
+    ck_assert_uint_eq(engine.counters.visited_entries, 7);
+    ck_assert_uint_eq(engine.counters.candidates, 2);
+}
+END_TEST
+
+START_TEST(every_objective_voxel_is_counted) {
+    // 64 points, each in a cell of its own, and a tetrahedron whose box covers 2 x 2 x 2 cells.
+    Scene scene{Mesh{}, Mesh{}};
+    for (int i = 0; i < 64; ++i)
+        scene[0].positions.push_back({static_cast<float>(i % 4) + 0.5f, static_cast<float>(i / 4 % 4) + 0.5f,
+                                      static_cast<float>(i / 16) - 1.5f});
+    scene[1].positions = {
+        {0.75f, 0.75f, -0.75f}, {1.25f, 0.75f, -0.75f}, {0.75f, 1.25f, -0.75f}, {0.75f, 0.75f, 0.25f}};
+    scene[1].tets = {{{0, 1, 2, 3}}};
+    Engine engine;
+    for (const Storage& storage : storages) {
+        if (storage.small_world) continue;
+        ReferenceSettings settings = settings_of(storage, 1);
+        if (storage.storage == VOX_STORAGE_DENSE)
+            settings.world_min = {-8, -8, -8}, settings.world_max = {8, 8, 8};
+        engine.step(scene, settings);
+        ck_assert_uint_eq(engine.counters.cells, 64);
+        ck_assert_uint_eq(engine.counters.visited_cells, 8);
+        ck_assert_uint_eq(engine.counters.visited_entries, 8 + 4);
+        ck_assert_uint_eq(engine.counters.candidates, 0);
+    }
+}
+END_TEST
+
+START_TEST(non_finite_positions_are_named) {
+    Engine engine;
+    const Scene scene = two_blocks({0.5, 0.5, 0.5});
+    engine.step(scene, settings_of(storages[0], 1));
+    const std::size_t expected = engine.contacts.size();
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const Storage& storage : storages) {
+                Scene broken = scene;
+                (&broken[1].positions[17].x)[axis] = bad;
+                try {
+                    engine.step(broken, settings_of(storage, 1));
+                    ck_abort_msg("a non-finite position went through");
+                } catch (const Error& error) {
+                    ck_assert_int_eq(error.result(), VOX_ERROR_NON_FINITE);
+                    ck_assert_ptr_nonnull(std::strstr(error.what(), "mesh 1, vertex 17: position ("));
+                }
+                engine.step(scene, settings_of(storage, 1)); // usable again
+                ck_assert_uint_eq(engine.contacts.size(), expected);
+            }
+        }
+    }
+}
+END_TEST
+
+START_TEST(budget_is_named_with_cells_and_bytes) {
+    Engine engine;
+    engine.memory.budget = 100000;
+    const Scene scene = two_blocks({0.5, 0.5, 0.5}); // 2.5 wide
+    try {
+        engine.step(scene, {0.01, VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, {}, {}});
+        ck_abort_msg("15 million cells fit in 100000 bytes");
+    } catch (const Error& error) {
+        ck_assert_int_eq(error.result(), VOX_ERROR_BUDGET);
+        ck_assert_ptr_nonnull(
+            std::strstr(error.what(), "250 x 250 x 250 cells of size 0.01, 62500000 bytes"));
+    }
+    engine.step(scene, settings_of(storages[0], 0.01));
+    ck_assert_uint_gt(engine.contacts.size(), 0);
+}
+END_TEST
+
+START_TEST(steady_state_allocates_nothing) {
+    Engine engine;
+    Random random{17};
+    const Scene start = two_blocks({0.5, 0.5, 0.5});
+    for (const Storage& storage : storages) {
+        ReferenceSettings settings = settings_of(storage, 0.4);
+        if (storage.storage == VOX_STORAGE_DENSE)
+            settings.world_min = {-1, -1, -1}, settings.world_max = {4, 4, 4};
+        engine.step(start, settings);
+        for (int i = 0; i < 10; ++i) {
+            Scene moved = start; // less overlap, other cells
+            const double shift = random.unit();
+            for (Vec3f& p : moved[1].positions) p = {p.x + static_cast<float>(shift), p.y, p.z};
+            const std::size_t before = engine.memory.allocations;
+            engine.step(moved, settings);
+            ck_assert_uint_eq(engine.memory.allocations, before);
+        }
+    }
+}
+END_TEST
+
+// ---- the grid's arithmetic ------------------------------------------------------------------------
+
+START_TEST(modulus_is_the_remainder) {
+    Random random{18};
+    for (const std::uint32_t divisor : {1u, 2u, 3u, 7u, 101u, 65537u, 2147483647u, 4294967291u}) {
+        const Modulus modulus(divisor);
+        for (const std::uint32_t number : {0u, 1u, divisor - 1, divisor, 0xffffffffu})
+            ck_assert_uint_eq(modulus(number), number % divisor);
+        for (int i = 0; i < 100000; ++i) {
+            const auto number = static_cast<std::uint32_t>(random.next());
+            ck_assert_uint_eq(modulus(number), number % divisor);
+        }
+    }
+}
+END_TEST
+
+START_TEST(primes) {
+    const std::uint32_t expected[] = {2, 2, 2, 3, 5, 5, 7, 7, 11, 11, 11, 11, 13};
+    for (std::uint32_t n = 0; n < 13; ++n) ck_assert_uint_eq(next_prime(n), expected[n]);
+    ck_assert_uint_eq(next_prime(7920), 7927);
+    ck_assert_uint_eq(next_prime(2147483647), 2147483647);
+    ck_assert_uint_eq(next_prime(std::uint64_t(1) << 40), 4294967291u);
+}
+END_TEST
+
+START_TEST(cells_are_floors_and_monotone) {
+    constexpr std::int32_t far = 1 << 30;
+    const Lattice lattice({0, 0, 0}, 0.5, {-far, -far, -far}, {far, far, far});
+    ck_assert(lattice.cell_of({0.25f, -0.25f, 0.5f}) == (CellCoord{0, -1, 1}));
+    ck_assert(lattice.cell_of({-0.0f, -0.5f, -0.75f}) == (CellCoord{0, -1, -2}));
+    ck_assert(lattice.cell_of({1e30f, -1e30f, -1e-45f}) == (CellCoord{far, -far, -1}));
+    Random random{19};
+    for (const double cell_size : {1e-320, 1e-300, 1e-10, 0.3, 1e10, 1e300, 1.7e308}) {
+        const Lattice any({0, random.unit(), -1e6}, cell_size, {-far, -far, 0}, {far, far, 5});
+        for (int i = 0; i < 100000; ++i) {
+            const float a = random.any_finite(), b = random.any_finite();
+            const CellCoord low = any.cell_of({std::min(a, b), std::min(a, b), std::min(a, b)});
+            const CellCoord high = any.cell_of({std::max(a, b), std::max(a, b), std::max(a, b)});
+            ck_assert(low.i <= high.i && low.j <= high.j && low.k <= high.k);
+            ck_assert(low.i >= -far && high.i <= far && low.k >= 0 && high.k <= 5);
+        }
+    }
+}
+END_TEST
+
+START_TEST(paper_hash_is_teschners) {
+    constexpr std::uint32_t prime = 100003;
+    const PaperAddress address{Modulus(prime)};
+    for (const CellCoord& at :
+         {CellCoord{0, 0, 0}, CellCoord{1, 2, 3}, CellCoord{-1, 5, -7}, CellCoord{1 << 30, -9, 2}}) {
+        const std::int64_t full = std::int64_t(at.i) * 73856093 ^ std::int64_t(at.j) * 19349663 ^
+                                  std::int64_t(at.k) * 83492791; // its lower 32 bits are the wrapped hash
+        ck_assert_uint_eq(address.bucket(address.row(at.j, at.k), at.i),
+                          static_cast<std::uint32_t>(full) % prime);
+    }
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("reference");
+    TCase* tests = tcase_create("engine");
+    tcase_set_timeout(tests, 0); // a slow machine is no failure
+    for (const TTest* test : {random_soups,
+                              jittered_blocks_in_all_units,
+                              aligned_blocks,
+                              one_mesh_inside_another,
+                              coincident_bodies_and_duplicate_tets,
+                              shared_parts_give_one_contact,
+                              flat_tets_hold_nothing,
+                              far_vertices_and_slivers,
+                              empty_and_minimal_scenes,
+                              more_candidates_than_any_block,
+                              moving_and_scaling_change_nothing,
+                              shuffling_renames_and_no_more,
+                              counters_of_a_scene_counted_by_hand,
+                              every_objective_voxel_is_counted,
+                              non_finite_positions_are_named,
+                              budget_is_named_with_cells_and_bytes,
+                              steady_state_allocates_nothing,
+                              modulus_is_the_remainder,
+                              primes,
+                              cells_are_floors_and_monotone,
+                              paper_hash_is_teschners})
+        tcase_add_test(tests, test);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
