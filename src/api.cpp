@@ -35,9 +35,9 @@ const char* vox_build_info(void) {
 #endif
         ", C++ " VOX_STRING(__cplusplus)
 #if defined(NDEBUG)
-        ", release"
+            ", release"
 #else
-        ", debug"
+            ", debug"
 #endif
         ;
 }
@@ -155,7 +155,8 @@ vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* po
         Mesh& target = grid->mesh(mesh);
         require(positions, "positions");
         check_format(format, "");
-        target.bind({static_cast<const std::byte*>(positions), check_stride(byte_stride, target.vertex_count(), "")});
+        target.bind(
+            {static_cast<const std::byte*>(positions), check_stride(byte_stride, target.vertex_count(), "")});
     });
 }
 

@@ -9,7 +9,8 @@
 
 namespace vox {
 
-template <class Function> vox_result border(Function&& function) noexcept {
+template <class Function>
+vox_result border(Function&& function) noexcept {
     try {
         function();
         return VOX_OK;

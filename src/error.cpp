@@ -22,20 +22,34 @@ const char* vox_last_error(void) { return last_error; }
 
 const char* vox_result_string(vox_result result) {
     switch (result) {
-    case VOX_OK: return "VOX_OK";
-    case VOX_ERROR_INVALID_ARGUMENT: return "VOX_ERROR_INVALID_ARGUMENT";
-    case VOX_ERROR_INVALID_HANDLE: return "VOX_ERROR_INVALID_HANDLE";
-    case VOX_ERROR_INVALID_MESH: return "VOX_ERROR_INVALID_MESH";
-    case VOX_ERROR_INVALID_STATE: return "VOX_ERROR_INVALID_STATE";
-    case VOX_ERROR_NON_FINITE: return "VOX_ERROR_NON_FINITE";
-    case VOX_ERROR_LIMIT: return "VOX_ERROR_LIMIT";
-    case VOX_ERROR_BUDGET: return "VOX_ERROR_BUDGET";
-    case VOX_ERROR_OUT_OF_MEMORY: return "VOX_ERROR_OUT_OF_MEMORY";
-    case VOX_ERROR_UNSUPPORTED: return "VOX_ERROR_UNSUPPORTED";
-    case VOX_ERROR_FILE: return "VOX_ERROR_FILE";
-    case VOX_ERROR_FORMAT: return "VOX_ERROR_FORMAT";
-    case VOX_ERROR_INTERNAL: return "VOX_ERROR_INTERNAL";
-    case VOX_RESULT_FORCE_32_BITS: break;
+    case VOX_OK:
+        return "VOX_OK";
+    case VOX_ERROR_INVALID_ARGUMENT:
+        return "VOX_ERROR_INVALID_ARGUMENT";
+    case VOX_ERROR_INVALID_HANDLE:
+        return "VOX_ERROR_INVALID_HANDLE";
+    case VOX_ERROR_INVALID_MESH:
+        return "VOX_ERROR_INVALID_MESH";
+    case VOX_ERROR_INVALID_STATE:
+        return "VOX_ERROR_INVALID_STATE";
+    case VOX_ERROR_NON_FINITE:
+        return "VOX_ERROR_NON_FINITE";
+    case VOX_ERROR_LIMIT:
+        return "VOX_ERROR_LIMIT";
+    case VOX_ERROR_BUDGET:
+        return "VOX_ERROR_BUDGET";
+    case VOX_ERROR_OUT_OF_MEMORY:
+        return "VOX_ERROR_OUT_OF_MEMORY";
+    case VOX_ERROR_UNSUPPORTED:
+        return "VOX_ERROR_UNSUPPORTED";
+    case VOX_ERROR_FILE:
+        return "VOX_ERROR_FILE";
+    case VOX_ERROR_FORMAT:
+        return "VOX_ERROR_FORMAT";
+    case VOX_ERROR_INTERNAL:
+        return "VOX_ERROR_INTERNAL";
+    case VOX_RESULT_FORCE_32_BITS:
+        break;
     }
     return "unknown vox_result";
 }

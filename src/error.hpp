@@ -1,5 +1,5 @@
-// How failures travel inside the libraries: as exceptions, caught at the C border (border.hpp) and turned into
-// a code and a text there. Header only and on public symbols alone, so that vox_io shares it.
+// How failures travel inside the libraries: as exceptions, caught at the C border (border.hpp) and turned
+// into a code and a text there. Header only and on public symbols alone, so that vox_io shares it.
 #pragma once
 
 #include <vox/vox.h>
@@ -21,7 +21,8 @@ private:
     vox_result result_;
 };
 
-// printf into a string, so that messages carry their numbers: throw Error(code, format("tet %u names ...", t)).
+// printf into a string, so that messages carry their numbers: throw Error(code, format("tet %u names ...",
+// t)).
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif

@@ -1,19 +1,24 @@
 #include "grid.hpp"
 
+#include "clock.hpp"
 #include "contacts.hpp"
 #include "error.hpp"
+#include "geometry.hpp"
 #include "ids.hpp"
 #include "suggest.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
+#include <utility>
 
 namespace vox {
 
 void check_grid_desc(const vox_grid_desc& desc) {
     const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
-    const auto check_enum = [&](int value, int last, const char* name) {
+    const auto check_enum = [&](const auto& field, int last, const char* name) {
+        std::int32_t value; // copied as a number: a value outside the enum must not be read as one
+        std::memcpy(&value, &field, sizeof value);
         if (value < 0 || value > last) refuse(format("grid %s is %d, expected 0 to %d", name, value, last));
     };
     check_enum(desc.engine, VOX_ENGINE_REFERENCE, "engine");
@@ -39,13 +44,9 @@ void check_grid_desc(const vox_grid_desc& desc) {
 
 namespace {
 
-std::uint64_t nanoseconds() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
-
 // pmr vectors grow without being asked to; this grows one geometrically, so that n calls copy O(n) elements.
-template <class T> void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
+template <class T>
+void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
 }
 
@@ -69,8 +70,9 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_), free_slots_(&memory_),
-      bodies_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_) {}
+      cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
+      free_slots_(&memory_), bodies_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_),
+      contacts_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -207,12 +209,11 @@ void vox_grid::gather_bodies() {
 
 void vox_grid::choose_cell_size() {
     if (!choose_cell_size_ || !cell_size_is_stale_) return;
-    const SceneGeometry geometry = measure(bodies_);
-    if (geometry_has_extent(geometry)) {
+    const Geometry geometry = measure(bodies_);
+    if (geometry.stats.mean_edge > 0 && geometry.stats.mean_facet_area > 0)
         cell_size_ = suggest(vox_default_suggest_desc(), geometry).cell_size;
-    } else {
+    else
         cell_size_ = 1; // no tetrahedron of any size: nothing can touch, any cell will do
-    }
     cell_size_is_stale_ = false;
     write_log(VOX_LOG_INFO, format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_,
                                    static_cast<unsigned long long>(tet_count_), bodies_.size())

@@ -18,8 +18,8 @@ void check_grid_desc(const vox_grid_desc& desc);
 
 } // namespace vox
 
-// Every public vox_grid_* and vox_mesh_* function is one member here; all throw, none changes anything when it does
-// (step: see vox_grid_step).
+// Every public vox_grid_* and vox_mesh_* function is one member here; all throw, none changes anything when
+// it does (step: see vox_grid_step).
 struct vox_grid {
 public:
     // `desc` is checked; `held` bytes were allocated for this object.
@@ -66,8 +66,8 @@ private:
     // settings
     vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
     double cell_size_;
-    bool choose_cell_size_;           // the library chooses the cell size ...
-    bool cell_size_is_stale_ = true;  // ... and has to again
+    bool choose_cell_size_;          // the library chooses the cell size ...
+    bool cell_size_is_stale_ = true; // ... and has to again
 
     // meshes
     std::pmr::vector<Slot> slots_;

@@ -1,5 +1,5 @@
-// Mesh ids: slot and generation in 32 bits. The slot is in the high bits, so that ids sort by slot; generations
-// start at 1, so that no id is VOX_NULL_MESH.
+// Mesh ids: slot and generation in 32 bits. The slot is in the high bits, so that ids sort by slot;
+// generations start at 1, so that no id is VOX_NULL_MESH.
 #pragma once
 
 #include <vox/vox.h>

@@ -25,7 +25,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
                     format("the grid holds %llu bytes and needs %llu more, its byte budget is %llu",
                            static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),
                            static_cast<unsigned long long>(budget_)));
-    void* memory = allocate(allocator_, size, alignment);
+    void* memory = vox::allocate(allocator_, size, alignment);
     if (!memory) throw std::bad_alloc();
     bytes_ += size;
     peak_bytes_ = std::max(peak_bytes_, bytes_);
@@ -33,7 +33,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
 }
 
 void GridMemory::do_deallocate(void* memory, std::size_t size, std::size_t alignment) {
-    release(allocator_, memory, size, alignment);
+    vox::release(allocator_, memory, size, alignment);
     bytes_ -= size;
 }
 

@@ -1,4 +1,5 @@
-// Growable structs: the first field is uint32_t struct_size, and only the bytes it covers are read or written.
+// Growable structs: the first field is uint32_t struct_size, and only the bytes it covers are read or
+// written.
 #pragma once
 
 #include "error.hpp"
@@ -16,7 +17,8 @@ inline void check_struct_size(std::uint32_t struct_size, const char* name) {
 }
 
 // Fills the caller's struct with `defaults`, as far as struct_size reaches.
-template <class T> void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name) {
+template <class T>
+void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name) {
     if (!out) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
     check_struct_size(struct_size, name);
     defaults.struct_size = struct_size;
@@ -24,7 +26,8 @@ template <class T> void init_struct(T* out, std::uint32_t struct_size, T default
 }
 
 // The caller's struct over `defaults`: fields it does not cover keep their default.
-template <class T> T read_struct(const T* in, T defaults, const char* name) {
+template <class T>
+T read_struct(const T* in, T defaults, const char* name) {
     if (!in) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
     std::uint32_t struct_size;
     std::memcpy(&struct_size, in, sizeof struct_size);
@@ -34,7 +37,8 @@ template <class T> T read_struct(const T* in, T defaults, const char* name) {
 }
 
 // Throws when `out` cannot be written; call before any work whose result goes there.
-template <class T> void check_out_struct(const T* out, const char* name) {
+template <class T>
+void check_out_struct(const T* out, const char* name) {
     if (!out) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
     std::uint32_t struct_size;
     std::memcpy(&struct_size, out, sizeof struct_size);
@@ -42,7 +46,8 @@ template <class T> void check_out_struct(const T* out, const char* name) {
 }
 
 // Writes `value` to the caller's struct, as far as its struct_size reaches; struct_size itself stays.
-template <class T> void write_struct(T* out, T value, const char* name) {
+template <class T>
+void write_struct(T* out, T value, const char* name) {
     check_out_struct(out, name);
     std::memcpy(&value.struct_size, out, sizeof value.struct_size);
     std::memcpy(out, &value, std::min<std::size_t>(value.struct_size, sizeof(T)));

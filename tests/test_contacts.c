@@ -2,6 +2,7 @@
  * into. The exact sets on random scenes are tests/internal's. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "bodies.h"

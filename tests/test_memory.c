@@ -145,6 +145,7 @@ START_TEST(allocation_n_fails) {
     b.flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION;
     for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
         uint64_t expected = 0, hash = 0;
+        l.fail_at = 0;
         desc.storage = (vox_storage)storage;
         ck_ok(life(&desc, &a, &b, &l, &expected));
         uint64_t n = 1;
