@@ -1,0 +1,252 @@
+#include "geometry.hpp"
+
+#include "error.hpp"
+#include "predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace vox {
+
+namespace {
+
+// ---- small vectors --------------------------------------------------------------------------------
+
+// Differences of floats in double do not overflow, nor do products of up to six of them: areas and volumes of
+// the largest finite coordinates are finite, those of the smallest are not flushed to zero.
+Vec3d between(const Vec3f& from, const Vec3f& to) {
+    return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z};
+}
+
+Vec3d cross(const Vec3d& a, const Vec3d& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
+
+double edge_length(const Vec3f& a, const Vec3f& b) { return length(between(a, b)); }
+
+double facet_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    return length(cross(between(a, b), between(a, c))) / 2;
+}
+
+struct Box3d {
+    Vec3d min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+              std::numeric_limits<double>::infinity()};
+    Vec3d max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+              -std::numeric_limits<double>::infinity()};
+
+    void add(const Vec3f& p) {
+        min = {std::min<double>(min.x, p.x), std::min<double>(min.y, p.y), std::min<double>(min.z, p.z)};
+        max = {std::max<double>(max.x, p.x), std::max<double>(max.y, p.y), std::max<double>(max.z, p.z)};
+    }
+    void add(const Box3d& box) {
+        min = {std::min(min.x, box.min.x), std::min(min.y, box.min.y), std::min(min.z, box.min.z)};
+        max = {std::max(max.x, box.max.x), std::max(max.y, box.max.y), std::max(max.z, box.max.z)};
+    }
+    bool empty() const { return min.x > max.x; }
+    double longest_side() const { return std::max({max.x - min.x, max.y - min.y, max.z - min.z}); }
+};
+
+// A mean whose rounding error does not grow with the number of terms (Kahan 1965).
+class Mean {
+public:
+    void add(double term) {
+        const double corrected = term - lost_;
+        const double sum = sum_ + corrected;
+        lost_ = (sum - sum_) - corrected;
+        sum_ = sum;
+        ++count_;
+    }
+    std::uint64_t count() const { return count_; }
+    double value() const { return count_ ? sum_ / static_cast<double>(count_) : 0; }
+
+private:
+    double sum_ = 0;
+    double lost_ = 0;
+    std::uint64_t count_ = 0;
+};
+
+// The mean of the two middle values where their number is even.
+double median(std::vector<double>& values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2) return *middle;
+    return (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
+
+// ---- unique edges and facets ----------------------------------------------------------------------
+
+constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr int facet_corners[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+
+// Corners in ascending order, so that one edge or facet has one name whatever tetrahedron it is met in.
+Tet sorted(const Tet& tet) {
+    Tet result = tet;
+    std::sort(result.v, result.v + 4);
+    return result;
+}
+
+bool names_a_vertex_twice(const Tet& ascending) {
+    return ascending.v[0] == ascending.v[1] || ascending.v[1] == ascending.v[2] ||
+           ascending.v[2] == ascending.v[3];
+}
+
+// Calls visit(first, rest, multiplicity) once for every different (first, rest) pair that `generate(emit)`
+// emits. A counting sort by `first` (a vertex) makes short lists, which are then sorted by `rest`; `generate`
+// is called twice, to count and to place.
+template <class Rest, class Generate, class Visit>
+void for_each_unique(std::uint32_t vertex_count, Generate&& generate, Visit&& visit) {
+    std::vector<std::uint64_t> ends(std::size_t{vertex_count} + 1, 0);
+    generate([&](std::uint32_t first, Rest) { ++ends[std::size_t{first} + 1]; });
+    for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
+
+    std::vector<Rest> rests(static_cast<std::size_t>(ends[vertex_count]));
+    // Placing moves ends[v] from the start of list v to its end, the start of list v + 1.
+    generate([&](std::uint32_t first, Rest rest) { rests[static_cast<std::size_t>(ends[first]++)] = rest; });
+
+    std::size_t begin = 0;
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        const auto end = static_cast<std::size_t>(ends[v]);
+        std::sort(rests.begin() + static_cast<std::ptrdiff_t>(begin),
+                  rests.begin() + static_cast<std::ptrdiff_t>(end));
+        while (begin < end) {
+            std::size_t next = begin + 1;
+            while (next < end && rests[next] == rests[begin]) ++next;
+            visit(v, rests[begin], next - begin);
+            begin = next;
+        }
+    }
+}
+
+// ---- one pass over a scene ------------------------------------------------------------------------
+
+struct Sums {
+    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume;
+    std::vector<double> box_sides;
+    std::uint64_t degenerate = 0;
+};
+
+void check_finite(const Body& body) {
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+        const Vec3f p = body.positions[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw Error(VOX_ERROR_NON_FINITE,
+                        format("mesh %u, vertex %u: position (%g, %g, %g) is not finite", body.mesh_id, v,
+                               double{p.x}, double{p.y}, double{p.z}));
+    }
+}
+
+Box3d measure_tets(const Body& body, Sums& sums) {
+    Box3d bounds;
+    for (const Tet& tet : body.tets) {
+        Vec3f p[4];
+        Box3d box;
+        for (int i = 0; i < 4; ++i) box.add(p[i] = body.positions[tet.v[i]]);
+        bounds.add(box);
+        sums.box_side.add(box.longest_side());
+        sums.box_sides.push_back(box.longest_side());
+
+        double longest = 0;
+        for (const auto& edge : edge_corners)
+            longest = std::max(longest, edge_length(p[edge[0]], p[edge[1]]));
+        sums.longest_edge.add(longest);
+        for (const auto& facet : facet_corners)
+            sums.tet_facet.add(facet_area(p[facet[0]], p[facet[1]], p[facet[2]]));
+        sums.volume.add(std::abs(dot(cross(between(p[0], p[1]), between(p[0], p[2])), between(p[0], p[3]))) /
+                        6);
+        std::uint64_t exact_tests = 0;
+        if (orientation(p[0], p[1], p[2], p[3], exact_tests) == 0) ++sums.degenerate;
+    }
+    return bounds;
+}
+
+void measure_edges(const Body& body, Sums& sums) {
+    const auto generate = [&](auto&& emit) {
+        for (const Tet& tet : body.tets) {
+            const Tet t = sorted(tet);
+            if (names_a_vertex_twice(t)) continue;
+            for (const auto& edge : edge_corners) emit(t.v[edge[0]], t.v[edge[1]]);
+        }
+    };
+    for_each_unique<std::uint32_t>(body.vertex_count, generate,
+                                   [&](std::uint32_t a, std::uint32_t b, std::size_t) {
+                                       sums.edge.add(edge_length(body.positions[a], body.positions[b]));
+                                   });
+}
+
+void measure_facets(const Body& body, Sums& sums) {
+    const auto generate = [&](auto&& emit) {
+        for (const Tet& tet : body.tets) {
+            const Tet t = sorted(tet);
+            if (names_a_vertex_twice(t)) continue;
+            for (const auto& facet : facet_corners)
+                emit(t.v[facet[0]], std::uint64_t{t.v[facet[1]]} << 32 | t.v[facet[2]]);
+        }
+    };
+    for_each_unique<std::uint64_t>(
+        body.vertex_count, generate, [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
+            const double area =
+                facet_area(body.positions[a], body.positions[rest >> 32], body.positions[rest & 0xffffffffu]);
+            sums.facet.add(area);
+            if (multiplicity == 1) sums.boundary_facet.add(area);
+        });
+}
+
+} // namespace
+
+Geometry measure(std::span<const Body> bodies) {
+    Geometry result{};
+    vox_geometry_stats& stats = result.stats;
+    for (const Body& body : bodies) {
+        check_finite(body);
+        stats.vertices += body.vertex_count;
+        stats.tets += body.tets.size();
+    }
+
+    Sums sums;
+    sums.box_sides.reserve(static_cast<std::size_t>(stats.tets));
+    Box3d bounds;
+    Mean object_side;
+    for (const Body& body : bodies) {
+        Box3d box = measure_tets(body, sums);
+        measure_edges(body, sums);
+        measure_facets(body, sums);
+        if (body.tets.empty())
+            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.add(body.positions[v]);
+        if (box.empty()) continue;
+        bounds.add(box);
+        const Vec3d side{box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z};
+        const double volume = side.x * side.y * side.z;
+        if (volume > 0) object_side.add(std::cbrt(volume));
+    }
+
+    stats.edges = sums.edge.count();
+    stats.facets = sums.facet.count();
+    stats.boundary_facets = sums.boundary_facet.count();
+    stats.degenerate_tets = sums.degenerate;
+    stats.mean_edge = sums.edge.value();
+    stats.mean_longest_edge = sums.longest_edge.value();
+    stats.mean_box_side = sums.box_side.value();
+    stats.median_box_side = median(sums.box_sides);
+    stats.mean_facet_area = sums.facet.value();
+    stats.mean_tet_facet_area = sums.tet_facet.value();
+    stats.mean_boundary_facet_area = sums.boundary_facet.value();
+    stats.mean_volume = sums.volume.value();
+    if (!bounds.empty()) {
+        const double low[3] = {bounds.min.x, bounds.min.y, bounds.min.z};
+        const double high[3] = {bounds.max.x, bounds.max.y, bounds.max.z};
+        std::copy(low, low + 3, stats.bounds_min);
+        std::copy(high, high + 3, stats.bounds_max);
+    }
+    result.mean_object_side = object_side.value();
+    return result;
+}
+
+} // namespace vox

@@ -1,0 +1,27 @@
+// What the bodies of a scene look like: the counts and means that cost models and cell-size rules are written
+// in.
+#pragma once
+
+#include "scene.hpp"
+
+#include <vox/vox.h>
+
+#include <span>
+
+namespace vox {
+
+struct Geometry {
+    vox_geometry_stats stats;
+    // Mean over the bodies whose bounding box has a volume: the side of the cube of equal volume. 0: none
+    // has.
+    double mean_object_side;
+};
+
+// Measures the positions as they are now. The bounds are those of the vertices that tetrahedra use, and of
+// all vertices for a body without tetrahedra; every vertex must be finite all the same. A tetrahedron that
+// names a vertex twice has no edges and facets of its own; it counts in the means over tetrahedra. Means of
+// nothing are 0. Time and memory in proportion to the tetrahedra. Throws Error(NON_FINITE) naming mesh_id and
+// vertex.
+Geometry measure(std::span<const Body> bodies);
+
+} // namespace vox
