@@ -1,0 +1,89 @@
+// The fast engine: the same hits as the reference engine, found tile by tile. See src/README.md for the flow;
+// each stage is a file in fast/.
+#pragma once
+
+#include "fast/pairs.hpp"
+#include "fast/query.hpp"
+#include "fast/stream.hpp"
+#include "fast/tiles.hpp"
+#include "fast/window.hpp"
+#include "scene.hpp"
+
+#include <vox/vox.h>
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+// What the engine prepares of a mesh's topology, once: fast::make_tiles(body.tets, body.vertex_count,
+// body.positions, tiles).
+using FastMesh = fast::Tiles;
+
+struct FastSettings {
+    double cell_size = 0; // 0: chosen for each window of cells from the tiles that query it
+};
+
+// The engine's buffers live here from step to step, so that the steady state allocates nothing.
+class Fast {
+public:
+    explicit Fast(std::pmr::memory_resource* memory);
+    Fast(const Fast&) = delete;
+    Fast& operator=(const Fast&) = delete;
+
+    // As Reference::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
+    // any order. `prepared` are the tiles of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
+    // the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in their box)
+    // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone).
+    void detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
+                const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
+                vox_profile& profile);
+
+    // The cell size of the last window of the last step that had one; 0 before.
+    double cell_size() const noexcept { return cell_size_; }
+
+private:
+    struct BodyState {
+        const float* positions;    // packed
+        std::uint32_t first_block; // in block_boxes_
+        std::uint32_t first_super; // in super_boxes_
+        std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
+        bool super_known;          // super_boxes_ are made
+    };
+    // Tiles of body b that meet the region where the body at hand overlaps it.
+    struct Partner {
+        std::uint32_t body;
+        fast::Box region;
+        std::size_t first, count; // in tile_list_ and list_boxes_
+    };
+    struct Step;
+
+    void stream(Step& step);
+    void pack(const Body& body, std::size_t first);
+    void know_super_tiles(Step& step, std::uint32_t body);
+    void select_tiles(Step& step, Partner& partner);
+    void detect_body(Step& step, std::uint32_t body, std::span<const fast::Pair> pairs);
+    void mark_blocks(const Step& step, std::uint32_t body, bool all);
+    double automatic_cell_size(const Step& step, std::uint32_t body, bool self) const;
+    void query(Step& step, std::uint32_t body_a, std::uint32_t body_b, fast::Query& query);
+
+    std::pmr::vector<float> packed_; // positions of bodies whose own are strided
+    std::pmr::vector<BodyState> states_;
+    std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
+    std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
+    std::pmr::vector<std::uint32_t> order_;
+    std::pmr::vector<fast::Pair> pairs_;
+    std::pmr::vector<Partner> partners_;
+    std::pmr::vector<std::uint32_t> tile_list_;
+    std::pmr::vector<fast::Box> list_boxes_;
+    std::pmr::vector<std::uint8_t> block_marks_;
+    fast::Points points_;
+    fast::Window window_;
+    std::pmr::vector<std::uint32_t> stamps_;
+    std::pmr::vector<fast::QueryScratch> scratch_;
+    std::pmr::vector<std::uint64_t> degenerate_; // body << 32 | tet
+    double cell_size_ = 0;
+};
+
+} // namespace vox

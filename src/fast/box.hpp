@@ -1,0 +1,36 @@
+// Axis-aligned boxes of the fast engine, padded to four floats a corner so that one is two vector registers.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace vox::fast {
+
+struct alignas(16) Box {
+    float lo[4], hi[4]; // lo[3] and hi[3] mean nothing
+};
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr Box empty_box{{infinity, infinity, infinity, infinity},
+                               {-infinity, -infinity, -infinity, -infinity}};
+
+inline void add(Box& a, const Box& b) noexcept {
+    for (int i = 0; i < 4; ++i) a.lo[i] = b.lo[i] < a.lo[i] ? b.lo[i] : a.lo[i];
+    for (int i = 0; i < 4; ++i) a.hi[i] = b.hi[i] > a.hi[i] ? b.hi[i] : a.hi[i];
+}
+
+inline void intersect(Box& a, const Box& b) noexcept {
+    for (int i = 0; i < 4; ++i) a.lo[i] = b.lo[i] > a.lo[i] ? b.lo[i] : a.lo[i];
+    for (int i = 0; i < 4; ++i) a.hi[i] = b.hi[i] < a.hi[i] ? b.hi[i] : a.hi[i];
+}
+
+inline bool is_empty(const Box& a) noexcept {
+    return (a.lo[0] > a.hi[0]) | (a.lo[1] > a.hi[1]) | (a.lo[2] > a.hi[2]);
+}
+
+inline bool overlap(const Box& a, const Box& b) noexcept {
+    return !((a.lo[0] > b.hi[0]) | (a.lo[1] > b.hi[1]) | (a.lo[2] > b.hi[2]) | (b.lo[0] > a.hi[0]) |
+             (b.lo[1] > a.hi[1]) | (b.lo[2] > a.hi[2]));
+}
+
+} // namespace vox::fast

@@ -1,0 +1,485 @@
+// A tile at a time: fetch the points in its box from the rows of cells the box meets; quantise points and
+// vertices to 8 bits within the box (monotone, so a point in a tet's box is in its quantised box); test each
+// point against the 64 boxes at once; decide the pairs that are left in single precision with a bound on the
+// rounding errors.
+//
+// The float filter. Let p be in the closed box of tet abcd, w the sides of that box (rounded up by at most
+// one relative u = 2^-24), and W = w_x w_y w_z. All of b-a, c-a, d-a, p-a are within w component by
+// component, each with a relative error of at most u. Each of D = det(b-a, c-a, d-a) and the three volumes
+// with p in place of one corner is a sum of six products of three such differences; through three
+// differences, two products, one inner and at most two outer sums each product collects at most eight
+// relative errors u, so the result is off by at most 6 W ((1+u)^8 - 1) < 48.1 u W. The fourth volume, D minus
+// the three, adds the four errors and three roundings of sums of at most 12, 18 and 24 W: below 247 u W. So a
+// volume beyond 256 u W has the sign of the exact one (N. J. Higham, Accuracy and Stability of Numerical
+// Algorithms, 2002, ch. 3). Products that underflow are off by at most 2^-126 (2^-150 unless results are
+// flushed to zero), once more multiplied by a side: a constant for the tile covers them, which is infinite
+// when some product could overflow, and then nothing is certain.
+//
+// The volumes add up to D. If two of them have strictly opposite signs, p is outside; if all four have one
+// strict sign, p is inside.
+#include "query.hpp"
+#include "../simd.hpp"
+
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/query.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef VOX_FAST_QUERY_ONCE
+#define VOX_FAST_QUERY_ONCE
+namespace vox::fast {
+
+// Out of line and compiled once: may call anything.
+void hand_over(QueryScratch& scratch, Findings& out);
+
+} // namespace vox::fast
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Four = hn::FixedTag<float, 4>;
+using Floats = hn::CappedTag<float, 16>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+
+// x, y, z of a vertex and one float more, which is the next vertex's x: not for the mesh's last vertex.
+HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
+    return hn::LoadU(Four(), positions + std::size_t{v} * 3);
+}
+
+// The same for the last vertex, without reading past it.
+HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v) {
+    const float* p = positions + std::size_t{v} * 3;
+    alignas(16) const float copy[4] = {p[0], p[1], p[2], 0};
+    return hn::Load(Four(), copy);
+}
+
+template <class Load>
+HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std::uint32_t padded, Load load,
+                      Box& box) {
+    const Four d;
+    auto lo0 = load(positions, vertices[0]), lo1 = load(positions, vertices[1]);
+    auto hi0 = lo0, hi1 = lo1;
+    for (std::uint32_t i = 2; i < padded; i += 2) {
+        const auto p = load(positions, vertices[i]), q = load(positions, vertices[i + 1]);
+        lo0 = hn::Min(lo0, p);
+        hi0 = hn::Max(hi0, p);
+        lo1 = hn::Min(lo1, q);
+        hi1 = hn::Max(hi1, q);
+    }
+    hn::Store(hn::Min(lo0, lo1), d, box.lo);
+    hn::Store(hn::Max(hi0, hi1), d, box.hi);
+}
+
+void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions,
+               const std::uint32_t* HWY_RESTRICT list, std::size_t count, Box* HWY_RESTRICT boxes) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const Tile& tile = tiles.tiles.data()[list[i]];
+        const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+        const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
+        if (tile.holds_last_vertex)
+            BoxOf(positions, vertices, padded, LoadLastVertex, boxes[i]);
+        else
+            BoxOf(positions, vertices, padded, LoadVertex, boxes[i]);
+    }
+}
+
+// The tile's vertices as a structure of arrays, and their box.
+template <class Load>
+HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
+                         Load load, QueryScratch& s, Box& box) {
+    const Four d;
+    auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
+    for (std::uint32_t i = 0; i < padded; i += 4) {
+        const auto p0 = load(positions, vertices[i]), p1 = load(positions, vertices[i + 1]);
+        const auto p2 = load(positions, vertices[i + 2]), p3 = load(positions, vertices[i + 3]);
+        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+        const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
+        const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
+        hn::Store(hn::InterleaveLower(d, xy02, xy13), d, s.x + i);
+        hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, s.y + i);
+        hn::Store(hn::InterleaveLower(d, z02, z13), d, s.z + i);
+    }
+    for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
+        hn::Store(hn::Set(d, s.x[0]), d, s.x + i);
+        hn::Store(hn::Set(d, s.y[0]), d, s.y + i);
+        hn::Store(hn::Set(d, s.z[0]), d, s.z + i);
+    }
+    hn::Store(lo, d, box.lo);
+    hn::Store(hi, d, box.hi);
+}
+
+HWY_INLINE void LoadTile(const Query& query, const Tile& tile, QueryScratch& s, Box& box) {
+    const std::uint32_t* vertices = query.tiles->vertices.data() + tile.first_vertex;
+    const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
+    if (tile.holds_last_vertex)
+        LoadTile(query.positions, vertices, padded, LoadLastVertex, s, box);
+    else
+        LoadTile(query.positions, vertices, padded, LoadVertex, s, box);
+}
+
+// How coordinates of a box along one axis go to 0 .. 255: (c - origin) * scale, cut. Both 0 where that could
+// not be computed: everything is 0 then, which is monotone too.
+struct Scale {
+    float origin, scale;
+};
+
+HWY_INLINE Scale MakeScale(float lo, float hi) {
+    const float side = hi - lo;
+    if (side > 0x1p-100f && side < 0x1p+120f) return {lo, 255.0f / side};
+    return {0, 0};
+}
+
+HWY_INLINE void Quantise(const float* HWY_RESTRICT values, std::uint32_t count, Scale scale,
+                         std::uint8_t* HWY_RESTRICT out) {
+    const Floats d;
+    const hn::RebindToSigned<Floats> di;
+    const hn::Rebind<std::uint8_t, Floats> db;
+    const auto origin = hn::Set(d, scale.origin), factor = hn::Set(d, scale.scale);
+    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
+        const auto q = hn::ConvertTo(di, hn::Mul(hn::Sub(hn::LoadU(d, values + i), origin), factor));
+        hn::StoreU(hn::DemoteTo(db, q), db, out + i);
+    }
+}
+
+// Indices below 16 stay, others get their top bit set: a lookup gives 0 for them.
+HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
+    const Bytes d;
+    const auto biased = hn::Add(index, hn::Set(d, 0x70));
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
+    return biased; // pshufb looks at the top bit and the low four alone
+#else
+    return hn::And(biased, hn::Set(d, 0x8f));
+#endif
+}
+
+// Local indices of the corners, and the quantised boxes of the tets: a table of 64 bytes looked up 16 at a
+// time, a lookup giving 0 where an index is not in that quarter (its top bit is set by the sum then).
+HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
+                             std::uint32_t vertex_count, QueryScratch& s) {
+    const Bytes d;
+    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
+    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
+    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
+    const auto q1 = hn::Set(d, 16), q2 = hn::Set(d, 32), q3 = hn::Set(d, 48);
+    for (std::size_t j = 0; j < tile_size; j += hn::Lanes(d)) {
+        const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
+        const auto c2 = hn::LoadU(d, corners + 2 * tile_size + j),
+                   c3 = hn::LoadU(d, corners + 3 * tile_size + j);
+        hn::StoreInterleaved4(c0, c1, c2, c3, d, reinterpret_cast<std::uint8_t*>(s.corners) + 4 * j);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto t0 = hn::LoadDup128(d, s.quantised[a]), t1 = hn::LoadDup128(d, s.quantised[a] + 16);
+            const auto t2 = hn::LoadDup128(d, s.quantised[a] + 32),
+                       t3 = hn::LoadDup128(d, s.quantised[a] + 48);
+            const auto look_up = [&](hn::Vec<Bytes> c) HWY_ATTR {
+                const auto r0 = hn::TableLookupBytesOr0(t0, QuarterIndex(c));
+                const auto r1 = hn::TableLookupBytesOr0(t1, QuarterIndex(hn::Xor(c, q1)));
+                const auto r2 = hn::TableLookupBytesOr0(t2, QuarterIndex(hn::Xor(c, q2)));
+                const auto r3 = hn::TableLookupBytesOr0(t3, QuarterIndex(hn::Xor(c, q3)));
+                return hn::Or(hn::Or(r0, r1), hn::Or(r2, r3));
+            };
+            const auto v0 = look_up(c0), v1 = look_up(c1), v2 = look_up(c2), v3 = look_up(c3);
+            hn::Store(hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)), d, s.lo[a] + j);
+            hn::Store(hn::Max(hn::Max(v0, v1), hn::Max(v2, v3)), d, s.hi[a] + j);
+        }
+    }
+}
+
+// For each candidate the set of tets whose quantised box it meets.
+HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t valid) {
+    const Bytes d;
+    constexpr std::size_t lanes = hn::MaxLanes(Bytes());
+    const std::uint8_t *HWY_RESTRICT qx = s.candidate_quantised[0],
+                                     *HWY_RESTRICT qy = s.candidate_quantised[1],
+                                     *HWY_RESTRICT qz = s.candidate_quantised[2];
+    std::uint64_t* HWY_RESTRICT masks = s.masks;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto x = hn::Set(d, qx[i]), y = hn::Set(d, qy[i]), z = hn::Set(d, qz[i]);
+        std::uint64_t mask = 0;
+        for (std::size_t j = 0; j < tile_size; j += lanes) {
+            const auto beyond_x = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[0] + j), x),
+                                         hn::SaturatedSub(x, hn::Load(d, s.hi[0] + j)));
+            const auto beyond_y = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[1] + j), y),
+                                         hn::SaturatedSub(y, hn::Load(d, s.hi[1] + j)));
+            const auto beyond_z = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[2] + j), z),
+                                         hn::SaturatedSub(z, hn::Load(d, s.hi[2] + j)));
+            const auto inside = hn::Eq(hn::Or(hn::Or(beyond_x, beyond_y), beyond_z), hn::Zero(d));
+            std::uint64_t part = 0;
+            alignas(8) std::uint8_t bits[8];
+            hn::StoreMaskBits(d, inside, bits);
+            std::memcpy(&part, bits, lanes / 8);
+            mask |= part << j;
+        }
+        masks[i] = mask & valid;
+    }
+}
+
+// A table of 64 floats, looked up by lane.
+#if HWY_TARGET == HWY_AVX3
+struct Table {
+    __m512 part[4];
+    explicit Table(const float* values) {
+        for (int i = 0; i < 4; ++i) part[i] = _mm512_load_ps(values + 16 * i);
+    }
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
+        const __m512 high = _mm512_permutex2var_ps(part[2], index.raw, part[3]);
+        const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
+        return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
+    }
+};
+#else
+struct Table {
+    const float* values;
+    explicit Table(const float* from) : values(from) {}
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
+    }
+};
+#endif
+
+using V = hn::Vec<Floats>;
+
+HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
+
+HWY_INLINE void Cross(const V* a, const V* b, V* out) {
+    out[0] = Difference(a[1], b[2], a[2], b[1]);
+    out[1] = Difference(a[2], b[0], a[0], b[2]);
+    out[2] = Difference(a[0], b[1], a[1], b[0]);
+}
+
+HWY_INLINE V Dot(const V* a, const V* b) {
+    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+}
+
+// Decides `count` pairs. `underflow` is the tile's constant of the filter.
+HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
+                         float underflow, Findings& out) {
+    const Floats d;
+    const Words du;
+    const hn::RebindToSigned<Floats> di;
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    const Table table[3] = {Table(s.x), Table(s.y), Table(s.z)};
+    const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
+    const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
+    for (std::uint32_t i = 0; i < 64; ++i) s.pairs[count + i] = s.pairs[0]; // a whole register past the end
+    for (std::uint32_t i = 0; i < count; i += lanes) {
+        const auto pair = hn::LoadU(du, s.pairs + i);
+        const auto candidate = hn::BitCast(di, hn::ShiftRight<6>(pair));
+        const auto corners = hn::GatherIndex(du, s.corners, hn::BitCast(di, hn::And(pair, low6)));
+        const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
+        const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
+        V e1[3], e2[3], e3[3], q[3], volume = hn::Set(d, 256 * 0x1p-24f);
+        auto inside = hn::FirstN(d, count - i);
+        for (int a = 0; a < 3; ++a) {
+            const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
+            const V p = hn::GatherIndex(d, candidates[a], candidate);
+            const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
+                    hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
+            inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
+            volume = hn::Mul(volume, hn::Sub(hi, lo));
+            e1[a] = hn::Sub(vb, va);
+            e2[a] = hn::Sub(vc, va);
+            e3[a] = hn::Sub(vd, va);
+            q[a] = hn::Sub(p, va);
+        }
+        if (hn::AllFalse(d, inside)) continue;
+        s.counters.candidates += hn::CountTrue(d, inside);
+        V n1[3], n2[3], n3[3];
+        Cross(e2, e3, n1);
+        Cross(e3, e1, n2);
+        Cross(e1, e2, n3);
+        const V u1 = Dot(q, n1), u2 = Dot(q, n2), u3 = Dot(q, n3);
+        const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n1), u1), u2), u3);
+        const V bound = hn::Add(volume, hn::Set(d, underflow));
+        const V least = hn::Min(hn::Min(u0, u1), hn::Min(u2, u3));
+        const V most = hn::Max(hn::Max(u0, u1), hn::Max(u2, u3));
+        const auto positive = hn::Gt(least, bound), negative = hn::Lt(most, hn::Neg(bound));
+        const auto outside = hn::And(hn::Lt(least, hn::Neg(bound)), hn::Gt(most, bound));
+        const auto certain = hn::Or(positive, negative);
+        const auto kept = hn::AndNot(outside, inside);
+        if (hn::AllFalse(d, kept)) continue;
+        std::uint8_t bits[8] = {}, certain_bits[8] = {};
+        hn::StoreMaskBits(d, kept, bits);
+        hn::StoreMaskBits(d, certain, certain_bits);
+        std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+        const std::uint32_t sure = certain_bits[0] | static_cast<std::uint32_t>(certain_bits[1]) << 8;
+        for (; left; left &= left - 1) {
+            const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+            const std::uint32_t p = s.pairs[i + lane];
+            Finding& finding = s.findings[s.finding_count++];
+            finding.vertex = s.candidate_id[p >> 6];
+            finding.tet = tets[p & 63] & 0x7fffffffu;
+            finding.certain = (sure >> lane) & 1u;
+        }
+        if (s.finding_count >= QueryScratch::most_findings) hand_over(s, out);
+    }
+}
+
+// The constant of the filter for tets in `box`: see the top of this file.
+HWY_INLINE float Underflow(const Box& box) {
+    const float x = box.hi[0] - box.lo[0], y = box.hi[1] - box.lo[1], z = box.hi[2] - box.lo[2];
+    const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
+    const float largest = x * y * z * 64;
+    return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
+}
+
+// The rows of cells that a box meets, and what of their points is in it.
+struct TileWork {
+    const Query& query;
+    QueryScratch& s;
+    Findings& out;
+    const Tile& tile;
+    Box box;
+    bool ready;  // the tile is in scratch, with its boxes
+    bool loaded; // its vertices are
+    Scale scales[3];
+    float underflow;
+};
+
+// All candidates in scratch against the tile.
+HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
+    QueryScratch& s = w.s;
+    const Tile& tile = w.tile;
+    if (!w.ready) {
+        if (!w.loaded) LoadTile(w.query, tile, s, w.box);
+        for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
+        const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
+        QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
+        w.underflow = Underflow(w.box);
+        w.ready = true;
+        if (w.query.stamps) {
+            s.tag += 1u << 13;
+            const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
+            const std::uint8_t* degrees = w.query.tiles->degrees.data() + tile.first_vertex;
+            for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
+                w.query.stamps[vertices[i]] = s.tag | static_cast<std::uint32_t>(degrees[i]) << 6 | i;
+        }
+    }
+    Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
+    Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
+    Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
+    TestBoxes(s, count, ~std::uint64_t{0} >> (64u - tile.tet_count));
+    const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
+    const std::uint32_t* stamps = w.query.stamps;
+    std::uint32_t pairs = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::uint64_t mask = s.masks[i];
+        if (stamps) {
+            const std::uint32_t stamp = stamps[s.candidate_id[i]];
+            if (stamp >> 13 == s.tag >> 13) {
+                // A vertex is in the box of each tet it is a corner of; more boxes than those are the
+                // others'.
+                if (hwy::PopCount(mask) == (stamp >> 6 & 127)) continue;
+                const std::uint32_t own = stamp & 63;
+                for (std::uint64_t left = mask; left; left &= left - 1) {
+                    const auto t = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+                    const std::uint32_t c = s.corners[t] ^ own * 0x01010101u;
+                    if ((c & 0xff) == 0 || (c & 0xff00) == 0 || (c & 0xff0000) == 0 || c >> 24 == 0)
+                        mask &= ~(std::uint64_t{1} << t);
+                }
+            }
+        }
+        for (; mask; mask &= mask - 1)
+            s.pairs[pairs++] = i << 6 | static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(mask));
+        if (pairs > QueryScratch::most_pairs - 64) {
+            Narrow(tets, s, pairs, w.underflow, w.out);
+            pairs = 0;
+        }
+    }
+    if (pairs) Narrow(tets, s, pairs, w.underflow, w.out);
+}
+
+HWY_INLINE void QueryTile(const Query& query, std::size_t position, QueryScratch& s, Findings& out) {
+    const Floats d;
+    const Words du;
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+    const std::size_t index = query.list ? query.list[position] : query.first + position;
+    TileWork w{query, s, out, query.tiles->tiles.data()[index], {}, false, false, {}, 0};
+    if (query.boxes) {
+        w.box = query.boxes[position];
+    } else {
+        LoadTile(query, w.tile, s, w.box);
+        w.loaded = true;
+    }
+    const Box& box = w.box;
+    const Window& window = *query.window;
+    const Lattice& lattice = window.lattice;
+    const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
+    const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
+    const std::uint32_t z0 = lattice.cell(box.lo[2], 2), z1 = lattice.cell(box.hi[2], 2);
+    s.counters.visited_cells += std::uint64_t{x1 - x0 + 1} * (y1 - y0 + 1) * (z1 - z0 + 1);
+    const auto lx = hn::Set(d, box.lo[0]), ly = hn::Set(d, box.lo[1]), lz = hn::Set(d, box.lo[2]);
+    const auto hx = hn::Set(d, box.hi[0]), hy = hn::Set(d, box.hi[1]), hz = hn::Set(d, box.hi[2]);
+    const float *HWY_RESTRICT px = window.points.x.data(), *HWY_RESTRICT py = window.points.y.data(),
+                              *HWY_RESTRICT pz = window.points.z.data();
+    const std::uint32_t* HWY_RESTRICT ids = window.points.id.data();
+    const std::uint32_t* HWY_RESTRICT begin = window.begin.data();
+    std::uint32_t n = 0;
+    std::uint64_t visited = 0;
+    for (std::uint32_t z = z0; z <= z1; ++z)
+        for (std::uint32_t y = y0; y <= y1; ++y) {
+            const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
+            const std::uint32_t end = begin[row + x1 + 1];
+            std::uint32_t i = begin[row + x0];
+            visited += end - i;
+            for (; i < end; i += lanes) {
+                const auto x = hn::LoadU(d, px + i), y_ = hn::LoadU(d, py + i), z_ = hn::LoadU(d, pz + i);
+                const auto inside_x = hn::And(hn::Ge(x, lx), hn::Le(x, hx));
+                const auto inside_y = hn::And(hn::Ge(y_, ly), hn::Le(y_, hy));
+                const auto inside_z = hn::And(hn::Ge(z_, lz), hn::Le(z_, hz));
+                const auto inside =
+                    hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, end - i)));
+                if (hn::AllFalse(d, inside)) continue;
+                hn::CompressStore(x, inside, d, s.candidate_x + n);
+                hn::CompressStore(y_, inside, d, s.candidate_y + n);
+                hn::CompressStore(z_, inside, d, s.candidate_z + n);
+                n += static_cast<std::uint32_t>(hn::CompressStore(
+                    hn::LoadU(du, ids + i), hn::RebindMask(du, inside), du, s.candidate_id + n));
+                if (n > QueryScratch::most_candidates - 16) {
+                    Process(w, n);
+                    n = 0;
+                }
+            }
+        }
+    s.counters.visited_points += visited;
+    if (n) Process(w, n);
+}
+
+void QueryTiles(const Query& query, QueryScratch& s, Findings& out) {
+    for (std::size_t i = 0; i < query.count; ++i) QueryTile(query, i, s, out);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::fast {
+
+void hand_over(QueryScratch& scratch, Findings& out) {
+    out.take(std::span<const Finding>(scratch.findings, scratch.finding_count));
+    scratch.finding_count = 0;
+}
+
+void flush(QueryScratch& scratch, Findings& out) {
+    if (scratch.finding_count) hand_over(scratch, out);
+}
+
+void query_tiles(const Query& query, QueryScratch& scratch, Findings& out) {
+    VOX_SIMD_DISPATCH(QueryTiles)(query, scratch, out);
+}
+
+void tile_boxes(const Tiles& tiles, const float* positions, std::span<const std::uint32_t> list, Box* boxes) {
+    VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, list.data(), list.size(), boxes);
+}
+
+} // namespace vox::fast
+#endif

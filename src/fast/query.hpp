@@ -1,0 +1,85 @@
+// Stages 4 and 5: the vertices of a window against the tetrahedra of tiles.
+#pragma once
+
+#include "tiles.hpp"
+#include "window.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace vox::fast {
+
+// A vertex in the box of a tetrahedron that the float filter did not clear away.
+struct Finding {
+    std::uint32_t vertex; // the caller's indices
+    std::uint32_t tet : 31;
+    std::uint32_t certain : 1; // strictly inside; else only exact arithmetic can tell
+};
+
+struct QueryCounters {
+    std::uint64_t visited_cells = 0;
+    std::uint64_t visited_points = 0;
+    std::uint64_t candidates = 0; // (vertex, tetrahedron) pairs that passed the exact box test
+};
+
+// Receives findings, a full buffer at a time.
+class Findings {
+public:
+    virtual void take(std::span<const Finding> findings) = 0;
+
+protected:
+    ~Findings() = default;
+};
+
+// Buffers of one query at a time (one worker). About 80 KiB.
+struct alignas(64) QueryScratch {
+    static constexpr std::uint32_t most_candidates = 1024; // handled at a time
+    static constexpr std::uint32_t most_pairs = 4096;
+    static constexpr std::uint32_t most_findings = 1024;
+
+    // the tile
+    alignas(64) float x[tile_size], y[tile_size], z[tile_size];
+    alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
+    alignas(64) std::uint8_t quantised[3][tile_size];
+    alignas(64) std::uint8_t lo[3][tile_size], hi[3][tile_size]; // boxes of the tets
+    // candidates: points in the tile's box
+    alignas(64) float candidate_x[most_candidates + 64], candidate_y[most_candidates + 64],
+        candidate_z[most_candidates + 64];
+    alignas(64) std::uint32_t candidate_id[most_candidates + 64];
+    alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
+    alignas(64) std::uint64_t masks[most_candidates + 64]; // tets whose box the candidate meets
+    // pairs: candidate << 6 | tet
+    alignas(64) std::uint32_t pairs[most_pairs + 64];
+    Finding findings[most_findings + 64];
+    std::uint32_t finding_count = 0;
+    // Self-collision: stamps[v] is tag << 13 | degree << 6 | local index when v is a vertex of the tile at
+    // hand.
+    std::uint32_t tag = 0;
+    QueryCounters counters;
+};
+
+struct Query {
+    const Tiles* tiles;
+    const float* positions; // packed, of the body of the tiles
+    const Window* window;
+    // The tiles to query: those of a list (with their boxes), or `count` from `first` on.
+    const std::uint32_t* list;
+    const Box* boxes; // null: not known
+    std::uint32_t first;
+    std::size_t count;
+    // Not null: the window holds vertices of the same body, and tets do not meet their own corners. One
+    // zeroed word a vertex, kept with the scratch.
+    std::uint32_t* stamps;
+};
+
+// Finds every vertex of the window in the closed box of a tet and, as far as floats can tell, in the tet.
+// Nothing is lost: what is not certain is reported as such. Findings are left in scratch; flush() hands the
+// rest over.
+void query_tiles(const Query& query, QueryScratch& scratch, Findings& out);
+void flush(QueryScratch& scratch, Findings& out);
+
+// The exact boxes of tiles.
+void tile_boxes(const Tiles& tiles, const float* positions, std::span<const std::uint32_t> list, Box* boxes);
+
+} // namespace vox::fast

@@ -1,0 +1,164 @@
+// Tiles by recursive median splits along the longest side of the centroids' box (J. L. Bentley,
+// Multidimensional binary search trees used for associative searching, CACM 18, 1975), cut so that the parts
+// come out nearly full.
+#include "tiles.hpp"
+
+#include "box.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vox::fast {
+
+namespace {
+
+struct Item {
+    float centroid[3]; // times four
+    std::uint32_t tet;
+};
+
+// Aimed at when a range is cut: a little below 64, so that the tiles of an uneven cut still fit.
+constexpr std::uint32_t target_tets = 60;
+
+class Splitter {
+public:
+    Splitter(std::span<const Tet> tets, std::uint32_t vertex_count, Tiles& out)
+        : tets_(tets), vertex_count_(vertex_count), out_(out),
+          seen_(vertex_count, 0, out.tiles.get_allocator().resource()) {}
+
+    void split(Item* items, std::uint32_t count) {
+        if (count <= tile_size && emit(items, count)) return;
+        const std::uint32_t parts = std::max(2u, (count + target_tets - 1) / target_tets);
+        const auto middle = static_cast<std::uint32_t>(std::uint64_t{count} * (parts / 2) / parts);
+        const int axis = longest_side(items, count);
+        // Ties by index: the same tiles from every standard library.
+        std::nth_element(items, items + middle, items + count, [axis](const Item& a, const Item& b) {
+            return a.centroid[axis] != b.centroid[axis] ? a.centroid[axis] < b.centroid[axis] : a.tet < b.tet;
+        });
+        split(items, middle);
+        split(items + middle, count - middle);
+    }
+
+private:
+    static int longest_side(const Item* items, std::uint32_t count) {
+        float lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (int a = 0; a < 3; ++a) {
+                const float c = items[i].centroid[a];
+                lo[a] = c < lo[a] ? c : lo[a];
+                hi[a] = c > hi[a] ? c : hi[a];
+            }
+        int axis = 0;
+        for (int a = 1; a < 3; ++a)
+            if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
+        return axis;
+    }
+
+    // Makes one tile of the items, or returns false when they have too many vertices.
+    bool emit(const Item* items, std::uint32_t count) {
+        // seen_[v] is (stamp | local index) once v has its place in this tile.
+        if (++stamp_ == 1u << 26) {
+            std::fill(seen_.begin(), seen_.end(), 0);
+            stamp_ = 1;
+        }
+        std::uint32_t list[tile_size];
+        std::uint8_t degree[tile_size] = {}, corner[4 * tile_size] = {};
+        std::uint32_t found = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Tet& tet = tets_[items[i].tet];
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint32_t v = tet.v[c];
+                if (seen_[v] >> 6 != stamp_) {
+                    if (found == tile_size) return false;
+                    seen_[v] = stamp_ << 6 | found;
+                    list[found++] = v;
+                }
+                const std::uint32_t local = seen_[v] & 63;
+                corner[c * tile_size + i] = static_cast<std::uint8_t>(local);
+                bool repeated = false; // a corner named twice counts once: the degree is a number of tets
+                for (std::uint32_t d = 0; d < c; ++d) repeated |= tet.v[d] == v;
+                if (!repeated) ++degree[local];
+            }
+        }
+        Tile tile{};
+        tile.first_tet = static_cast<std::uint32_t>(out_.tets.size());
+        tile.first_vertex = static_cast<std::uint32_t>(out_.vertices.size());
+        tile.tet_count = static_cast<std::uint8_t>(count);
+        tile.vertex_count = static_cast<std::uint8_t>(found);
+        for (std::uint32_t i = 0; i < found; ++i) tile.holds_last_vertex |= list[i] == vertex_count_ - 1;
+        for (std::uint32_t i = 0; i < count; ++i) out_.tets.push_back(items[i].tet);
+        out_.vertices.insert(out_.vertices.end(), list, list + found);
+        out_.degrees.insert(out_.degrees.end(), degree, degree + found);
+        while (out_.vertices.size() % 4) {
+            out_.vertices.push_back(list[found - 1]);
+            out_.degrees.push_back(degree[found - 1]);
+        }
+        out_.corners.insert(out_.corners.end(), corner, corner + 4 * tile_size);
+        out_.tiles.push_back(tile);
+        return true;
+    }
+
+    std::span<const Tet> tets_;
+    std::uint32_t vertex_count_;
+    Tiles& out_;
+    std::pmr::vector<std::uint32_t> seen_;
+    std::uint32_t stamp_ = 0;
+};
+
+void list_blocks(std::uint32_t vertex_count, Tiles& out) {
+    std::pmr::vector<std::uint32_t> seen((vertex_count + block_size - 1) / block_size, 0,
+                                         out.tiles.get_allocator().resource());
+    out.block_begin.assign(1, 0);
+    const std::uint32_t super_tiles = out.super_tile_count();
+    for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        const std::size_t end = std::min<std::size_t>(out.tiles.size(), (s + 1) * super_tile_size);
+        for (std::size_t t = s * super_tile_size; t < end; ++t) {
+            const Tile& tile = out.tiles[t];
+            for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
+                const std::uint32_t block = out.vertices[tile.first_vertex + i] / block_size;
+                if (seen[block] == s + 1) continue;
+                seen[block] = s + 1;
+                out.blocks.push_back(block);
+            }
+        }
+        std::sort(out.blocks.begin() + out.block_begin.back(), out.blocks.end());
+        out.block_begin.push_back(static_cast<std::uint32_t>(out.blocks.size()));
+    }
+}
+
+} // namespace
+
+void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out) {
+    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
+    Tiles made(memory);
+    if (!tets.empty()) {
+        std::pmr::vector<Item> items(tets.size(), memory);
+        for (std::size_t t = 0; t < tets.size(); ++t) {
+            float sum[3] = {0, 0, 0};
+            for (const std::uint32_t v : tets[t].v) {
+                const Vec3f p = positions[v];
+                sum[0] += p.x;
+                sum[1] += p.y;
+                sum[2] += p.z;
+            }
+            for (int a = 0; a < 3; ++a) items[t].centroid[a] = std::isfinite(sum[a]) ? sum[a] : 0.0f;
+            items[t].tet = static_cast<std::uint32_t>(t);
+        }
+        const std::size_t tiles = tets.size() / 56 + 2;
+        made.tiles.reserve(tiles);
+        made.corners.reserve(tiles * 4 * tile_size);
+        made.tets.reserve(tets.size());
+        made.vertices.reserve(tiles * 36);
+        made.degrees.reserve(tiles * 36);
+        Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(tets.size()));
+    }
+    list_blocks(vertex_count, made);
+    made.tiles.shrink_to_fit();
+    made.corners.shrink_to_fit();
+    made.vertices.shrink_to_fit();
+    made.degrees.shrink_to_fit();
+    made.blocks.shrink_to_fit();
+    out = std::move(made);
+}
+
+} // namespace vox::fast

@@ -1,0 +1,53 @@
+// What the fast engine prepares of a mesh once: its tetrahedra in tiles. A tile is at most 64 neighbouring
+// tetrahedra over at most 64 vertices, so that a corner is an index of 8 bits into the tile's own vertices,
+// and so that a set of tetrahedra of a tile is one 64-bit mask.
+#pragma once
+
+#include "../scene.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox::fast {
+
+inline constexpr std::uint32_t tile_size = 64;       // most tets, and most vertices, of a tile
+inline constexpr std::uint32_t super_tile_size = 16; // tiles of a super-tile
+inline constexpr std::uint32_t block_size =
+    64; // consecutive vertices (as the caller numbers them) of a block
+
+struct Tile {
+    std::uint32_t first_tet;    // in Tiles::tets
+    std::uint32_t first_vertex; // in Tiles::vertices and Tiles::degrees; a multiple of four
+    std::uint8_t tet_count;     // 1 to 64
+    std::uint8_t vertex_count;  // 1 to 64; the list is padded with its last vertex to a multiple of four
+    bool holds_last_vertex;     // of the mesh: 16 bytes from its position on reach past the caller's array
+};
+
+struct Tiles {
+    explicit Tiles(std::pmr::memory_resource* memory)
+        : tiles(memory), corners(memory), tets(memory), vertices(memory), degrees(memory),
+          block_begin(memory), blocks(memory) {}
+
+    std::pmr::vector<Tile> tiles;
+    std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
+    std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
+    std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
+    std::pmr::vector<std::uint8_t>
+        degrees; // for each of `vertices`: tets of the tile that have it as a corner
+    // Super-tile s is tiles [16 s, 16 s + 16); blocks[block_begin[s] .. block_begin[s + 1]) hold its
+    // vertices.
+    std::pmr::vector<std::uint32_t> block_begin;
+    std::pmr::vector<std::uint32_t> blocks;
+
+    std::uint32_t super_tile_count() const noexcept {
+        return static_cast<std::uint32_t>((tiles.size() + super_tile_size - 1) / super_tile_size);
+    }
+};
+
+// Splits `tets` by a k-d tree over their centroids. Positions only decide how compact the tiles are; they may
+// be anything, and may move later. Throws std::bad_alloc and leaves `out` empty then.
+void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out);
+
+} // namespace vox::fast

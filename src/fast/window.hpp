@@ -1,0 +1,70 @@
+// Stage 3: the vertices of one body that may be in contact, binned into a dense window of cells. Compressed
+// rows over all cells, x fastest, so that the cells of a tile's box along x are one range of vertices;
+// coordinates as a structure of arrays.
+#pragma once
+
+#include "box.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox::fast {
+
+// Vertices as a structure of arrays, with room for a whole vector register past the end.
+struct Points {
+    explicit Points(std::pmr::memory_resource* memory) : x(memory), y(memory), z(memory), id(memory) {}
+
+    std::pmr::vector<float> x, y, z;
+    std::pmr::vector<std::uint32_t> id; // the caller's vertex index
+    std::uint32_t count = 0;
+
+    static constexpr std::size_t padding = 64;
+    void reserve(std::size_t most);
+};
+
+// Where a coordinate falls: trunc((c - origin) * inverse), clamped to [0, last]. Monotone in c also as
+// rounded, so the cells from that of a box's low corner to that of its high corner hold every point of the
+// box, wherever the lattice lies; points outside count to the nearest border cell.
+struct Lattice {
+    float origin[3] = {0, 0, 0};
+    float inverse = 1; // of the cell size; > 0, finite
+    float last[3] = {0, 0, 0};
+    std::uint32_t cells[3] = {1, 1, 1};
+
+    std::uint32_t cell(float c, int axis) const noexcept {
+        float t = (c - origin[axis]) * inverse;
+        t = t > 0 ? t : 0;
+        t = t < last[axis] ? t : last[axis];
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(t));
+    }
+    std::size_t count() const noexcept { return std::size_t{cells[0]} * cells[1] * cells[2]; }
+};
+
+// Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
+Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
+
+struct Window {
+    explicit Window(std::pmr::memory_resource* memory) : points(memory), begin(memory), cell_of(memory) {}
+
+    Lattice lattice;
+    Points points;                                      // sorted by cell
+    std::pmr::vector<std::uint32_t> begin;              // of each cell, and the end of the last
+    std::pmr::vector<std::uint32_t> cell_of;            // buffer: cell of each unsorted point
+    std::uint64_t occupied_cells = 0, fullest_cell = 0; // of the last build
+};
+
+// Appends the vertices [first, last) of packed `positions` that lie in `region`. The caller has reserved
+// room.
+void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,
+             Points& points);
+
+// The box of points.
+Box bounds(const Points& points);
+
+// Sorts `points` into the cells of window.lattice, stably.
+void bin(const Points& points, Window& window);
+
+} // namespace vox::fast
