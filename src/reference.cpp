@@ -2,10 +2,11 @@
 // pass two runs the broad and the narrow phase for each tetrahedron.
 #include "reference.hpp"
 
+#include "clock.hpp"
 #include "error.hpp"
 #include "predicates.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -20,11 +21,6 @@ struct Reference::Step {
 };
 
 namespace {
-
-std::uint64_t nanoseconds() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
 
 Box3f empty_box() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -214,8 +210,7 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* particles = particles_.data();
     const std::uint32_t first_own = first_[body];
-    // Particles of the body itself are passed over, unless it collides with itself; then only the corners
-    // are.
+    // Particles of the body itself are passed over; where it collides with itself, only the corners are.
     const std::uint32_t own_count = step.bodies[body].self_collision ? 0 : step.bodies[body].vertex_count;
     std::uint64_t visited_cells = 0, visited_entries = 0;
 
@@ -227,8 +222,8 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
             visited_entries += cell.count;
             for (std::uint32_t p = cell.first; p != CellLists::none; p = particles[p].next) {
                 if (p - first_own < own_count || !contains(box, particles[p].position)) continue;
-                const std::uint32_t v =
-                    p - first_own; // in the body's own numbering, when it is one of its own
+                // In the numbering of this body; beyond it for the particles of others.
+                const std::uint32_t v = p - first_own;
                 const std::uint32_t* corner = tets[t].v;
                 if (v == corner[0] || v == corner[1] || v == corner[2] || v == corner[3]) continue;
                 candidates_[candidate_count_++] = {std::uint32_t(t), p};
