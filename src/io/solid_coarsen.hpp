@@ -1,0 +1,44 @@
+// Larger tetrahedra away from the boundary: which lattice cells may be merged, and the tetrahedra of merged
+// ones.
+#pragma once
+
+#include "solid_lattice.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace vox::io {
+
+// An octree over the lattice's cells, given by the cells of each level that may be leaves or hold larger
+// ones. Leaves that touch, in a corner even, differ by one level at most.
+class Octree {
+public:
+    Octree() = default;
+    // `is_inner(node)`: strictly inside and not moved. Cells all whose nodes are inner may be merged,
+    // `levels` times at most.
+    Octree(const Frame& frame, const NodeSet& inside, const std::function<bool(const Node&)>& is_inner,
+           std::uint32_t levels);
+
+    // Whether the lattice cell with this centre was merged into a larger one.
+    bool is_merged(const Node& centre) const {
+        return merged_.size() > 1 && holds(1, {centre.x >> 2, centre.y >> 2, centre.z >> 2});
+    }
+
+    // Calls emit for the tetrahedra of merged cells, and of those between merged and other cells. All their
+    // nodes are inner. Positively oriented.
+    void for_each_tet(const std::function<void(const std::array<Node, 4>&)>& emit) const;
+
+private:
+    // Cell (x, y, z) of `level` may be a leaf or part of a larger one.
+    bool holds(std::size_t level, const Node& cell) const {
+        return level < merged_.size() && cell.x >= 0 && cell.y >= 0 && cell.z >= 0 &&
+               merged_[level].find({2 * cell.x, 2 * cell.y, 2 * cell.z}) != NodeSet::kNone;
+    }
+    bool is_leaf(std::size_t level, const Node& cell) const {
+        return holds(level, cell) && !holds(level + 1, {cell.x >> 1, cell.y >> 1, cell.z >> 1});
+    }
+
+    std::vector<NodeSet> merged_; // by level; cells as nodes with even coordinates
+};
+
+} // namespace vox::io

@@ -1,0 +1,126 @@
+// The body-centred cubic lattice that isosurface stuffing works on, and sparse sets of its points.
+//
+// Coordinates are integers in units of half a cell. A lattice point has three even coordinates (corners of
+// the cubic cells) or three odd ones (their centres). It has fourteen neighbours: six along the axes at
+// distance 2 (long edges) and eight along the cubes' diagonals at distance sqrt(3) (short edges).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vox::io {
+
+struct Node {
+    std::int32_t x, y, z;
+};
+
+// Neighbour k lies at kNeighbours[k], neighbour k ^ 1 at its opposite. k / 2 is the direction: 0, 1, 2 the
+// axes.
+inline constexpr std::array<Node, 14> kNeighbours = {{{2, 0, 0},
+                                                      {-2, 0, 0},
+                                                      {0, 2, 0},
+                                                      {0, -2, 0},
+                                                      {0, 0, 2},
+                                                      {0, 0, -2},
+                                                      {1, 1, 1},
+                                                      {-1, -1, -1},
+                                                      {1, 1, -1},
+                                                      {-1, -1, 1},
+                                                      {1, -1, 1},
+                                                      {-1, 1, -1},
+                                                      {1, -1, -1},
+                                                      {-1, 1, 1}}};
+inline constexpr unsigned kLongNeighbours = 6; // the first six
+
+constexpr Node operator+(const Node& a, const Node& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+// Where the lattice lies in space, and how many cells it has.
+struct Frame {
+    std::array<double, 3> origin{}; // of node (0, 0, 0)
+    double half_cell = 0;
+    std::array<std::int32_t, 3> cells{}; // nodes run from 0 to 2 * cells
+
+    std::array<double, 3> position(double x, double y, double z) const {
+        return {origin[0] + x * half_cell, origin[1] + y * half_cell, origin[2] + z * half_cell};
+    }
+};
+
+// Longest side of a lattice, in cells.
+inline constexpr std::int32_t kMaxCells = 4096;
+
+// A lattice of `cell` sized cells around the box, centred on it, with a margin of two cells on each side.
+// Throws LIMIT when it would have more than kMaxCells cells along an axis.
+Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 3>& box_max, double cell);
+
+// Nodes (2 * first + parity, y, z) to (2 * last + parity, y, z): parity is that of y, which is that of z.
+struct Run {
+    std::int32_t y, z;
+    std::int32_t first, last;
+};
+
+// A set of nodes kept as runs along x. Nodes are numbered 0 to size - 1, row by row. Memory goes with the
+// number of rows and runs.
+class NodeSet {
+public:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    NodeSet() = default;
+    // The union of the runs. Throws LIMIT where it would hold more than 2^32 - 2 nodes.
+    NodeSet(const Frame& frame, std::vector<Run> runs);
+
+    std::uint32_t size() const { return size_; }
+
+    std::uint32_t find(const Node& node) const {
+        const std::int32_t parity = node.y & 1;
+        const std::int32_t y = node.y >> 1, z = node.z >> 1, i = node.x >> 1;
+        if (static_cast<std::uint32_t>(y) >= static_cast<std::uint32_t>(rows_y_) ||
+            static_cast<std::uint32_t>(z) >= static_cast<std::uint32_t>(rows_z_))
+            return kNone;
+        const std::size_t row = row_of(parity, y, z);
+        for (std::uint32_t r = row_start_[row]; r < row_start_[row + 1]; ++r) {
+            const Span& span = spans_[r];
+            if (i < span.first) return kNone;
+            if (i <= span.last) return span.number + static_cast<std::uint32_t>(i - span.first);
+        }
+        return kNone;
+    }
+
+    // Calls visit(number of the first node, run) for every run, in the order of the numbers.
+    template <class Visit>
+    void for_each_run(Visit&& visit) const {
+        for (std::size_t row = 0; row + 1 < row_start_.size(); ++row)
+            for (std::uint32_t r = row_start_[row]; r < row_start_[row + 1]; ++r) {
+                const auto in_parity =
+                    row % (static_cast<std::size_t>(rows_y_) * static_cast<std::size_t>(rows_z_));
+                const std::int32_t parity = in_parity == row ? 0 : 1;
+                const auto y = static_cast<std::int32_t>(in_parity % static_cast<std::size_t>(rows_y_));
+                const auto z = static_cast<std::int32_t>(in_parity / static_cast<std::size_t>(rows_y_));
+                visit(spans_[r].number, Run{2 * y + parity, 2 * z + parity, spans_[r].first, spans_[r].last});
+            }
+    }
+
+private:
+    struct Span {
+        std::int32_t first, last;
+        std::uint32_t number; // of the first node
+    };
+
+    std::size_t row_of(std::int32_t parity, std::int32_t y, std::int32_t z) const {
+        return (static_cast<std::size_t>(parity) * static_cast<std::size_t>(rows_z_) +
+                static_cast<std::size_t>(z)) *
+                   static_cast<std::size_t>(rows_y_) +
+               static_cast<std::size_t>(y);
+    }
+
+    std::int32_t rows_y_ = 0, rows_z_ = 0; // of one parity
+    std::uint32_t size_ = 0;
+    std::vector<std::uint32_t> row_start_;
+    std::vector<Span> spans_;
+};
+
+// The set with all fourteen neighbours of its nodes.
+NodeSet with_neighbours(const Frame& frame, const NodeSet& nodes);
+
+} // namespace vox::io

@@ -1,0 +1,38 @@
+// Isosurface stuffing: tetrahedra of bounded angles from a body-centred cubic lattice whose nodes are known
+// to be inside or outside of a body.
+#pragma once
+
+#include "mesh_data.hpp"
+#include "solid_lattice.hpp"
+
+#include <functional>
+
+namespace vox::io {
+
+// Tells how far a long piece of work has come. Throws INVALID_STATE when the receiver wants it to end.
+class Progress {
+public:
+    Progress() = default;
+    Progress(std::int32_t (*receive)(double fraction, void* user), void* user)
+        : receive_(receive), user_(user) {}
+    void report(double fraction) const;
+
+private:
+    std::int32_t (*receive_)(double, void*) = nullptr;
+    void* user_ = nullptr;
+};
+
+// The body: the nodes inside it, and where the lattice edge from node `inside` to its neighbour number
+// `neighbour`, which is outside, leaves it: a fraction of the edge in [0, 1]. Called once for each such edge.
+struct Body {
+    Frame frame;
+    NodeSet inside;
+    std::function<double(const Node& inside, unsigned neighbour)> leaves;
+};
+
+// The body's tetrahedra, positively oriented. `coarsen`: number of times cells far from the boundary may be
+// merged 2 x 2 x 2. Reports progress from `from` to 1. Throws LIMIT when there would be more than max_tets.
+MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress,
+               double from);
+
+} // namespace vox::io
