@@ -1,0 +1,7 @@
+# The cell size: its statistics, cost function, zone and arguments; and the paper's tables.
+vox_test(suggest test_suggest.c test_suggest_arguments.c LIBS vox::vox)
+set_tests_properties(suggest PROPERTIES LABELS valgrind)
+target_link_libraries(test_suggest PRIVATE $<$<BOOL:${UNIX}>:m>)
+if(VOX_BUILD_IO)
+  vox_test(paper_tables test_paper_tables.c LIBS vox::io)
+endif()

@@ -1,0 +1,304 @@
+/* The cell size: every bad argument gives its code, a text with the numbers in it, and leaves the result
+ * alone; structs may be smaller or larger than this library's. */
+#include "suggest_scenes.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The call fails as said and does not touch the result. */
+static void fails(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uint64_t count, vox_result code,
+                  const char* words) {
+    vox_suggestion out, before;
+    memset(&out, 0x5a, sizeof out);
+    out.struct_size = sizeof out;
+    before = out;
+    ck_fails(vox_suggest_cell_size(desc, meshes, count, &out), code, words);
+    ck_assert_mem_eq(&out, &before, sizeof out);
+}
+
+static vox_mesh_desc good_mesh(void) { return array_desc(regular_positions, 4, unit_tet, 1); }
+
+/* ---- settings --------------------------------------------------------------------------------- */
+
+START_TEST(defaults) {
+    const vox_suggest_desc desc = vox_default_suggest_desc();
+    ck_assert_uint_eq(desc.struct_size, sizeof desc);
+    ck_assert_int_eq(desc.model, VOX_COST_MODEL_PAPER);
+    ck_assert_int_eq(desc.size_reading, VOX_SIZE_MEAN_EDGE);
+    ck_assert_int_eq(desc.area_reading, VOX_AREA_UNIQUE_FACETS);
+    ck_assert_double_eq(desc.p_nc, 0.99);
+    ck_assert_double_eq(desc.cost_ratio, 5);
+    ck_assert_double_eq(desc.world_edge, 0);
+    ck_assert_double_eq(desc.zone_loss, 0.05);
+    ck_assert_double_eq(desc.mean_edge_factor, 2);
+    ck_assert_double_eq(desc.resolution, 0);
+}
+END_TEST
+
+static const struct {
+    size_t offset;
+    double value;
+    const char* words;
+} bad_numbers[] = {
+    {offsetof(vox_suggest_desc, p_nc), 0, "p_nc is 0,"},
+    {offsetof(vox_suggest_desc, p_nc), 1, "p_nc is 1,"},
+    {offsetof(vox_suggest_desc, p_nc), -0.5, "p_nc is -0.5,"},
+    {offsetof(vox_suggest_desc, p_nc), NAN, "p_nc is"},
+    {offsetof(vox_suggest_desc, cost_ratio), 0, "cost_ratio is 0,"},
+    {offsetof(vox_suggest_desc, cost_ratio), -1, "cost_ratio is -1,"},
+    {offsetof(vox_suggest_desc, cost_ratio), INFINITY, "cost_ratio is inf,"},
+    {offsetof(vox_suggest_desc, cost_ratio), NAN, "cost_ratio is"},
+    {offsetof(vox_suggest_desc, cost_ratio), 1e300, "cost_ratio 1e+300"},
+    {offsetof(vox_suggest_desc, cost_ratio), 1e-300, "cost_ratio 1e-300"},
+    {offsetof(vox_suggest_desc, world_edge), -4, "world_edge is -4,"},
+    {offsetof(vox_suggest_desc, world_edge), INFINITY, "world_edge is inf,"},
+    {offsetof(vox_suggest_desc, world_edge), NAN, "world_edge is"},
+    {offsetof(vox_suggest_desc, zone_loss), -0.01, "zone_loss is -0.01,"},
+    {offsetof(vox_suggest_desc, zone_loss), 1e7, "zone_loss is 10000000,"},
+    {offsetof(vox_suggest_desc, zone_loss), NAN, "zone_loss is"},
+    {offsetof(vox_suggest_desc, mean_edge_factor), 0, "mean_edge_factor is 0,"},
+    {offsetof(vox_suggest_desc, mean_edge_factor), INFINITY, "mean_edge_factor is inf,"},
+    {offsetof(vox_suggest_desc, mean_edge_factor), NAN, "mean_edge_factor is"},
+    {offsetof(vox_suggest_desc, resolution), -1, "resolution is -1,"},
+    {offsetof(vox_suggest_desc, resolution), NAN, "resolution is"},
+};
+
+START_TEST(bad_number) {
+    const vox_mesh_desc mesh = good_mesh();
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    memcpy((char*)&desc + bad_numbers[_i].offset, &bad_numbers[_i].value, sizeof(double));
+    fails(&desc, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, bad_numbers[_i].words);
+}
+END_TEST
+
+START_TEST(bad_enum) {
+    static const struct {
+        size_t offset;
+        const char* name;
+    } enums[] = {{offsetof(vox_suggest_desc, model), "model is"},
+                 {offsetof(vox_suggest_desc, size_reading), "size_reading is"},
+                 {offsetof(vox_suggest_desc, area_reading), "area_reading is"}};
+    static const int32_t values[] = {3, -1, INT_MAX, INT_MIN};
+    const vox_mesh_desc mesh = good_mesh();
+    for (size_t e = 0; e < sizeof enums / sizeof enums[0]; ++e)
+        for (size_t v = 0; v < sizeof values / sizeof values[0]; ++v) {
+            vox_suggest_desc desc = vox_default_suggest_desc();
+            memcpy((char*)&desc + enums[e].offset, &values[v], sizeof values[v]);
+            fails(&desc, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, enums[e].name);
+        }
+}
+END_TEST
+
+/* ---- meshes ----------------------------------------------------------------------------------- */
+
+START_TEST(bad_mesh) {
+    vox_mesh_desc meshes[2] = {good_mesh(), good_mesh()};
+    vox_mesh_desc* bad = &meshes[1];
+#define BAD(change, code, words)                                                                             \
+    do {                                                                                                     \
+        *bad = good_mesh();                                                                                  \
+        bad->change;                                                                                         \
+        fails(NULL, meshes, 2, code, words);                                                                 \
+    } while (0)
+
+    BAD(flags = 4, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: flags is 0x4");
+    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: reserved is 7");
+    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: positions is null, vertex_count is 4");
+    BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: tets is null, tet_count is 1");
+    BAD(tets = (const uint32_t*)((const char*)unit_tet + 1), VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1: tets is not aligned");
+    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_byte_stride is 11");
+    BAD(position_byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 vertices");
+    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_format is 77");
+    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1: tet 0 names vertex 3 of 3");
+    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: vertex_count is 1099511627776");
+    BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: tet_count is 1099511627776");
+    BAD(struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "meshes[1].struct_size is 0");
+    BAD(struct_size = sizeof(vox_mesh_desc) + 8, VOX_ERROR_INVALID_ARGUMENT, "that of meshes[0] is");
+#undef BAD
+
+    static const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 900, 3};
+    *bad = array_desc(regular_positions, 4, tets, 2);
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1: tet 1 names vertex 900 of 4");
+
+    *bad = good_mesh();
+    meshes[0].struct_size = 3;
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
+    meshes[0].struct_size = sizeof meshes[0] + 1;
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_ARGUMENT, "expected a multiple of 8");
+    meshes[0].struct_size = 1u << 20;
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_ARGUMENT, "struct_size is 1048576");
+
+    meshes[0] = good_mesh();
+    fails(NULL, NULL, 1, VOX_ERROR_INVALID_ARGUMENT, "meshes is null");
+    fails(NULL, meshes, VOX_MAX_MESHES + 1u, VOX_ERROR_LIMIT, "mesh_count is 1048577");
+}
+END_TEST
+
+START_TEST(non_finite_positions) {
+    static const float values[] = {NAN, INFINITY, -INFINITY};
+    float positions[15] = {0, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0}; /* the last vertex is in no tet */
+    vox_mesh_desc meshes[2] = {good_mesh(), array_desc(positions, 5, unit_tet, 1)};
+    for (int c = 0; c < 15; ++c)
+        for (int v = 0; v < 3; ++v) {
+            char words[40];
+            const float good = positions[c];
+            positions[c] = values[v];
+            snprintf(words, sizeof words, "mesh 1, vertex %d:", c / 3);
+            fails(NULL, meshes, 2, VOX_ERROR_NON_FINITE, words);
+            positions[c] = good;
+        }
+}
+END_TEST
+
+START_TEST(nothing_to_measure) {
+    static const float one_place[12] = {5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5};
+    static const float on_a_line[12] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
+    static const uint32_t twice[4] = {0, 1, 2, 2};
+    static const uint32_t closed[8] = {0, 1, 2, 3, 3, 1, 2, 0};
+    vox_suggest_desc desc = vox_default_suggest_desc();
+
+    fails(NULL, NULL, 0, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 0 vertices");
+    vox_mesh_desc mesh = array_desc(NULL, 0, NULL, 0);
+    fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 0 vertices");
+    mesh = array_desc(regular_positions, 4, NULL, 0);
+    fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 4 vertices");
+    mesh = array_desc(one_place, 4, unit_tet, 1);
+    fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size: mean edge 0");
+    mesh = array_desc(on_a_line, 4, unit_tet, 1);
+    fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "mean facet area 0");
+    mesh = array_desc(regular_positions, 4, twice, 1);
+    fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size");
+
+    /* Two tets over the same corners have no boundary, but every other reading has its number. */
+    mesh = array_desc(regular_positions, 4, closed, 2);
+    ck_assert_uint_eq(suggest_ok(NULL, &mesh, 1).stats.boundary_facets, 0);
+    desc.area_reading = VOX_AREA_BOUNDARY_FACETS;
+    fails(&desc, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "mean boundary facet area 0");
+}
+END_TEST
+
+/* ---- growing structs -------------------------------------------------------------------------- */
+
+START_TEST(bad_struct_sizes) {
+    const vox_mesh_desc mesh = good_mesh();
+    static const uint32_t sizes[] = {0, 3, 65537, UINT32_MAX};
+    ck_fails(vox_suggest_desc_init(NULL, 64), VOX_ERROR_INVALID_ARGUMENT, "null");
+    ck_fails(vox_suggest_cell_size(NULL, &mesh, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out is null");
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        const vox_suggest_desc before = desc;
+        ck_fails(vox_suggest_desc_init(&desc, sizes[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size is");
+        ck_assert_mem_eq(&desc, &before, sizeof desc);
+        desc.struct_size = sizes[i];
+        fails(&desc, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "struct_size is");
+        vox_suggestion out;
+        out.struct_size = sizes[i];
+        ck_fails(vox_suggest_cell_size(NULL, &mesh, 1, &out), VOX_ERROR_INVALID_ARGUMENT,
+                 "out.struct_size is");
+    }
+}
+END_TEST
+
+/* An old program knows only the first fields: the rest is neither read nor written. */
+START_TEST(smaller_structs) {
+    const vox_mesh_desc mesh = good_mesh();
+    vox_suggest_desc desc;
+    memset(&desc, 0xff, sizeof desc); /* NaN wherever the library must not look */
+    const uint32_t known = offsetof(vox_suggest_desc, cost_ratio);
+    ck_ok(vox_suggest_desc_init(&desc, known));
+    ck_assert_uint_eq(desc.struct_size, known);
+    ck_assert_double_eq(desc.p_nc, 0.99);
+    ck_assert_double_nan(desc.cost_ratio);
+    const vox_suggestion whole = suggest_ok(NULL, &mesh, 1);
+    ck_assert_double_eq(suggest_ok(&desc, &mesh, 1).cell_size, whole.cell_size);
+
+    vox_suggestion out, expected;
+    memset(&out, 0x5a, sizeof out);
+    out.struct_size = offsetof(vox_suggestion, cells_per_axis);
+    expected = out;
+    expected.model = whole.model;
+    expected.cell_size = whole.cell_size;
+    ck_ok(vox_suggest_cell_size(&desc, &mesh, 1, &out));
+    ck_assert_mem_eq(&out, &expected, sizeof out);
+
+    /* Mesh descriptions that end before user_data, packed as an old program would have them. */
+    enum { old_size = offsetof(vox_mesh_desc, user_data) };
+    union {
+        unsigned char bytes[2 * old_size];
+        vox_mesh_desc align;
+    } old_meshes;
+    vox_mesh_desc old = mesh;
+    old.struct_size = old_size;
+    memcpy(old_meshes.bytes, &old, old_size);
+    memcpy(old_meshes.bytes + old_size, &old, old_size);
+    ck_assert_uint_eq(suggest_ok(NULL, (const vox_mesh_desc*)old_meshes.bytes, 2).stats.tets, 2);
+}
+END_TEST
+
+/* A new program has fields that this library does not know: they are left alone. */
+START_TEST(larger_structs) {
+    struct new_mesh {
+        vox_mesh_desc known;
+        uint64_t later[2];
+    } meshes[3];
+    struct new_desc {
+        vox_suggest_desc known;
+        double later;
+    } desc;
+    struct new_suggestion {
+        vox_suggestion known;
+        uint64_t later;
+    } out;
+    memset(meshes, 0xff, sizeof meshes);
+    for (int i = 0; i < 3; ++i) {
+        meshes[i].known = good_mesh();
+        meshes[i].known.struct_size = sizeof meshes[i];
+    }
+    desc.later = 7;
+    ck_ok(vox_suggest_desc_init(&desc.known, sizeof desc));
+    ck_assert_double_eq(desc.later, 7);
+    ck_assert_uint_eq(desc.known.struct_size, sizeof desc);
+    out.later = 0x1234;
+    out.known.struct_size = sizeof out;
+    ck_ok(vox_suggest_cell_size(&desc.known, &meshes[0].known, 3, &out.known));
+    ck_assert_uint_eq(out.later, 0x1234);
+    ck_assert_uint_eq(out.known.struct_size, sizeof out);
+    ck_assert_uint_eq(out.known.stats.tets, 3);
+}
+END_TEST
+
+START_TEST(bad_zone_distance) {
+    const double bad[] = {0, -1, NAN, INFINITY};
+    double epsilon = 42;
+    ck_fails(vox_zone_distance(1, 1, 1, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_epsilon is null");
+    for (int i = 0; i < 4; ++i) {
+        ck_fails(vox_zone_distance(bad[i], 1, 2, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n is");
+        ck_fails(vox_zone_distance(2, bad[i], 2, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_min is");
+        ck_fails(vox_zone_distance(2, 1, bad[i], 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_opt is");
+        ck_fails(vox_zone_distance(2, 1, 2, bad[i], &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_max is");
+    }
+    ck_fails(vox_zone_distance(2, 3, 2, 4, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_min 3, n_opt 2");
+    ck_fails(vox_zone_distance(2, 1, 4, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_opt 4, n_max 3");
+    ck_assert_double_eq(epsilon, 42);
+}
+END_TEST
+
+TCase* argument_tests(void) {
+    TCase* tests = tcase_create("arguments");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, defaults);
+    tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
+    tcase_add_test(tests, bad_enum);
+    tcase_add_test(tests, bad_mesh);
+    tcase_add_test(tests, non_finite_positions);
+    tcase_add_test(tests, nothing_to_measure);
+    tcase_add_test(tests, bad_struct_sizes);
+    tcase_add_test(tests, smaller_structs);
+    tcase_add_test(tests, larger_structs);
+    tcase_add_test(tests, bad_zone_distance);
+    return tests;
+}
