@@ -21,7 +21,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
         std::memcpy(&value, &field, sizeof value);
         if (value < 0 || value > last) refuse(format("grid %s is %d, expected 0 to %d", name, value, last));
     };
-    check_enum(desc.engine, VOX_ENGINE_REFERENCE, "engine");
+    check_enum(desc.engine, VOX_ENGINE_FAST, "engine");
     check_enum(desc.storage, VOX_STORAGE_DENSE, "storage");
     check_enum(desc.hash, VOX_HASH_PAPER, "hash");
     if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
@@ -65,13 +65,15 @@ using namespace vox;
 
 vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
     : allocator_(desc.allocator), log_(desc.log), memory_(desc.allocator, desc.byte_budget, held),
+      fast_(desc.engine == VOX_ENGINE_FAST ||
+            (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
       settings_{.storage = desc.storage,
                 .hash = desc.hash,
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
-      free_slots_(&memory_), bodies_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_),
+      free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_),
       contacts_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -84,6 +86,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
 
     // Everything that can fail comes first.
     Mesh mesh(desc, view, &memory_);
+    if (fast_ && mesh.has_positions()) mesh.make_tiles();
     if (fresh_slot) {
         grow_capacity(slots_, slots_.size() + 1);
         grow_capacity(free_slots_, slots_.size() + 1);
@@ -172,10 +175,10 @@ void vox_grid::step() {
     vox_profile profile{};
     try {
         gather_bodies();
-        choose_cell_size();
-
-        settings_.cell_size = cell_size_;
-        reference_.detect(bodies_, settings_, hits_, counters, profile);
+        if (fast_)
+            detect_fast(counters, profile);
+        else
+            detect_reference(counters, profile);
 
         const std::uint64_t detected = nanoseconds();
         make_contacts(bodies_, hits_, scratch_, contacts_);
@@ -196,15 +199,31 @@ void vox_grid::step() {
 
 void vox_grid::gather_bodies() {
     bodies_.clear();
+    tiles_.clear();
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-        const Slot& s = slots_[slot];
+        Slot& s = slots_[slot];
         if (!s.live) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
         bodies_.push_back(s.mesh.body(id));
+        if (!fast_) continue;
+        s.mesh.make_tiles(); // of meshes that were inserted without positions
+        tiles_.push_back(&s.mesh.tiles());
     }
+}
+
+void vox_grid::detect_fast(vox_counters& counters, vox_profile& profile) {
+    // The engine chooses a cell size for each of its windows unless one is set.
+    fast_engine_.detect(bodies_, tiles_, {choose_cell_size_ ? 0 : cell_size_}, hits_, counters, profile);
+    if (choose_cell_size_) cell_size_ = fast_engine_.cell_size();
+}
+
+void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
+    choose_cell_size();
+    settings_.cell_size = cell_size_;
+    reference_.detect(bodies_, settings_, hits_, counters, profile);
 }
 
 void vox_grid::choose_cell_size() {

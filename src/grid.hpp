@@ -1,6 +1,7 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
+#include "fast.hpp"
 #include "memory.hpp"
 #include "mesh.hpp"
 #include "reference.hpp"
@@ -56,6 +57,8 @@ private:
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
     void gather_bodies();
+    void detect_fast(vox_counters& counters, vox_profile& profile);
+    void detect_reference(vox_counters& counters, vox_profile& profile);
     void choose_cell_size();
     void write_log(vox_log_level level, const char* text) const;
 
@@ -64,6 +67,7 @@ private:
     vox::GridMemory memory_;
 
     // settings
+    bool fast_;
     vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
     double cell_size_;
     bool choose_cell_size_;          // the library chooses the cell size ...
@@ -77,6 +81,8 @@ private:
 
     // one step
     std::pmr::vector<vox::Body> bodies_;
+    std::pmr::vector<const vox::FastMesh*> tiles_; // of each body, for the fast engine
+    vox::Fast fast_engine_;
     vox::Reference reference_;
     std::pmr::vector<vox::Hit> hits_;
     std::pmr::vector<vox::Hit> scratch_;

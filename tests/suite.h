@@ -23,6 +23,23 @@
                       #call, vox_last_error(), (words)); \
     } while (0)
 
+/* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
+static vox_engine suite_engine = VOX_ENGINE_AUTO;
+static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
+static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
+
+static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) {
+    static const char* const names[] = {"reference", "fast"};
+    static void (*const setups[])(void) = {use_reference, use_fast};
+    for (int i = 0; i < 2; ++i) {
+        TCase* tests = tcase_create(names[i]);
+        tcase_set_timeout(tests, 0);
+        tcase_add_checked_fixture(tests, setups[i], NULL);
+        add_tests(tests);
+        suite_add_tcase(suite, tests);
+    }
+}
+
 static inline int run_suite(Suite* suite) {
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -310,6 +310,7 @@ static void keep_line(vox_log_level level, const char* text, void* user) {
 
 START_TEST(cell_size_is_chosen) {
     vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = VOX_ENGINE_REFERENCE;
     desc.log.write = keep_line;
     desc.log.user = logged;
     vox_grid* grid = NULL;
@@ -354,8 +355,11 @@ END_TEST
 START_TEST(cell_size_without_extent) {
     /* Meshes that suggest nothing: the grid still steps. */
     const float point[12] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
-    vox_grid* grid = new_grid();
+    vox_grid_desc grid_desc = vox_default_grid_desc();
+    vox_grid* grid = NULL;
     vox_mesh mesh = 0;
+    grid_desc.engine = VOX_ENGINE_REFERENCE;
+    ck_ok(vox_grid_create(&grid_desc, &grid));
     ck_ok(vox_grid_step(grid));
     vox_mesh_desc desc = array_desc(point, 4, NULL, 0);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));

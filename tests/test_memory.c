@@ -49,6 +49,7 @@ static vox_grid_desc counted_desc(ledger* l) {
     desc.allocator.allocate = counted_allocate;
     desc.allocator.release = counted_release;
     desc.allocator.user = l;
+    desc.engine = suite_engine;
     desc.cell_size = 0.25;
     return desc;
 }
@@ -224,15 +225,16 @@ START_TEST(many_meshes) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("memory");
-    TCase* tests = tcase_create("memory");
-    tcase_set_timeout(tests, 0);
+static void add_tests(TCase* tests) {
     tcase_add_test(tests, everything_comes_back);
     tcase_add_test(tests, steady_state_allocates_nothing);
     tcase_add_test(tests, allocation_n_fails);
     tcase_add_test(tests, budget_is_kept);
     tcase_add_test(tests, many_meshes);
-    suite_add_tcase(suite, tests);
+}
+
+int main(void) {
+    Suite* suite = suite_create("memory");
+    add_for_each_engine(suite, add_tests);
     return run_suite(suite);
 }

@@ -115,7 +115,7 @@ typedef struct vox_log {
 #define VOX_MAX_VERTICES 2147483647u      /* per grid */
 #define VOX_MAX_TETS 2147483647u          /* per grid */
 
-/* How cells are stored. Contacts do not depend on it. */
+/* How the reference engine stores cells; the fast engine has its own way. Contacts do not depend on it. */
 typedef enum vox_storage {
     VOX_STORAGE_AUTO = 0,   /* the engine's choice */
     VOX_STORAGE_HASHED = 1, /* unbounded space: cells hashed into a table of prime size */
@@ -132,8 +132,9 @@ typedef enum vox_hash {
 
 /* Which algorithm runs. Contacts do not depend on it. */
 typedef enum vox_engine {
-    VOX_ENGINE_AUTO = 0,      /* the fastest one of this version */
+    VOX_ENGINE_AUTO = 0,      /* fast, or reference when a storage is asked for */
     VOX_ENGINE_REFERENCE = 1, /* the paper's algorithm as printed (Sect. 3) */
+    VOX_ENGINE_FAST = 2,      /* tiles of tets against dense windows of cells, with SIMD */
     VOX_ENGINE_FORCE_32_BITS = 0x7fffffff
 } vox_engine;
 
@@ -145,8 +146,8 @@ typedef struct vox_grid_desc {
     vox_engine engine;
     vox_storage storage;
     vox_hash hash;
-    /* Edge length of a cell, > 0. 0 (the default): the library chooses it at the first step, and again
-     * after meshes were inserted or removed. */
+    /* Edge length of a cell, > 0. 0 (the default): the library chooses it; the reference engine at the first
+     * step and again after meshes were inserted or removed, the fast one at every step. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
      * cell. All zero (the default): the box of all positions, found at every step. */
@@ -298,7 +299,8 @@ VOX_API vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 
-/* What the last successful step did. `skipped_degenerate`: tetrahedra of exactly zero volume. */
+/* What the last successful step did. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
+ * them with the reference engine, those with a vertex of theirs to test with the fast one. */
 typedef struct vox_counters {
     uint32_t struct_size;
     uint32_t meshes;
@@ -308,8 +310,8 @@ typedef struct vox_counters {
     uint64_t entries;            /* vertices in them */
     uint64_t fullest_cell;       /* most vertices in one cell */
     uint64_t visited_cells;      /* objective voxels looked into */
-    uint64_t visited_entries;    /* vertices met there: the box test's input */
-    uint64_t candidates;         /* vertices that passed the box test: the narrow phase's input */
+    uint64_t visited_entries;    /* vertices met there */
+    uint64_t candidates;         /* (vertex, tet) pairs that passed the box test: the narrow phase's input */
     uint64_t exact_tests;        /* orientations that needed exact arithmetic */
     uint64_t contacts;
     uint64_t skipped_degenerate;
