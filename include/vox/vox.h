@@ -367,8 +367,9 @@ typedef struct vox_suggest_desc {
     double p_nc;               /* probability that a tet has no collision, in (0, 1); default 0.99 */
     double cost_ratio;         /* r: cost of one particle test over one cell visit, > 0; default 5 */
     double world_edge;         /* edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
-    double zone_loss;          /* the zone is where predicted cost <= (1 + zone_loss) * minimum; default 0.05 */
-    double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000); default 2 */
+    double zone_loss;          /* the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6],
+                                  default 0.05 */
+    double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2 */
     double resolution;         /* for rules.resolution (McNeely et al. 1999): the wanted detail; 0: none */
 } vox_suggest_desc;
 
@@ -381,7 +382,8 @@ static inline vox_suggest_desc vox_default_suggest_desc(void) {
     return desc;
 }
 
-/* What the meshes look like, all together. Lengths, areas and volumes in the caller's unit. */
+/* What the meshes look like, all together. Lengths, areas and volumes in the caller's unit. A tet that names a
+ * vertex twice has no edges and facets of its own, but counts in the means over tets. */
 typedef struct vox_geometry_stats {
     uint64_t vertices;
     uint64_t tets;
@@ -392,12 +394,12 @@ typedef struct vox_geometry_stats {
     double mean_edge;
     double mean_longest_edge;
     double mean_box_side;
-    double median_box_side;
+    double median_box_side; /* over tets, of the longest side of the bounding box */
     double mean_facet_area;
     double mean_tet_facet_area;
     double mean_boundary_facet_area;
     double mean_volume; /* of |volume| */
-    double bounds_min[3];
+    double bounds_min[3]; /* of the vertices that tets use; of all vertices for a mesh without tets */
     double bounds_max[3];
 } vox_geometry_stats;
 
@@ -405,7 +407,8 @@ typedef struct vox_geometry_stats {
 typedef struct vox_cell_size_rules {
     double mean_edge;          /* Teschner et al. 2003 */
     double mean_edge_multiple; /* Gregory et al. 2000: a constant times the mean edge */
-    double object_512;         /* Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes */
+    double object_512;         /* Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes
+                                  whose box has a volume */
     double resolution;         /* McNeely et al. 1999: the wanted resolution */
     double mean_volume;        /* cube root of the mean tet volume (tried and rejected in Sect. 5) */
     double median_box_side;    /* IPC Toolkit: median of the longest box sides */
@@ -436,8 +439,10 @@ typedef struct vox_suggestion {
 
 /* The cell size that minimises the cost model for these meshes (their positions as they are now).
  * desc null: defaults. Set out->struct_size first; the fields it covers are written.
- * Uses the C++ runtime's heap for the time of the call.
- * Errors: INVALID_ARGUMENT (also: no tetrahedron at all, or all of zero size), INVALID_MESH, NON_FINITE,
+ * `meshes` is an array whose elements are meshes[0].struct_size bytes apart, a multiple of 8: all of them have that
+ * struct_size. Flags and user_data do not matter here. Errors name a mesh by its index in the array.
+ * Time and memory (the C++ runtime's heap, for the time of the call) are in proportion to vertices and tets.
+ * Errors: INVALID_ARGUMENT (also: no tetrahedron at all, or all of zero size), INVALID_MESH, NON_FINITE, LIMIT,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
                                          uint64_t mesh_count, vox_suggestion* out);
