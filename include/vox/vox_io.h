@@ -1,7 +1,10 @@
 /* vox_io: mesh files and ready-made bodies for vox. A library of its own; the core does not need it.
  *
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched
- * out-parameters on failure. Positions are double and numbered as in the file.
+ * out-parameters on failure. Positions are double and numbered as in the file; vertices of
+ * surfaces are joined where their positions are equal, and numbered in order of first use.
+ *
+ * A tet file must hold a tet; what else is odd about it is told by the report and never stops a load.
  *
  * Threads: no function keeps state between calls; different meshes are independent, one mesh may be
  * read by many threads at once.
@@ -54,8 +57,9 @@ typedef struct vox_io_mesh vox_io_mesh;
 
 /* Reads the file at `path` (for TetGen: either file of the pair; the other lies beside it). desc null:
  * defaults. The caller owns *out_mesh and ends it with vox_io_mesh_destroy.
+ * A regular file is mapped into memory while it is read and must not be shortened meanwhile.
  * Errors: FILE, FORMAT (text names the file, the line or byte, and what was expected there),
- * UNSUPPORTED, OUT_OF_MEMORY, INVALID_ARGUMENT. */
+ * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT. */
 VOX_API vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
 
 /* The same from memory. `sources` holds one file; for TetGen two, .node and .ele in any order. */
@@ -77,31 +81,38 @@ typedef struct vox_io_mesh_view {
 
 VOX_API vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
 
-/* Makes a mesh from arrays (copied). Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, OUT_OF_MEMORY. */
+/* Makes a mesh from arrays (copied). Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, LIMIT (more than
+ * VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_mesh);
 
 /* ---- diagnosis -------------------------------------------------------------------------------- */
 
-/* What was read, what was left out, and what is odd about it. */
+/* What was read, what was left out, and what is odd about it. A "surface" is a mesh without tets. */
 typedef struct vox_io_report {
     uint32_t struct_size;
-    vox_io_format format;
+    vox_io_format format;          /* AUTO for a mesh that was made, not read */
     uint64_t vertices;
     uint64_t tets;
     uint64_t triangles;
     uint64_t skipped_elements;     /* of the file: neither tet nor triangle */
-    uint64_t second_order_tets;    /* ten-node tets, of which the corners were taken */
-    uint64_t inverted_tets;        /* of negative volume */
+    uint64_t second_order_tets;    /* tets of ten or more nodes, of which the corners were taken */
+    uint64_t inverted_tets;        /* of negative volume, decided exactly */
     uint64_t degenerate_tets;      /* of exactly zero volume */
+    uint64_t nearly_flat_tets;     /* six times the volume below 1e-9 times the longest edge cubed, but not zero */
     uint64_t duplicate_tets;       /* the same four vertices as an earlier tet */
+    uint64_t degenerate_triangles; /* that name a vertex twice */
     uint64_t duplicate_vertices;   /* at the position of an earlier vertex */
     uint64_t unused_vertices;      /* in no tet and no triangle */
     uint64_t boundary_facets;      /* facets of exactly one tet; for a surface: its triangles */
-    uint64_t non_manifold_facets;  /* facets of more than two tets; for a surface: edges of not exactly two triangles */
+    uint64_t non_manifold_facets;  /* facets of more than two tets; for a surface: edges of more than two triangles */
+    uint64_t open_edges;           /* for a surface: edges of exactly one triangle; 0 when it is closed */
+    uint64_t misoriented_edges;    /* for a surface: edges that two triangles run through in the same direction */
     uint64_t components;           /* connected over shared vertices, unused ones not counted */
-    double volume;                 /* sum of signed tet volumes; for a closed surface the enclosed volume */
-    double bounds_min[3];
+    double volume;                 /* sum of the tets' volumes, inverted ones counted as positive; for a closed
+                                    * surface the enclosed volume, negative when it is inside out; else 0 */
+    double bounds_min[3];          /* of the vertices in use; of all where none is in use */
     double bounds_max[3];
+    double unit_in_metres;         /* length of the file's unit; 0: the file does not say */
 } vox_io_report;
 
 /* Writes the fields that out_report->struct_size covers (set it first). */
@@ -114,12 +125,94 @@ VOX_API const char* vox_io_mesh_warnings(const vox_io_mesh* mesh);
 /* Name of a format, e.g. "Gmsh .msh". Static text; never null. */
 VOX_API const char* vox_io_format_string(vox_io_format format);
 
+/* ---- surface to tetrahedra -------------------------------------------------------------------- */
+
+typedef enum vox_io_solid_kind {
+    /* Isosurface stuffing: the boundary follows the surface; dihedral angles between 10.7 and 164.8 degrees. */
+    VOX_IO_SOLID_STUFFED = 0,
+    /* Every lattice cube that the surface touches or encloses, whole, in five tets: the surface lies inside. For
+     * rough surfaces, open ones too, that are to be carried along by the tets around them. */
+    VOX_IO_SOLID_CUBES = 1,
+    VOX_IO_SOLID_KIND_FORCE_32_BITS = 0x7fffffff
+} vox_io_solid_kind;
+
+typedef struct vox_io_tetrahedralize_desc {
+    uint32_t struct_size;
+    vox_io_solid_kind kind;
+    double cell;       /* edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side */
+    uint64_t max_tets; /* more fail with LIMIT; default 100000000 */
+    /* STUFFED: how many times cells away from the boundary may be merged two by two by two; 0 (the default): all
+     * tets are of one size. The boundary stays as it is. */
+    uint32_t coarsen;
+    uint32_t reserved; /* 0 */
+    /* Called now and then, on the calling thread, with the share of the work done, ascending from 0 to 1. A result
+     * other than 0 cancels. Null: nobody asks. */
+    int32_t (*progress)(double fraction, void* user);
+    void* progress_user;
+} vox_io_tetrahedralize_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* desc, uint32_t struct_size);
+
+/* Fills the inside of a closed surface (the triangles of `surface`; its tets are not looked at) with tetrahedra.
+ * desc null: defaults. All tets positive, no two overlap, inner facets shared by exactly two. The surface may have
+ * any orientation, several parts, and intersect itself: inside is where its winding number is not zero, or, where
+ * its triangles do not agree on an orientation, where rays cross it an odd number of times. Holes smaller than a
+ * cell or so are closed. Details thinner than a cell may be lost, and edges are rounded by a fraction of one. The
+ * same input gives the same tets, bit for bit. Memory and time go with the cells inside.
+ * Errors: INVALID_ARGUMENT (no triangles, no volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is
+ * open; not for CUBES), LIMIT (more than 4096 cells along an axis, more than max_tets), INVALID_STATE (cancelled),
+ * OUT_OF_MEMORY. */
+VOX_API vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrahedralize_desc* desc,
+                                         vox_io_mesh** out_mesh);
+
+/* How good a tet mesh is, and how near its boundary comes to a surface. */
+typedef struct vox_io_quality {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t vertices;
+    uint64_t tets;
+    uint64_t boundary_facets;
+    double min_dihedral; /* smallest and largest angle between two facets of a tet, in degrees; 0 without tets */
+    double max_dihedral;
+    double volume;            /* sum of the signed tet volumes */
+    double surface_volume;    /* enclosed by the surface, by its orientation; 0 without one */
+    /* Largest distance from sample points of the one to all of the other. Samples lie on every triangle at most
+     * half a mean boundary edge apart, corners among them; the distances are exact. 0 without a surface. */
+    double mesh_to_surface;
+    double surface_to_mesh;
+    double hausdorff; /* the larger of the two */
+} vox_io_quality;
+
+/* Measures `mesh`; `surface` (its triangles) may be null. Writes the fields that out_quality->struct_size covers
+ * (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+VOX_API vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* surface,
+                                          vox_io_quality* out_quality);
+
 /* ---- ready-made bodies ------------------------------------------------------------------------ */
+
+/* All bodies lie around the origin and have positive tets only. Lengths must be finite and above 0.
+ * Errors: INVALID_ARGUMENT (names the number), LIMIT, OUT_OF_MEMORY. */
 
 /* A ball of `radius` around the origin, made of about `tet_count` tetrahedra: a cubic lattice cut in five
  * tetrahedra a cube, the cubes inside the ball kept, boundary vertices moved onto the sphere, interior ones
- * smoothed by three Laplace sweeps. All tets positive. The count is met within 1 % for 1000 tets and more. */
+ * smoothed by three Laplace sweeps. The count is met within 1 % for 1000 tets and more. */
 VOX_API vox_result vox_io_make_lattice_ball(uint64_t tet_count, double radius, vox_io_mesh** out_mesh);
+
+/* Bodies by isosurface stuffing on a lattice of cubes with edge `cell`, with the angles of
+ * vox_io_tetrahedralize. The rims of a cylinder are rounded by a fraction of a cell. */
+VOX_API vox_result vox_io_make_ball(double radius, double cell, vox_io_mesh** out_mesh);
+/* Around the z axis; `radius` reaches the middle of the tube, tube_radius < radius. */
+VOX_API vox_result vox_io_make_torus(double radius, double tube_radius, double cell, vox_io_mesh** out_mesh);
+/* Along the z axis; `length` lies between the middles of the two round ends. */
+VOX_API vox_result vox_io_make_capsule(double radius, double length, double cell, vox_io_mesh** out_mesh);
+/* Along the z axis. */
+VOX_API vox_result vox_io_make_cylinder(double radius, double length, double cell, vox_io_mesh** out_mesh);
+
+/* A box, exactly: cubes of about `cell`, stretched so that a whole number of them fits each side, five tets each.
+ * A bar is a long box. */
+VOX_API vox_result vox_io_make_box(double size_x, double size_y, double size_z, double cell,
+                                   vox_io_mesh** out_mesh);
 
 #ifdef __cplusplus
 }

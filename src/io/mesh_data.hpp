@@ -11,15 +11,17 @@ namespace vox::io {
 
 struct MeshData {
     vox_io_format format = VOX_IO_FORMAT_AUTO;
-    std::vector<double> positions;       // 3 a vertex
-    std::vector<std::uint32_t> tets;     // 4 a tet
+    std::vector<double> positions;        // 3 a vertex
+    std::vector<std::uint32_t> tets;      // 4 a tet
     std::vector<std::uint32_t> triangles; // 3 a triangle
     std::uint64_t skipped_elements = 0;
     std::uint64_t second_order_tets = 0;
+    double unit_in_metres = 0;      // 0: unknown
     std::vector<std::string> notes; // what a reader found odd, one line each
 };
 
 // Wraps data as the public object: computes the report and the warnings. The one way to make a vox_io_mesh.
+// Positions must be finite and indices below the number of vertices.
 vox_io_mesh* make_mesh(MeshData data);
 
 } // namespace vox::io

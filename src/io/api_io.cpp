@@ -1,0 +1,234 @@
+// The C border of loading and diagnosis: validate, forward, catch.
+#include "border.hpp"
+#include "file_bytes.hpp"
+#include "mesh.hpp"
+#include "readers.hpp"
+#include "structs.hpp"
+
+#include <memory>
+
+namespace vox::io {
+namespace {
+
+vox_io_load_desc default_load_desc() {
+    vox_io_load_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.format = VOX_IO_FORMAT_AUTO;
+    desc.mesh_index = VOX_IO_ALL_MESHES;
+    return desc;
+}
+
+vox_io_load_desc checked(const vox_io_load_desc* in) {
+    if (!in) return default_load_desc();
+    const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
+    if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_SURFACE)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("vox_io_load_desc.format is %d, no format", static_cast<int>(desc.format)));
+    if (desc.reserved != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
+    return desc;
+}
+
+// The format of a file: the one asked for, else told by content, else by the name.
+vox_io_format format_of(const File& file, vox_io_format wanted) {
+    if (wanted != VOX_IO_FORMAT_AUTO) return wanted;
+    const vox_io_format by_content = format_of_content(file.bytes);
+    if (by_content != VOX_IO_FORMAT_AUTO) return by_content;
+    return format_of_extension(extension_of(file.name));
+}
+
+File without_byte_order_mark(File file) {
+    if (file.bytes.starts_with("\xef\xbb\xbf")) file.bytes.remove_prefix(3);
+    return file;
+}
+
+// Any format but TetGen, which needs two files.
+MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_index) {
+    const File file = without_byte_order_mark(given);
+    switch (which) {
+    case VOX_IO_FORMAT_GMSH:
+        return read_gmsh(file);
+    case VOX_IO_FORMAT_MEDIT:
+        return read_medit(file);
+    case VOX_IO_FORMAT_VEGA:
+        return read_vega(file);
+    case VOX_IO_FORMAT_VTK:
+        return read_vtk(file);
+    case VOX_IO_FORMAT_VTU:
+        return read_vtu(file);
+    case VOX_IO_FORMAT_SURFACE:
+        return read_surface(given, extension_of(given.name), mesh_index);
+    default:
+        throw Error(
+            VOX_ERROR_UNSUPPORTED,
+            format("%s: expected a mesh, found neither content nor an extension that is known "
+                   "(.msh .node .ele .mesh .veg .vtk .vtu, and surfaces as .obj .ply .stl .off .gltf)",
+                   given.name.c_str()));
+    }
+}
+
+MeshData load(const std::string& path, const vox_io_load_desc& desc) {
+    const FileBytes bytes(path);
+    const File& file = bytes.file();
+    refuse_strangers(file);
+    const vox_io_format which = format_of(file, desc.format);
+    if (which == VOX_IO_FORMAT_SURFACE) return read_surface_at(path, desc.mesh_index);
+    if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, which, desc.mesh_index);
+
+    const std::string extension = extension_of(path);
+    if (extension != "node" && extension != "ele")
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("%s: expected a TetGen file named .node or .ele", path.c_str()));
+    const bool is_node = extension == "node";
+    const std::string other_path =
+        path.substr(0, path.size() - extension.size()) + (is_node ? "ele" : "node");
+    const FileBytes other(other_path);
+    refuse_strangers(other.file());
+    return read_tetgen(without_byte_order_mark(is_node ? file : other.file()),
+                       without_byte_order_mark(is_node ? other.file() : file));
+}
+
+File file_of(const vox_io_source& source, std::size_t index) {
+    if (!source.data && source.size > 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("sources[%zu].data is null", index));
+    const char* data = source.data ? static_cast<const char*>(source.data) : "";
+    return {source.name ? source.name : format("source %zu", index), {data, source.size}};
+}
+
+MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load_desc& desc) {
+    if (count != 1 && count != 2)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("source_count is %zu, not 1 or 2", count));
+    require(sources, "sources");
+    const File first = file_of(sources[0], 0);
+    refuse_strangers(first);
+    if (count == 1) {
+        const vox_io_format which = format_of(first, desc.format);
+        if (which == VOX_IO_FORMAT_TETGEN)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
+        return read_one(first, which, desc.mesh_index);
+    }
+    if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, "source_count is 2, which only TetGen meshes need");
+    const File second = file_of(sources[1], 1);
+    refuse_strangers(second);
+    const bool swapped = extension_of(first.name) == "ele" || extension_of(second.name) == "node";
+    return read_tetgen(without_byte_order_mark(swapped ? second : first),
+                       without_byte_order_mark(swapped ? first : second));
+}
+
+MeshData checked(const vox_io_mesh_view& arrays) {
+    const auto check_array = [](const void* data, std::uint64_t count, std::uint64_t limit,
+                                const char* name) {
+        if (count > limit)
+            throw Error(VOX_ERROR_LIMIT, format("%s: %llu are more than the limit of %llu", name,
+                                                static_cast<unsigned long long>(count),
+                                                static_cast<unsigned long long>(limit)));
+        if (count > 0) require(data, name);
+    };
+    check_array(arrays.positions, arrays.vertex_count, VOX_MAX_VERTICES, "arrays->positions");
+    check_array(arrays.tets, arrays.tet_count, VOX_MAX_TETS, "arrays->tets");
+    check_array(arrays.triangles, arrays.triangle_count, VOX_MAX_TETS, "arrays->triangles");
+    for (std::uint64_t i = 0; i < 3 * arrays.vertex_count; ++i)
+        if (!std::isfinite(arrays.positions[i]))
+            throw Error(VOX_ERROR_NON_FINITE, format("vertex %llu has a coordinate that is not finite",
+                                                     static_cast<unsigned long long>(i / 3)));
+    const auto check_indices = [&](const std::uint32_t* indices, std::uint64_t count, unsigned corners,
+                                   const char* name) {
+        for (std::uint64_t i = 0; i < corners * count; ++i)
+            if (indices[i] >= arrays.vertex_count)
+                throw Error(VOX_ERROR_INVALID_MESH,
+                            format("%s %llu names vertex %u of %llu", name,
+                                   static_cast<unsigned long long>(i / corners), indices[i],
+                                   static_cast<unsigned long long>(arrays.vertex_count)));
+    };
+    check_indices(arrays.tets, arrays.tet_count, 4, "tet");
+    check_indices(arrays.triangles, arrays.triangle_count, 3, "triangle");
+    MeshData data;
+    if (arrays.vertex_count)
+        data.positions.assign(arrays.positions, arrays.positions + 3 * arrays.vertex_count);
+    if (arrays.tet_count) data.tets.assign(arrays.tets, arrays.tets + 4 * arrays.tet_count);
+    if (arrays.triangle_count)
+        data.triangles.assign(arrays.triangles, arrays.triangles + 3 * arrays.triangle_count);
+    return data;
+}
+
+} // namespace
+} // namespace vox::io
+
+using namespace vox;
+using namespace vox::io;
+
+vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, default_load_desc(), "vox_io_load_desc"); });
+}
+
+vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(path, "path");
+        require(out_mesh, "out_mesh");
+        *out_mesh = make_mesh(load(path, checked(desc)));
+    });
+}
+
+vox_result vox_io_read(const vox_io_source* sources, size_t source_count, const vox_io_load_desc* desc,
+                       vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        *out_mesh = make_mesh(read(sources, source_count, checked(desc)));
+    });
+}
+
+void vox_io_mesh_destroy(vox_io_mesh* mesh) { delete mesh; }
+
+vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) {
+    return border([&] {
+        require(mesh, "mesh");
+        require(out_view, "out_view");
+        const MeshData& data = mesh->data;
+        *out_view = {data.positions.data(), data.positions.size() / 3, data.tets.data(),
+                     data.tets.size() / 4,  data.triangles.data(),     data.triangles.size() / 3};
+    });
+}
+
+vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(arrays, "arrays");
+        require(out_mesh, "out_mesh");
+        *out_mesh = make_mesh(checked(*arrays));
+    });
+}
+
+vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report) {
+    return border([&] {
+        require(mesh, "mesh");
+        write_struct(out_report, mesh->report, "out_report");
+    });
+}
+
+const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->warnings.c_str() : nullptr; }
+
+const char* vox_io_format_string(vox_io_format format) {
+    switch (format) {
+    case VOX_IO_FORMAT_AUTO:
+        return "no file";
+    case VOX_IO_FORMAT_GMSH:
+        return "Gmsh .msh";
+    case VOX_IO_FORMAT_TETGEN:
+        return "TetGen .node/.ele";
+    case VOX_IO_FORMAT_MEDIT:
+        return "Medit .mesh";
+    case VOX_IO_FORMAT_VEGA:
+        return "Vega .veg";
+    case VOX_IO_FORMAT_VTK:
+        return "VTK legacy .vtk";
+    case VOX_IO_FORMAT_VTU:
+        return "VTK XML .vtu";
+    case VOX_IO_FORMAT_SURFACE:
+        return "surface";
+    case VOX_IO_FORMAT_FORCE_32_BITS:
+        break;
+    }
+    return "unknown format";
+}

@@ -1,0 +1,473 @@
+// Gmsh .msh, versions 1, 2.0-2.2, 4.0 and 4.1, ASCII and binary of either byte order
+// (C. Geuzaine and J.-F. Remacle, Gmsh reference manual, "File formats").
+#include "node_numbers.hpp"
+#include "readers.hpp"
+
+namespace vox::io {
+namespace {
+
+struct ElementType {
+    std::uint8_t nodes;
+    Cell cell;
+    const char* name;
+};
+
+// The element types of the manual; nodes 0 where it names none.
+const ElementType& element_type(std::int64_t type) {
+    static const ElementType unknown = {0, Cell::other, ""};
+    static const ElementType types[32] = {unknown,
+                                          {2, Cell::other, "lines"},
+                                          {3, Cell::triangle, "triangles"},
+                                          {4, Cell::other, "quadrangles"},
+                                          {4, Cell::tet, "tetrahedra"},
+                                          {8, Cell::volume, "hexahedra"},
+                                          {6, Cell::volume, "prisms"},
+                                          {5, Cell::volume, "pyramids"},
+                                          {3, Cell::other, "second-order lines"},
+                                          {6, Cell::triangle, "second-order triangles"},
+                                          {9, Cell::other, "second-order quadrangles"},
+                                          {10, Cell::high_tet, "second-order tetrahedra"},
+                                          {27, Cell::volume, "second-order hexahedra"},
+                                          {18, Cell::volume, "second-order prisms"},
+                                          {14, Cell::volume, "second-order pyramids"},
+                                          {1, Cell::other, "points"},
+                                          {8, Cell::other, "second-order quadrangles"},
+                                          {20, Cell::volume, "second-order hexahedra"},
+                                          {15, Cell::volume, "second-order prisms"},
+                                          {13, Cell::volume, "second-order pyramids"},
+                                          {9, Cell::triangle, "third-order triangles"},
+                                          {10, Cell::triangle, "third-order triangles"},
+                                          {12, Cell::triangle, "fourth-order triangles"},
+                                          {15, Cell::triangle, "fourth-order triangles"},
+                                          {15, Cell::triangle, "fifth-order triangles"},
+                                          {21, Cell::triangle, "fifth-order triangles"},
+                                          {4, Cell::other, "third-order edges"},
+                                          {5, Cell::other, "fourth-order edges"},
+                                          {6, Cell::other, "fifth-order edges"},
+                                          {20, Cell::high_tet, "third-order tetrahedra"},
+                                          {35, Cell::high_tet, "fourth-order tetrahedra"},
+                                          {56, Cell::high_tet, "fifth-order tetrahedra"}};
+    static const ElementType hexahedron64 = {64, Cell::volume, "third-order hexahedra"};
+    static const ElementType hexahedron125 = {125, Cell::volume, "fourth-order hexahedra"};
+    if (type == 92) return hexahedron64;
+    if (type == 93) return hexahedron125;
+    return type > 0 && type < 32 ? types[type] : unknown;
+}
+
+class GmshReader {
+public:
+    explicit GmshReader(const File& file) : file_(file), in_(file) {}
+
+    MeshData read() {
+        data_.format = VOX_IO_FORMAT_GMSH;
+        std::size_t elements_at = 0; // of an $Elements section that stands before the nodes
+        for (in_.skip_space(); !in_.done(); in_.skip_space()) {
+            std::string_view name = in_.peek();
+            if (!name.starts_with('$')) in_.expected("a section ($...)");
+            in_.word("a section");
+            name.remove_prefix(1);
+            if (name == "MeshFormat") {
+                in_.line_end();
+                read_format();
+            } else if (name == "Nodes" || name == "ParametricNodes" || name == "NOD") {
+                if (have_nodes_) in_.fail("expected one section of nodes, found a second one");
+                begin_section(name);
+                read_nodes();
+                have_nodes_ = true;
+                end_section(name);
+            } else if (name == "Elements" || name == "ELM") {
+                if (have_elements_ || elements_at)
+                    in_.fail("expected one section of elements, found a second one");
+                begin_section(name);
+                if (!have_nodes_) {
+                    elements_at = in_.offset();
+                    skip_section(name);
+                    continue;
+                }
+                read_elements();
+                end_section(name);
+            } else {
+                skip_section(name);
+            }
+        }
+        if (!have_nodes_) in_.expected("a $Nodes section");
+        if (elements_at) {
+            in_.seek(elements_at);
+            read_elements();
+            end_section(version_ == 10 ? "ELM" : "Elements");
+        }
+        if (!have_elements_) in_.expected("an $Elements section");
+        skipped_.tell(data_);
+        require_tets(data_, file_.name);
+        return std::move(data_);
+    }
+
+private:
+    // ---- sections ----
+
+    void read_format() {
+        const double version = in_.real("a version");
+        version_ = version > 0 && version < 100 ? static_cast<int>(version * 10 + 0.5) : 0;
+        if (version_ != 10 && (version_ < 20 || version_ > 22) && version_ != 40 && version_ != 41)
+            in_.fail(format("version %g: the versions read are 1, 2.0 to 2.2, 4.0 and 4.1", version),
+                     VOX_ERROR_UNSUPPORTED);
+        const auto type = in_.integer<int>("a file type (0: ASCII, 1: binary)");
+        if (type != 0 && type != 1)
+            in_.fail(format("expected file type 0 (ASCII) or 1 (binary), found %d", type));
+        const auto data_size = in_.integer<int>("a data size");
+        in_.line_end();
+        binary_ = type == 1;
+        if (binary_) {
+            if (data_size != 8)
+                in_.fail(format("data size %d: binary files are read with size 8", data_size),
+                         VOX_ERROR_UNSUPPORTED);
+            in_.count_bytes(true);
+            const std::size_t start = in_.offset();
+            const auto one = in_.binary<std::uint32_t>(false, "the integer 1");
+            if (one != 1 && one != 0x01000000u) {
+                in_.seek(start);
+                in_.fail("expected the integer 1, which tells the byte order, found another number");
+            }
+            swap_ = one != 1;
+        }
+        end_section("MeshFormat");
+    }
+
+    void begin_section(std::string_view name) {
+        in_.line_end();
+        if (name == "NOD" || name == "ELM") {
+            version_ = 10;
+            binary_ = false;
+        } else if (version_ == 0) {
+            in_.fail("expected $MeshFormat before this section");
+        }
+        parametric_ = name == "ParametricNodes";
+        if (parametric_ && binary_)
+            in_.fail("$ParametricNodes is read from ASCII files only", VOX_ERROR_UNSUPPORTED);
+    }
+
+    static std::string end_mark(std::string_view name) {
+        return (name == "NOD" || name == "ELM" ? "$END" : "$End") + std::string(name);
+    }
+
+    void end_section(std::string_view name) {
+        in_.skip_space();
+        const std::string mark = end_mark(name);
+        if (!in_.accept(mark)) in_.expected(mark.c_str());
+    }
+
+    void skip_section(std::string_view name) {
+        const std::string mark = end_mark(name);
+        const std::size_t distance = in_.rest().find(mark);
+        if (distance == std::string_view::npos)
+            in_.fail(format("expected %s after $%s, found the end of the file", printable(mark).c_str(),
+                            printable(name).c_str()));
+        in_.seek(in_.offset() + distance + mark.size());
+    }
+
+    // ---- nodes ----
+
+    void read_nodes() {
+        if (version_ < 40) {
+            in_.skip_space();
+            const auto count = in_.count("number of nodes", binary_ ? 28 : 7, max_count);
+            in_.line_end();
+            data_.positions.reserve(3 * count);
+            for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(0) : text_node();
+        } else {
+            read_node_blocks();
+        }
+        std::int64_t twice;
+        if (!numbers_.finish(twice))
+            in_.fail(format("two nodes have the number %lld", static_cast<long long>(twice)));
+    }
+
+    void text_node() {
+        in_.skip_space();
+        numbers_.add(in_.integer<std::int64_t>("a node number"));
+        text_position();
+    }
+
+    void text_position() {
+        for (int k = 0; k < 3; ++k) data_.positions.push_back(in_.real("a coordinate"));
+        if (parametric_)
+            in_.skip_line();
+        else
+            in_.line_end();
+    }
+
+    void binary_node(std::size_t extra) {
+        numbers_.add(in_.binary<std::int32_t>(swap_, "a node number"));
+        binary_position(extra);
+    }
+
+    void binary_position(std::size_t extra) {
+        const std::size_t start = in_.offset();
+        const char* bytes = in_.take(24 + extra, "a position");
+        for (int k = 0; k < 3; ++k) {
+            const double x = load<double>(bytes + 8 * k, swap_);
+            if (!std::isfinite(x)) {
+                in_.seek(start);
+                in_.fail("expected a position, found a coordinate that is not finite");
+            }
+            data_.positions.push_back(x);
+        }
+    }
+
+    void read_node_blocks() {
+        const std::size_t start = in_.offset();
+        const std::uint64_t blocks = block_count();
+        const std::uint64_t total = total_count("number of nodes", binary_ ? 28 : 8);
+        data_.positions.reserve(3 * total);
+        for (std::uint64_t b = 0; b < blocks; ++b) {
+            int dimension;
+            if (binary_) {
+                const auto first = in_.binary<std::int32_t>(swap_, "an entity");
+                const auto second = in_.binary<std::int32_t>(swap_, "an entity");
+                dimension = version_ == 40 ? second : first;
+                parametric_ = in_.binary<std::int32_t>(swap_, "parametric (0 or 1)") != 0;
+            } else {
+                in_.skip_space();
+                const auto first = in_.integer<std::int32_t>("an entity");
+                const auto second = in_.integer<std::int32_t>("an entity");
+                dimension = version_ == 40 ? second : first;
+                parametric_ = in_.integer<std::int32_t>("parametric (0 or 1)") != 0;
+            }
+            if (dimension < 0 || dimension > 3)
+                in_.fail(format("expected an entity of dimension 0 to 3, found %d", dimension));
+            const std::uint64_t count = in_block("nodes in this block", binary_ ? 28 : 8);
+            if (data_.positions.size() / 3 + count > total)
+                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu",
+                                static_cast<unsigned long long>(total),
+                                static_cast<unsigned long long>(count), data_.positions.size() / 3));
+            const std::size_t extra = parametric_ ? 8 * static_cast<std::size_t>(dimension) : 0;
+            if (version_ == 40) {
+                for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(extra) : text_node();
+            } else {
+                for (std::uint64_t i = 0; i < count; ++i) {
+                    if (!binary_) in_.skip_space();
+                    numbers_.add(binary_ ? in_.binary<std::int64_t>(swap_, "a node number")
+                                         : in_.integer<std::int64_t>("a node number"));
+                    if (!binary_) in_.line_end();
+                }
+                for (std::uint64_t i = 0; i < count; ++i) {
+                    if (!binary_) in_.skip_space();
+                    binary_ ? binary_position(extra) : text_position();
+                }
+            }
+        }
+        if (data_.positions.size() / 3 != total)
+            wrong_total("nodes", start, total, data_.positions.size() / 3);
+    }
+
+    // ---- elements ----
+
+    void read_elements() {
+        have_elements_ = true;
+        if (version_ >= 40) return read_element_blocks();
+        in_.skip_space();
+        const auto count = in_.count("number of elements", binary_ ? 8 : 7, max_count);
+        in_.line_end();
+        data_.tets.reserve(4 * std::min<std::uint64_t>(count, in_.remaining() / (binary_ ? 20 : 13)));
+        if (!binary_)
+            for (std::uint64_t i = 0; i < count; ++i) text_element();
+        else
+            for (std::uint64_t done = 0; done < count;) done += binary_elements(count - done);
+    }
+
+    // Versions 1 and 2: number, type, tags, nodes.
+    void text_element() {
+        in_.skip_space();
+        in_.integer<std::int64_t>("an element number");
+        const ElementType& type = checked_type(in_.integer<std::int64_t>("an element type"));
+        if (version_ == 10) {
+            in_.integer<std::int64_t>("a physical region");
+            in_.integer<std::int64_t>("an elementary region");
+            const auto nodes = in_.integer<std::int64_t>("a number of nodes");
+            if (nodes != type.nodes)
+                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name,
+                                static_cast<long long>(nodes)));
+        } else {
+            const auto tags = in_.integer<std::int64_t>("a number of tags");
+            if (tags < 0)
+                in_.fail(format("expected a number of tags, found %lld", static_cast<long long>(tags)));
+            for (std::int64_t i = 0; i < tags; ++i) in_.integer<std::int64_t>("a tag");
+        }
+        text_nodes(type);
+    }
+
+    void text_nodes(const ElementType& type) {
+        std::vector<std::uint32_t>* const corners = corners_of(type, 1);
+        const int wanted = type.cell == Cell::triangle ? 3 : 4;
+        if (!corners) return in_.skip_line();
+        for (int i = 0; i < type.nodes; ++i) {
+            const auto number = in_.integer<std::int64_t>("a node number");
+            if (i < wanted) corners->push_back(vertex_of(number));
+        }
+        in_.line_end();
+    }
+
+    // A block of version 2: type, number of elements, number of tags; then number, tags, nodes of each.
+    std::uint64_t binary_elements(std::uint64_t most) {
+        const std::size_t start = in_.offset();
+        const ElementType& type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
+        const auto count = in_.binary<std::int32_t>(swap_, "a number of elements");
+        const auto tags = in_.binary<std::int32_t>(swap_, "a number of tags");
+        if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0) {
+            in_.seek(start);
+            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags",
+                            static_cast<unsigned long long>(most), count, tags));
+        }
+        const std::size_t before = 4 * (1 + static_cast<std::size_t>(tags));
+        binary_block<std::int32_t>(type, static_cast<std::uint64_t>(count), before);
+        return static_cast<std::uint64_t>(count);
+    }
+
+    // `count` elements: `before` bytes that are not needed, then the nodes as Integers.
+    template <class Integer>
+    void binary_block(const ElementType& type, std::uint64_t count, std::size_t before) {
+        const std::size_t size = before + type.nodes * sizeof(Integer);
+        if (count > in_.remaining() / size)
+            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow",
+                            static_cast<unsigned long long>(count), size, in_.remaining()));
+        std::vector<std::uint32_t>* const corners = corners_of(type, count);
+        if (!corners) {
+            in_.take(count * size, "elements");
+            return;
+        }
+        const std::size_t wanted = type.cell == Cell::triangle ? 3 : 4;
+        for (std::uint64_t e = 0; e < count; ++e) {
+            const char* const nodes = in_.take(size, "an element") + before;
+            for (std::size_t i = 0; i < wanted; ++i)
+                corners->push_back(
+                    vertex_of(static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_))));
+        }
+    }
+
+    // Versions 4: blocks of one type; number and nodes of each element.
+    void read_element_blocks() {
+        const std::size_t start = in_.offset();
+        const std::uint64_t blocks = block_count();
+        const std::uint64_t total = total_count("number of elements", binary_ ? 8 : 4);
+        std::uint64_t done = 0;
+        for (std::uint64_t b = 0; b < blocks; ++b) {
+            const ElementType* type;
+            if (binary_) {
+                in_.take(8, "an entity");
+                type = &checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
+            } else {
+                in_.skip_space();
+                in_.integer<std::int64_t>("an entity");
+                in_.integer<std::int64_t>("an entity");
+                type = &checked_type(in_.integer<std::int64_t>("an element type"));
+            }
+            const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
+            if (done + count > total)
+                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu",
+                                static_cast<unsigned long long>(total),
+                                static_cast<unsigned long long>(count),
+                                static_cast<unsigned long long>(done)));
+            done += count;
+            if (type->cell == Cell::tet || type->cell == Cell::high_tet) {
+                const std::size_t line = binary_ ? 20 : 9; // at least
+                const std::size_t need =
+                    data_.tets.size() + 4 * std::min<std::uint64_t>(count, in_.remaining() / line);
+                if (need > data_.tets.capacity())
+                    data_.tets.reserve(std::max(need, data_.tets.capacity() / 2 * 3));
+            }
+            if (binary_ && version_ == 40)
+                binary_block<std::int32_t>(*type, count, 4);
+            else if (binary_)
+                binary_block<std::int64_t>(*type, count, 8);
+            else
+                for (std::uint64_t i = 0; i < count; ++i) {
+                    in_.skip_space();
+                    in_.integer<std::int64_t>("an element number");
+                    text_nodes(*type);
+                }
+        }
+        if (done != total) wrong_total("elements", start, total, done);
+    }
+
+    // ---- shared ----
+
+    // Versions 4: blocks and things in all; version 4.1 adds the lowest and highest number, which nobody
+    // needs.
+    std::uint64_t block_count() {
+        if (!binary_) in_.skip_space();
+        return binary_ ? binary_count("number of blocks", 20) : in_.count("number of blocks", 4, max_count);
+    }
+    std::uint64_t total_count(const char* what, std::size_t bytes) {
+        const std::uint64_t total = binary_ ? binary_count(what, bytes) : in_.count(what, bytes, max_count);
+        if (binary_ && version_ == 41) in_.take(16, "lowest and highest number");
+        if (!binary_ && version_ == 41) {
+            in_.integer<std::uint64_t>("the lowest number");
+            in_.integer<std::uint64_t>("the highest number");
+        }
+        if (!binary_) in_.line_end();
+        return total;
+    }
+    std::uint64_t in_block(const char* what, std::size_t bytes) {
+        if (binary_) return binary_count(what, bytes);
+        const std::uint64_t count = in_.count(what, bytes, max_count);
+        in_.line_end();
+        return count;
+    }
+    std::uint64_t binary_count(const char* what, std::size_t bytes) {
+        const std::size_t start = in_.offset();
+        const auto count = in_.binary<std::uint64_t>(swap_, what);
+        in_.check_count(what, count, bytes, max_count, start);
+        return count;
+    }
+    [[noreturn]] void wrong_total(const char* what, std::size_t start, std::uint64_t total,
+                                  std::uint64_t found) {
+        in_.seek(start);
+        in_.fail(format("%llu %s are declared, but the blocks hold %llu",
+                        static_cast<unsigned long long>(total), what,
+                        static_cast<unsigned long long>(found)));
+    }
+
+    const ElementType& checked_type(std::int64_t number) {
+        const ElementType& type = element_type(number);
+        if (type.nodes == 0)
+            in_.fail(format("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
+                            static_cast<long long>(number)));
+        return type;
+    }
+
+    // Where the corners of such elements go, after counting them; null when they are left out.
+    std::vector<std::uint32_t>* corners_of(const ElementType& type, std::uint64_t count) {
+        if (type.cell == Cell::high_tet) data_.second_order_tets += count;
+        if (type.cell == Cell::tet || type.cell == Cell::high_tet) return &data_.tets;
+        if (type.cell == Cell::triangle) return &data_.triangles;
+        skipped_.add(type.cell, type.name, count);
+        return nullptr;
+    }
+
+    std::uint32_t vertex_of(std::int64_t number) {
+        const std::uint32_t vertex = numbers_.find(number);
+        if (vertex == NodeNumbers::none)
+            in_.fail(format("expected the number of a node, found %lld, which none of the %llu nodes has",
+                            static_cast<long long>(number),
+                            static_cast<unsigned long long>(numbers_.count())));
+        return vertex;
+    }
+
+    const File& file_;
+    Scanner in_;
+    MeshData data_;
+    NodeNumbers numbers_;
+    Skipped skipped_;
+    int version_ = 0; // times ten
+    bool binary_ = false;
+    bool swap_ = false;
+    bool parametric_ = false;
+    bool have_nodes_ = false;
+    bool have_elements_ = false;
+};
+
+} // namespace
+
+MeshData read_gmsh(const File& file) { return GmshReader(file).read(); }
+
+} // namespace vox::io

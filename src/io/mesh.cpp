@@ -1,0 +1,18 @@
+#include "mesh.hpp"
+
+#include "diagnosis.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace vox::io {
+
+vox_io_mesh* make_mesh(MeshData data) {
+    auto mesh = std::make_unique<vox_io_mesh>();
+    mesh->data = std::move(data);
+    mesh->report = diagnose(mesh->data);
+    mesh->warnings = warnings_of(mesh->data, mesh->report);
+    return mesh.release();
+}
+
+} // namespace vox::io

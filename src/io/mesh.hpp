@@ -1,0 +1,12 @@
+// The public mesh object: what was read, and what is to be said about it.
+#pragma once
+
+#include "mesh_data.hpp"
+
+#include <string>
+
+struct vox_io_mesh {
+    vox::io::MeshData data;
+    vox_io_report report{};
+    std::string warnings; // one line each
+};

@@ -1,0 +1,206 @@
+// Reading text and binary mesh files from memory: one pass, no copies, every failure with its place.
+#pragma once
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace vox::io {
+
+// One file in memory. The bytes are borrowed.
+struct File {
+    std::string name; // for error texts
+    std::string_view bytes;
+};
+
+// `text` cut to a length fit for an error message, with everything unprintable shown as "?".
+std::string printable(std::string_view text, std::size_t longest = 40);
+
+// A position in a file. Fields are read inside one line unless skip_space() is called between them; line ends
+// are "\n", "\r\n" or "\r". The place of a failure is worked out when it happens, so that reading costs
+// nothing.
+class Scanner {
+public:
+    // From `comment` to the end of a line counts as blank; 0: the format has no comments.
+    explicit Scanner(const File& file, char comment = 0)
+        : name_(file.name), begin_(file.bytes.data()), at_(begin_), end_(begin_ + file.bytes.size()),
+          comment_(comment) {}
+
+    // ---- place ----
+
+    bool done() const noexcept { return at_ == end_; }
+    std::size_t remaining() const noexcept { return static_cast<std::size_t>(end_ - at_); }
+    std::size_t offset() const noexcept { return static_cast<std::size_t>(at_ - begin_); }
+    void seek(std::size_t offset) noexcept { at_ = begin_ + offset; }
+    std::string_view rest() const noexcept { return {at_, remaining()}; }
+
+    // Failures are told by byte instead of by line from here on, or the reverse.
+    void count_bytes(bool on) noexcept { bytes_ = on; }
+
+    std::string place(std::size_t offset) const;
+    std::string place() const { return place(offset()); }
+
+    // "FILE, line N: expected WHAT, found ..." with what stands at this place.
+    [[noreturn]] void expected(const char* what);
+    // "FILE, line N: TEXT"
+    [[noreturn]] void fail(const std::string& text, vox_result result = VOX_ERROR_FORMAT) const;
+
+    // ---- text ----
+
+    void skip_blanks() noexcept {
+        while (at_ != end_ && is_blank(*at_)) ++at_;
+    }
+    // Blanks, comments and line ends.
+    void skip_space() noexcept {
+        for (;; ++at_) {
+            while (at_ != end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
+            if (at_ == end_ || !comment_ || *at_ != comment_) return;
+            while (at_ != end_ && !is_line_end(*at_)) ++at_;
+            if (at_ == end_) return;
+        }
+    }
+    bool at_line_end() noexcept {
+        skip_blanks();
+        return at_ == end_ || is_line_end(*at_) || (comment_ && *at_ == comment_);
+    }
+    void skip_line() noexcept {
+        while (at_ != end_ && !is_line_end(*at_)) ++at_;
+        pass_line_end();
+    }
+    // Nothing but blanks may stand before the end of the line; goes to the next one.
+    void line_end() {
+        if (!at_line_end()) expected("the end of the line");
+        skip_line();
+    }
+
+    // What stands here up to white space; stays in place. Empty at the end of a line.
+    std::string_view peek() noexcept {
+        if (at_line_end()) return {};
+        const char* stop = at_;
+        while (stop != end_ && !is_blank(*stop) && !is_line_end(*stop)) ++stop;
+        return {at_, static_cast<std::size_t>(stop - at_)};
+    }
+    std::string_view word(const char* what) {
+        const std::string_view found = peek();
+        if (found.empty()) expected(what);
+        at_ += found.size();
+        return found;
+    }
+    // Passes `text` if it is the next word.
+    bool accept(std::string_view text) noexcept {
+        if (peek() != text) return false;
+        at_ += text.size();
+        return true;
+    }
+
+    template <class Integer>
+    Integer integer(const char* what) {
+        skip_blanks();
+        const char* start = at_ + (at_ != end_ && *at_ == '+');
+        Integer value{};
+        const auto [stop, error] = std::from_chars(start, end_, value);
+        if (error == std::errc::result_out_of_range) out_of_range(what);
+        if (error != std::errc{} || !at_word_end(stop)) expected(what);
+        at_ = stop;
+        return value;
+    }
+
+    double real(const char* what) {
+        skip_blanks();
+        const char* start = at_ + (at_ != end_ && *at_ == '+');
+        double value = 0;
+        const auto [stop, error] = std::from_chars(start, end_, value);
+        if (error == std::errc::invalid_argument || !at_word_end(stop)) expected(what);
+        // A number too small for a double is read as zero, as C's strtod does; one too large is a failure.
+        if (error == std::errc::result_out_of_range) {
+            if (!is_tiny({start, static_cast<std::size_t>(stop - start)})) out_of_range(what);
+        } else if (!std::isfinite(value)) {
+            expected("a finite number");
+        }
+        at_ = stop;
+        return value;
+    }
+
+    // A count of things of which each takes at least `bytes` bytes of the rest of the file, and at most
+    // `limit`.
+    std::uint64_t count(const char* what, std::size_t bytes, std::uint64_t limit) {
+        skip_blanks();
+        if (at_ != end_ && *at_ == '-') expected(what);
+        const std::size_t start = offset();
+        const auto value = integer<std::uint64_t>(what);
+        check_count(what, value, bytes, limit, start);
+        return value;
+    }
+    void check_count(const char* what, std::uint64_t value, std::size_t bytes, std::uint64_t limit,
+                     std::size_t at) const;
+
+    // ---- binary ----
+
+    const char* take(std::size_t size, const char* what) {
+        if (size > remaining())
+            fail(format("expected %zu bytes (%s), found the end of the file after %zu", size, what,
+                        remaining()));
+        const char* data = at_;
+        at_ += size;
+        return data;
+    }
+    template <class T>
+    T binary(bool swap, const char* what);
+
+    // Whether a decimal number out of a double's range is so for being small.
+    static bool is_tiny(std::string_view number) noexcept;
+
+
+    static bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
+
+private:
+    void pass_line_end() noexcept {
+        if (at_ != end_ && *at_ == '\r') {
+            ++at_;
+            if (at_ != end_ && *at_ == '\n') ++at_;
+        } else if (at_ != end_) {
+            ++at_;
+        }
+    }
+    bool at_word_end(const char* c) const noexcept {
+        return c == end_ || is_blank(*c) || is_line_end(*c) || (comment_ && *c == comment_);
+    }
+    [[noreturn]] void out_of_range(const char* what);
+
+    const std::string& name_;
+    const char* begin_;
+    const char* at_;
+    const char* end_;
+    char comment_;
+    bool bytes_ = false;
+};
+
+// The value stored at `data`, which need not be aligned; `swap` reverses its bytes.
+template <class T>
+T load(const char* data, bool swap) noexcept {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, data, sizeof bytes);
+    if (swap)
+        for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+template <class T>
+T Scanner::binary(bool swap, const char* what) {
+    return load<T>(take(sizeof(T), what), swap);
+}
+
+inline constexpr bool host_is_big_endian = std::endian::native == std::endian::big;
+
+} // namespace vox::io

@@ -1,0 +1,243 @@
+// VTK legacy files, versions 1.0 to 5.1, ASCII and binary ("VTK File Formats", Kitware): DATASET
+// UNSTRUCTURED_GRID. Binary numbers are big endian.
+#include "vtk_cells.hpp"
+
+namespace vox::io {
+namespace {
+
+constexpr bool swap = !host_is_big_endian;
+
+class VtkReader {
+public:
+    explicit VtkReader(const File& file) : file_(file), in_(file) {}
+
+    MeshData read() {
+        data_.format = VOX_IO_FORMAT_VTK;
+        read_header();
+        while (next_keyword()) {
+            const std::size_t start = in_.offset();
+            const std::string keyword(in_.word("a keyword"));
+            if (keyword == "POINTS") {
+                read_points();
+            } else if (keyword == "CELLS") {
+                cells_at_ = start;
+                read_cells();
+            } else if (keyword == "CELL_TYPES") {
+                read_types();
+            } else if (keyword == "FIELD") {
+                skip_field();
+            } else if (keyword == "METADATA") {
+                skip_metadata();
+            } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+                break; // all we want stands before
+            } else {
+                in_.seek(start);
+                in_.expected("POINTS, CELLS, CELL_TYPES, FIELD, METADATA, POINT_DATA or CELL_DATA");
+            }
+        }
+        if (!have_points_) in_.expected("POINTS");
+        if (!have_cells_) in_.expected("CELLS");
+        if (!have_types_) in_.expected("CELL_TYPES");
+        if (types_.size() != ends_.size()) {
+            in_.seek(types_at_);
+            in_.fail(
+                format("expected %zu cell types, as many as cells, found %zu", ends_.size(), types_.size()));
+        }
+        Skipped skipped;
+        take_vtk_cells(ends_, connectivity_, types_, 0, data_.positions.size() / 3, data_, skipped,
+                       [&](std::size_t cell, const std::string& text) {
+                           in_.seek(cells_at_);
+                           in_.fail(format("cell %zu: %s", cell, text.c_str()));
+                       });
+        skipped.tell(data_);
+        require_tets(data_, file_.name);
+        return std::move(data_);
+    }
+
+private:
+    void read_header() {
+        in_.skip_space();
+        if (!in_.rest().starts_with("# vtk DataFile Version")) in_.expected("# vtk DataFile Version");
+        for (int i = 0; i < 4; ++i) in_.word("# vtk DataFile Version");
+        const double version = in_.real("a version");
+        if (!(version >= 1 && version < 6))
+            in_.fail(format("version %g: the versions read are 1.0 to 5.1", version), VOX_ERROR_UNSUPPORTED);
+        in_.line_end();
+        in_.skip_line(); // title
+        in_.skip_space();
+        if (in_.accept("BINARY"))
+            binary_ = true;
+        else if (!in_.accept("ASCII"))
+            in_.expected("ASCII or BINARY");
+        in_.line_end();
+        in_.skip_space();
+        if (!in_.accept("DATASET")) in_.expected("DATASET");
+        if (!in_.accept("UNSTRUCTURED_GRID")) in_.expected("UNSTRUCTURED_GRID");
+        in_.line_end();
+        in_.count_bytes(binary_);
+    }
+
+    bool next_keyword() {
+        in_.skip_space();
+        return !in_.done();
+    }
+
+    VtkNumber number_type(const char* what) {
+        const std::size_t start = in_.offset();
+        const VtkNumber type = vtk_number(in_.word(what));
+        if (type == VtkNumber::none) {
+            in_.seek(start);
+            in_.expected(what);
+        }
+        return type;
+    }
+
+    // A count of values of which each takes `size` bytes in a binary file and at least two in a text file.
+    std::uint64_t count(const char* what, std::size_t size) {
+        return in_.count(what, binary_ ? size : 1, max_count * 8);
+    }
+
+    template <class Out>
+    void read_numbers(VtkNumber type, std::uint64_t number, std::vector<Out>& out, const char* what) {
+        in_.line_end();
+        const std::size_t least = binary_ ? size_of(type) : 2; // the last one may lack its blank
+        in_.check_count(what, number > 0 && !binary_ ? number - 1 : number, least, max_count * 8,
+                        in_.offset());
+        out.reserve(out.size() + number);
+        if (binary_)
+            return append_vtk_numbers(type, in_.take(number * size_of(type), what), number, swap, out);
+        for (std::uint64_t i = 0; i < number; ++i) {
+            in_.skip_space();
+            if constexpr (std::is_floating_point_v<Out>)
+                out.push_back(in_.real(what));
+            else
+                out.push_back(static_cast<Out>(in_.integer<std::int64_t>(what)));
+        }
+    }
+
+    void read_points() {
+        if (have_points_) in_.fail("expected one section POINTS, found a second one");
+        have_points_ = true;
+        const std::uint64_t points = in_.count("number of points", 3, max_count);
+        const VtkNumber type = number_type("a number type (float, double ...)");
+        const std::size_t start = in_.offset();
+        read_numbers(type, 3 * points, data_.positions, "coordinates");
+        for (std::size_t i = 0; i < data_.positions.size(); ++i)
+            if (!std::isfinite(data_.positions[i])) {
+                in_.seek(start);
+                in_.fail(format("point %zu: expected a coordinate, found one that is not finite", i / 3));
+            }
+    }
+
+    void read_cells() {
+        if (have_cells_) in_.fail("expected one section CELLS, found a second one");
+        have_cells_ = true;
+        const std::uint64_t first = count("number of cells", 1);
+        const std::uint64_t second = count("size of the cell list", 1);
+        const std::size_t start = in_.offset();
+        in_.line_end();
+        if (next_keyword() && in_.accept("OFFSETS")) {
+            // Version 5.1: `first` offsets, one more than cells, and `second` points.
+            const VtkNumber offset_type = number_type("a number type (vtktypeint64 ...)");
+            read_numbers(offset_type, first, ends_, "offsets");
+            if (ends_.empty() || ends_[0] != 0) in_.fail("expected offsets that start with 0");
+            ends_.erase(ends_.begin());
+            in_.skip_space();
+            if (!in_.accept("CONNECTIVITY")) in_.expected("CONNECTIVITY");
+            const VtkNumber point_type = number_type("a number type (vtktypeint64 ...)");
+            read_numbers(point_type, second, connectivity_, "points of cells");
+            if (!ends_.empty() && ends_.back() != second)
+                in_.fail(format("expected offsets that end with %llu, found %llu",
+                                static_cast<unsigned long long>(second),
+                                static_cast<unsigned long long>(ends_.back())));
+            return;
+        }
+        // Before: `first` cells, each its number of points and the points; `second` numbers in all.
+        in_.seek(start);
+        std::vector<std::uint64_t>& list = connectivity_;
+        read_numbers(VtkNumber::i32, second, list, "points of cells");
+        ends_.reserve(std::min(first, second));
+        std::uint64_t from = 0, to = 0;
+        for (std::uint64_t c = 0; c < first; ++c) {
+            const std::uint64_t points = from < second ? list[from] : 0;
+            if (from >= second || points > second - from - 1) {
+                in_.seek(start);
+                in_.fail(format("expected %llu cells in %llu numbers, found only %llu",
+                                static_cast<unsigned long long>(first),
+                                static_cast<unsigned long long>(second), static_cast<unsigned long long>(c)));
+            }
+            for (std::uint64_t i = 0; i < points; ++i) list[to++] = list[from + 1 + i]; // drop the counts
+            from += 1 + points;
+            ends_.push_back(to);
+        }
+        if (from != second) {
+            in_.seek(start);
+            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu",
+                            static_cast<unsigned long long>(first), static_cast<unsigned long long>(second),
+                            static_cast<unsigned long long>(from)));
+        }
+        list.resize(to);
+    }
+
+    void read_types() {
+        if (have_types_) in_.fail("expected one section CELL_TYPES, found a second one");
+        have_types_ = true;
+        types_at_ = in_.offset();
+        const std::uint64_t number = count("number of cell types", 4);
+        read_numbers(VtkNumber::i32, number, types_, "a cell type");
+    }
+
+    // FIELD name arrays, then for each: name, components, tuples, type, and the values.
+    void skip_field() {
+        in_.word("a field name");
+        const std::uint64_t arrays = count("number of arrays", 1);
+        in_.line_end();
+        for (std::uint64_t a = 0; a < arrays; ++a) {
+            in_.skip_space();
+            in_.word("an array name");
+            const std::uint64_t components = count("number of components", 1);
+            const std::uint64_t tuples = count("number of tuples", 1);
+            const std::string type_name(in_.word("a number type"));
+            const VtkNumber type = vtk_number(type_name);
+            if (binary_ && type == VtkNumber::none)
+                in_.fail(
+                    format("a field of type %s in a binary file is not read", printable(type_name).c_str()),
+                    VOX_ERROR_UNSUPPORTED);
+            in_.line_end();
+            if (tuples > 0) {
+                const std::size_t size = binary_ ? size_of(type) : 1;
+                in_.check_count("values of the array", components, size * tuples, max_count * 8,
+                                in_.offset());
+            }
+            const std::uint64_t values = components * tuples;
+            if (binary_) {
+                in_.take(values * size_of(type), "values of the array");
+                continue;
+            }
+            for (std::uint64_t i = 0; i < values; ++i) {
+                in_.skip_space();
+                in_.word("a value");
+            }
+        }
+    }
+
+    // Lines up to an empty one.
+    void skip_metadata() {
+        in_.line_end();
+        while (!in_.done() && !in_.at_line_end()) in_.skip_line();
+    }
+
+    const File& file_;
+    Scanner in_;
+    MeshData data_;
+    std::vector<std::uint64_t> ends_, connectivity_, types_;
+    std::size_t cells_at_ = 0, types_at_ = 0;
+    bool binary_ = false;
+    bool have_points_ = false, have_cells_ = false, have_types_ = false;
+};
+
+} // namespace
+
+MeshData read_vtk(const File& file) { return VtkReader(file).read(); }
+
+} // namespace vox::io

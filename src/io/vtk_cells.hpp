@@ -1,0 +1,66 @@
+// VTK's cell types and number types, shared by the legacy and the XML reader.
+#pragma once
+
+#include "readers.hpp"
+
+#include <algorithm>
+
+namespace vox::io {
+
+struct VtkCellType {
+    Cell cell;
+    std::uint64_t least_points; // for the cells we take: the corners
+    const char* name;
+};
+
+// Type numbers of vtkCellType.h.
+VtkCellType vtk_cell_type(std::uint64_t type);
+
+// Puts the cells into `data`. Cell c has connectivity[offsets[c - 1]] to connectivity[offsets[c] - 1].
+// `fail(cell, text)` must throw.
+template <class Fail>
+void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<std::uint64_t>& connectivity,
+                    const std::vector<std::uint64_t>& types, std::uint64_t first_vertex,
+                    std::uint64_t vertex_count, MeshData& data, Skipped& skipped, const Fail& fail) {
+    for (std::size_t c = 0; c < types.size(); ++c) {
+        const std::uint64_t start = c == 0 ? 0 : ends[c - 1];
+        if (ends[c] < start || ends[c] > connectivity.size())
+            fail(c,
+                 format("expected offsets that ascend up to %zu, found %llu after %llu", connectivity.size(),
+                        static_cast<unsigned long long>(ends[c]), static_cast<unsigned long long>(start)));
+        const VtkCellType type = vtk_cell_type(types[c]);
+        const std::uint64_t points = ends[c] - start;
+        if (type.cell == Cell::volume || type.cell == Cell::other) {
+            skipped.add(type.cell, type.name, 1);
+            continue;
+        }
+        const std::uint64_t corners = type.cell == Cell::triangle ? 3 : 4;
+        if (points < type.least_points || (points > type.least_points && type.least_points == corners))
+            fail(c, format("expected %llu points (%s), found %llu",
+                           static_cast<unsigned long long>(type.least_points), type.name,
+                           static_cast<unsigned long long>(points)));
+        if (type.cell == Cell::high_tet) ++data.second_order_tets;
+        std::vector<std::uint32_t>& out = type.cell == Cell::triangle ? data.triangles : data.tets;
+        for (std::uint64_t i = 0; i < corners; ++i) {
+            const std::uint64_t point = connectivity[start + i];
+            if (point >= vertex_count)
+                fail(c, format("expected a point from 0 to %lld, found %lld",
+                               static_cast<long long>(vertex_count) - 1, static_cast<long long>(point)));
+            out.push_back(static_cast<std::uint32_t>(first_vertex + point));
+        }
+    }
+}
+
+// VTK's names of number types, of both flavours of files.
+enum class VtkNumber : std::uint8_t { none, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+VtkNumber vtk_number(std::string_view name);
+std::size_t size_of(VtkNumber number);
+
+// Numbers as they are stored: appended to `out`, integers as their 64-bit pattern.
+void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
+                        std::vector<double>& out);
+void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
+                        std::vector<std::uint64_t>& out);
+
+} // namespace vox::io

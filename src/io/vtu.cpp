@@ -1,0 +1,341 @@
+// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware): ASCII, base64 and appended arrays, raw or
+// compressed with zlib, headers of 32 or 64 bits, either byte order. XML by pugixml, inflation by zlib.
+#include "vtk_cells.hpp"
+
+#include <pugixml.hpp>
+#include <zlib.h>
+
+#include <cctype>
+
+namespace vox::io {
+namespace {
+
+// The bytes that base64 text stands for. Padding may end a group anywhere: VTK writes the header and the data
+// as separate groups. Blanks are skipped; `fail` throws.
+template <class Fail>
+std::string from_base64(std::string_view text, std::size_t most, const Fail& fail) {
+    std::string out;
+    out.reserve(std::min(most, text.size() / 4 * 3 + 3));
+    std::uint32_t bits = 0;
+    int digits = 0, padding = 0;
+    for (const char c : text) {
+        if (out.size() >= most) break;
+        std::uint32_t digit = 0;
+        if (c >= 'A' && c <= 'Z')
+            digit = static_cast<std::uint32_t>(c - 'A');
+        else if (c >= 'a' && c <= 'z')
+            digit = static_cast<std::uint32_t>(c - 'a' + 26);
+        else if (c >= '0' && c <= '9')
+            digit = static_cast<std::uint32_t>(c - '0' + 52);
+        else if (c == '+')
+            digit = 62;
+        else if (c == '/')
+            digit = 63;
+        else if (c == '=' && digits >= 2)
+            ++padding;
+        else if (Scanner::is_blank(c) || Scanner::is_line_end(c))
+            continue;
+        else
+            fail(format("expected base64 text, found \"%s\"", printable({&c, 1}).c_str()));
+        if (padding > 0 && c != '=') fail("expected the end of a base64 group, found more of it");
+        bits = bits << 6 | digit;
+        if (++digits == 4) {
+            for (int byte = 2; byte >= padding; --byte) out += static_cast<char>(bits >> (8 * byte) & 0xff);
+            bits = 0;
+            digits = padding = 0;
+        }
+    }
+    if (out.size() < most && digits != 0) fail("expected base64 text in groups of four, found its end");
+    return out;
+}
+
+struct Array {
+    VtkNumber type = VtkNumber::none;
+    std::string bytes; // for binary and appended arrays
+    bool text = false; // for ASCII arrays: numbers in `where.child_value()`
+    pugi::xml_node where;
+};
+
+class VtuReader {
+public:
+    explicit VtuReader(const File& file) : file_(file) {}
+
+    MeshData read() {
+        data_.format = VOX_IO_FORMAT_VTU;
+        parse();
+        const pugi::xml_node root = document_.child("VTKFile");
+        if (!root) fail({}, "expected an element VTKFile, found none");
+        const std::string_view type = root.attribute("type").value();
+        if (type != "UnstructuredGrid")
+            fail(root, format("expected type=\"UnstructuredGrid\", found \"%s\"", printable(type).c_str()));
+        const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
+        if (order != "LittleEndian" && order != "BigEndian")
+            fail(root, format("expected a byte_order of LittleEndian or BigEndian, found \"%s\"",
+                              printable(order).c_str()));
+        swap_ = (order == "BigEndian") != host_is_big_endian;
+        const std::string_view header = root.attribute("header_type").as_string("UInt32");
+        if (header != "UInt32" && header != "UInt64")
+            fail(root, format("expected a header_type of UInt32 or UInt64, found \"%s\"",
+                              printable(header).c_str()));
+        header_size_ = header == "UInt32" ? 4 : 8;
+        const std::string_view compressor = root.attribute("compressor").value();
+        if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+            fail(root,
+                 format("compressor %s: only vtkZLibDataCompressor is read", printable(compressor).c_str()),
+                 VOX_ERROR_UNSUPPORTED);
+        compressed_ = !compressor.empty();
+
+        const pugi::xml_node grid = root.child("UnstructuredGrid");
+        if (!grid) fail(root, "expected an element UnstructuredGrid, found none");
+        bool any = false;
+        for (const pugi::xml_node piece : grid.children("Piece")) {
+            read_piece(piece);
+            any = true;
+        }
+        if (!any) fail(grid, "expected an element Piece, found none");
+        skipped_.tell(data_);
+        require_tets(data_, file_.name);
+        return std::move(data_);
+    }
+
+private:
+    [[noreturn]] void fail(const pugi::xml_node& where, const std::string& text,
+                           vox_result result = VOX_ERROR_FORMAT) const {
+        std::string place = file_.name;
+        if (where && where.offset_debug() >= 0)
+            place += format(", byte %lld (%s %s)", static_cast<long long>(where.offset_debug()), where.name(),
+                            printable(where.attribute("Name").value()).c_str());
+        throw Error(result, format("%s: %s", place.c_str(), text.c_str()));
+    }
+
+    // Appended data may be raw bytes, which are no XML: it is cut out before the rest is parsed.
+    void parse() {
+        std::string_view xml = file_.bytes;
+        std::string rest;
+        const std::size_t start = xml.find("<AppendedData");
+        if (start != std::string_view::npos) {
+            const std::size_t mark = xml.find('_', xml.find('>', start));
+            const std::size_t end = xml.rfind("</AppendedData");
+            if (mark == std::string_view::npos || end == std::string_view::npos || end < mark)
+                fail({}, format("byte %zu: expected appended data from \"_\" to </AppendedData>", start));
+            appended_ = xml.substr(mark + 1, end - mark - 1);
+            const std::string_view tag = xml.substr(start, xml.find('>', start) - start);
+            appended_base64_ = tag.find("base64") != std::string_view::npos;
+            rest.reserve(mark + xml.size() - end);
+            rest.append(xml.substr(0, mark)).append(xml.substr(end));
+            xml = rest;
+        }
+        const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
+        if (!result)
+            fail({}, format("byte %lld: expected XML, found this: %s", static_cast<long long>(result.offset),
+                            result.description()));
+    }
+
+    // ---- arrays ----
+
+    Array open(const pugi::xml_node& array, std::uint64_t values) {
+        Array out;
+        out.where = array;
+        const std::string_view name = array.attribute("type").value();
+        out.type = vtk_number(name);
+        if (out.type == VtkNumber::none)
+            fail(array, format("expected a number type (Float64, Int64 ...), found \"%s\"",
+                               printable(name).c_str()));
+        const std::string_view kind = array.attribute("format").as_string("ascii");
+        const std::size_t size = size_of(out.type);
+        if (kind == "ascii") {
+            const std::size_t length = std::strlen(array.child_value());
+            if (values > (length + 1) / 2)
+                fail(array, format("expected %llu values, found %zu characters",
+                                   static_cast<unsigned long long>(values), length));
+            out.text = true;
+        } else if (kind == "binary") {
+            out.bytes = decode(array, array.child_value(), true, values, size);
+        } else if (kind == "appended") {
+            const std::uint64_t offset = array.attribute("offset").as_ullong(~0ull);
+            if (offset > appended_.size())
+                fail(array, format("expected an offset into %zu bytes of appended data, found \"%s\"",
+                                   appended_.size(), printable(array.attribute("offset").value()).c_str()));
+            out.bytes = decode(array, appended_.substr(offset), appended_base64_, values, size);
+        } else {
+            fail(array,
+                 format("expected format ascii, binary or appended, found \"%s\"", printable(kind).c_str()));
+        }
+        return out;
+    }
+
+    std::uint64_t header_word(const std::string& bytes, std::size_t index) const {
+        const char* at = bytes.data() + index * header_size_;
+        return header_size_ == 4 ? load<std::uint32_t>(at, swap_) : load<std::uint64_t>(at, swap_);
+    }
+
+    // The first `size` bytes that `source` stands for.
+    std::string decoded(const pugi::xml_node& array, std::string_view source, bool base64,
+                        std::size_t size) const {
+        std::string bytes =
+            base64 ? from_base64(source, size, [&](const std::string& text) { fail(array, text); })
+                   : std::string(source.substr(0, size));
+        if (bytes.size() < size)
+            fail(array, format("expected %zu bytes, found only %zu", size, bytes.size()));
+        bytes.resize(size);
+        return bytes;
+    }
+
+    // The values of a binary array: behind a header, whole or in compressed blocks.
+    std::string decode(const pugi::xml_node& array, std::string_view source, bool base64,
+                       std::uint64_t values, std::size_t value_size) const {
+        const std::size_t available = base64 ? source.size() / 4 * 3 + 3 : source.size();
+        const auto too_many = [&](const char* what, std::uint64_t number) {
+            fail(array, format("%s: %llu are declared, but only %zu bytes follow", what,
+                               static_cast<unsigned long long>(number), available));
+        };
+        if (!compressed_) {
+            if (values > available / value_size) too_many("values", values);
+            const std::size_t size = values * value_size;
+            const std::string head = decoded(array, source, base64, header_size_);
+            const std::uint64_t declared = header_word(head, 0);
+            if (declared != size)
+                fail(array, format("expected %zu bytes of values, found a header that says %llu", size,
+                                   static_cast<unsigned long long>(declared)));
+            return decoded(array, source, base64, header_size_ + size).substr(header_size_);
+        }
+
+        // Header: blocks, size of a block, size of the last one (0: as the others), compressed size of each.
+        const std::string start = decoded(array, source, base64, 3 * header_size_);
+        const std::uint64_t blocks = header_word(start, 0);
+        if (blocks > available / header_size_) too_many("blocks", blocks);
+        const std::uint64_t block_size = header_word(start, 1);
+        const std::uint64_t last = header_word(start, 2);
+        // zlib packs no more than 1032 to 1.
+        if (values > available * 1032 / value_size) too_many("values", values);
+        const std::size_t size = values * value_size;
+        const std::size_t header = (3 + blocks) * header_size_;
+        const std::string head = decoded(array, source, base64, header);
+        std::uint64_t packed = 0;
+        for (std::uint64_t b = 0; b < blocks; ++b) {
+            const std::uint64_t own = header_word(head, 3 + b);
+            if (own > available - std::min<std::uint64_t>(packed, available))
+                too_many("compressed bytes", own);
+            packed += own;
+        }
+        const std::string all = decoded(array, source, base64, header + packed);
+        std::string out(size, '\0');
+        std::size_t from = header, to = 0;
+        for (std::uint64_t b = 0; b < blocks; ++b) {
+            const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : block_size;
+            if (wanted > size - to)
+                fail(array, format("expected %zu bytes of values, found blocks of more", size));
+            const std::uint64_t own = header_word(head, 3 + b);
+            uLongf length = static_cast<uLongf>(wanted);
+            const int status =
+                uncompress(reinterpret_cast<Bytef*>(out.data() + to), &length,
+                           reinterpret_cast<const Bytef*>(all.data() + from), static_cast<uLong>(own));
+            if (status != Z_OK || length != wanted)
+                fail(array, format("block %llu: expected %llu bytes packed by zlib, found other data (%s)",
+                                   static_cast<unsigned long long>(b),
+                                   static_cast<unsigned long long>(wanted), zError(status)));
+            from += own;
+            to += wanted;
+        }
+        if (to != size) fail(array, format("expected %zu bytes of values, found blocks of %zu", size, to));
+        return out;
+    }
+
+    template <class Out>
+    void append(const Array& array, std::uint64_t values, std::vector<Out>& out) {
+        out.reserve(out.size() + values);
+        if (!array.text) {
+            if (!std::is_floating_point_v<Out> &&
+                (array.type == VtkNumber::f32 || array.type == VtkNumber::f64))
+                fail(array.where, "expected whole numbers, found a type of fractions");
+            return append_vtk_numbers(array.type, array.bytes.data(), values, swap_, out);
+        }
+        const File text{file_.name, array.where.child_value()};
+        Scanner in(text);
+        try {
+            for (std::uint64_t i = 0; i < values; ++i) {
+                in.skip_space();
+                if constexpr (std::is_floating_point_v<Out>)
+                    out.push_back(in.real("a coordinate"));
+                else
+                    out.push_back(static_cast<Out>(in.integer<std::int64_t>("a whole number")));
+            }
+            in.skip_space();
+            if (!in.done()) in.expected("the end of the array");
+        } catch (const Error& error) {
+            fail(array.where, format("in the array's text: %s", error.what()), error.result());
+        }
+    }
+
+    std::uint64_t number_of(const pugi::xml_node& piece, const char* name) {
+        const std::string_view text = piece.attribute(name).value();
+        std::uint64_t number = 0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc{} || stop != text.data() + text.size() || number > max_count)
+            fail(piece, format("expected %s from 0 to %llu, found \"%s\"", name,
+                               static_cast<unsigned long long>(max_count), printable(text).c_str()));
+        return number;
+    }
+
+    pugi::xml_node cell_array(const pugi::xml_node& cells, const char* name) {
+        const pugi::xml_node array = cells.find_child_by_attribute("DataArray", "Name", name);
+        if (!array) fail(cells, format("expected a DataArray named %s, found none", name));
+        return array;
+    }
+
+    void read_piece(const pugi::xml_node& piece) {
+        const std::uint64_t points = number_of(piece, "NumberOfPoints");
+        const std::uint64_t cells = number_of(piece, "NumberOfCells");
+        const std::uint64_t first_vertex = data_.positions.size() / 3;
+        if (first_vertex + points > max_count)
+            fail(piece, format("more than %llu points in all", static_cast<unsigned long long>(max_count)),
+                 VOX_ERROR_LIMIT);
+        if (points > 0) {
+            const pugi::xml_node array = piece.child("Points").child("DataArray");
+            if (!array) fail(piece, "expected a DataArray in an element Points, found none");
+            const auto components = array.attribute("NumberOfComponents").as_ullong(3);
+            if (components != 3)
+                fail(array, format("expected 3 components, found %llu",
+                                   static_cast<unsigned long long>(components)));
+            append(open(array, 3 * points), 3 * points, data_.positions);
+            for (std::uint64_t i = 3 * first_vertex; i < data_.positions.size(); ++i)
+                if (!std::isfinite(data_.positions[i]))
+                    fail(array, format("point %llu: expected a coordinate, found one that is not finite",
+                                       static_cast<unsigned long long>(i / 3 - first_vertex)));
+        }
+        if (cells == 0) return;
+        const pugi::xml_node node = piece.child("Cells");
+        if (!node) fail(piece, "expected an element Cells, found none");
+        std::vector<std::uint64_t> ends, types, connectivity;
+        const pugi::xml_node offsets = cell_array(node, "offsets");
+        append(open(offsets, cells), cells, ends);
+        for (std::uint64_t c = 0; c < cells; ++c)
+            if (ends[c] < (c == 0 ? 0 : ends[c - 1]) || ends[c] > 8 * max_count)
+                fail(offsets, format("expected offsets that ascend, found %lld at cell %llu",
+                                     static_cast<long long>(ends[c]), static_cast<unsigned long long>(c)));
+        const pugi::xml_node kinds = cell_array(node, "types");
+        append(open(kinds, cells), cells, types);
+        const pugi::xml_node list = cell_array(node, "connectivity");
+        append(open(list, ends.back()), ends.back(), connectivity);
+        take_vtk_cells(ends, connectivity, types, first_vertex, points, data_, skipped_,
+                       [&](std::size_t cell, const std::string& text) {
+                           fail(list, format("cell %zu: %s", cell, text.c_str()));
+                       });
+    }
+
+    const File& file_;
+    pugi::xml_document document_;
+    std::string_view appended_;
+    bool appended_base64_ = false;
+    bool swap_ = false;
+    bool compressed_ = false;
+    std::size_t header_size_ = 4;
+    MeshData data_;
+    Skipped skipped_;
+};
+
+} // namespace
+
+MeshData read_vtu(const File& file) { return VtuReader(file).read(); }
+
+} // namespace vox::io
