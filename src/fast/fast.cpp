@@ -339,7 +339,7 @@ void Fast::detect_body(Step& step, std::uint32_t a, std::span<const fast::Pair> 
     if (self) {
         // The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
         if (stamps_.size() < body.vertex_count) stamps_.resize(body.vertex_count, 0);
-        constexpr std::size_t most_tiles = 1u << 18;
+        constexpr std::size_t most_tiles = 1u << 25;
         const FastMesh& mesh = *step.prepared[a];
         for (std::size_t first = 0; first < mesh.tiles.size(); first += most_tiles) {
             fast::Query query{};
@@ -348,7 +348,7 @@ void Fast::detect_body(Step& step, std::uint32_t a, std::span<const fast::Pair> 
             query.first = static_cast<std::uint32_t>(first);
             query.count = std::min(most_tiles, mesh.tiles.size() - first);
             query.stamps = stamps_.data();
-            if ((scratch_[0].tag >> 13) + query.count >= 1u << 19) {
+            if ((scratch_[0].tag >> 6) + query.count >= 1u << 26) {
                 std::fill(stamps_.begin(), stamps_.end(), 0u);
                 scratch_[0].tag = 0;
             }

@@ -331,6 +331,15 @@ HWY_INLINE float Underflow(const Box& box) {
     return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
 }
 
+// Index of the lowest bit that is set; some number when none is.
+HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
+#if defined(__GNUC__) && HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    return static_cast<std::uint32_t>(_tzcnt_u64(mask));
+#else
+    return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(mask | std::uint64_t{1} << 63));
+#endif
+}
+
 // The rows of cells that a box meets, and what of their points is in it.
 struct TileWork {
     const Query& query;
@@ -356,11 +365,9 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
         w.underflow = Underflow(w.box);
         w.ready = true;
         if (w.query.stamps) {
-            s.tag += 1u << 13;
+            s.tag += 1u << 6;
             const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
-            const std::uint8_t* degrees = w.query.tiles->degrees.data() + tile.first_vertex;
-            for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
-                w.query.stamps[vertices[i]] = s.tag | static_cast<std::uint32_t>(degrees[i]) << 6 | i;
+            for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.query.stamps[vertices[i]] = s.tag | i;
         }
     }
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
@@ -368,27 +375,42 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
     TestBoxes(s, count, ~std::uint64_t{0} >> (64u - tile.tet_count));
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
+    const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
     const std::uint32_t* stamps = w.query.stamps;
-    std::uint32_t pairs = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        std::uint64_t mask = s.masks[i];
-        if (stamps) {
+    // Without the tets that own the candidate; then without the candidates that are left with none. Neither
+    // branches: what a candidate meets is hard to predict.
+    std::uint32_t left = 0;
+    if (stamps) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t stamp = stamps[s.candidate_id[i]];
-            if (stamp >> 13 == s.tag >> 13) {
-                // A vertex is in the box of each tet it is a corner of; more boxes than those are the
-                // others'.
-                if (hwy::PopCount(mask) == (stamp >> 6 & 127)) continue;
-                const std::uint32_t own = stamp & 63;
-                for (std::uint64_t left = mask; left; left &= left - 1) {
-                    const auto t = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
-                    const std::uint32_t c = s.corners[t] ^ own * 0x01010101u;
-                    if ((c & 0xff) == 0 || (c & 0xff00) == 0 || (c & 0xff0000) == 0 || c >> 24 == 0)
-                        mask &= ~(std::uint64_t{1} << t);
-                }
-            }
+            const std::uint64_t mine = stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
+            const std::uint64_t mask = s.masks[i] & ~mine;
+            s.masks[left] = mask;
+            s.meeting[left] = i;
+            left += mask != 0;
         }
-        for (; mask; mask &= mask - 1)
-            s.pairs[pairs++] = i << 6 | static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(mask));
+    } else {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint64_t mask = s.masks[i];
+            s.masks[left] = mask;
+            s.meeting[left] = i;
+            left += mask != 0;
+        }
+    }
+    std::uint32_t pairs = 0;
+    for (std::uint32_t i = 0; i < left; ++i) {
+        std::uint64_t mask = s.masks[i];
+        const std::uint32_t candidate = s.meeting[i] << 6;
+        std::uint32_t* to = s.pairs + pairs;
+        pairs += static_cast<std::uint32_t>(hwy::PopCount(mask));
+        do {
+            // Four at a time; of those past the last bit the next candidate's take the place.
+            for (int j = 0; j < 4; ++j) {
+                to[j] = candidate | (LowestBit(mask) & 63);
+                mask &= mask - 1;
+            }
+            to += 4;
+        } while (mask);
         if (pairs > QueryScratch::most_pairs - 64) {
             Narrow(tets, s, pairs, w.underflow, w.out);
             pairs = 0;
@@ -438,11 +460,12 @@ HWY_INLINE void QueryTile(const Query& query, std::size_t position, QueryScratch
                 const auto inside =
                     hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, end - i)));
                 if (hn::AllFalse(d, inside)) continue;
-                hn::CompressStore(x, inside, d, s.candidate_x + n);
-                hn::CompressStore(y_, inside, d, s.candidate_y + n);
-                hn::CompressStore(z_, inside, d, s.candidate_z + n);
-                n += static_cast<std::uint32_t>(hn::CompressStore(
-                    hn::LoadU(du, ids + i), hn::RebindMask(du, inside), du, s.candidate_id + n));
+                hn::StoreU(hn::Compress(x, inside), d, s.candidate_x + n);
+                hn::StoreU(hn::Compress(y_, inside), d, s.candidate_y + n);
+                hn::StoreU(hn::Compress(z_, inside), d, s.candidate_z + n);
+                hn::StoreU(hn::Compress(hn::LoadU(du, ids + i), hn::RebindMask(du, inside)), du,
+                           s.candidate_id + n);
+                n += static_cast<std::uint32_t>(hn::CountTrue(d, inside));
                 if (n > QueryScratch::most_candidates - 16) {
                     Process(w, n);
                     n = 0;

@@ -48,12 +48,13 @@ struct alignas(64) QueryScratch {
         candidate_z[most_candidates + 64];
     alignas(64) std::uint32_t candidate_id[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
-    alignas(64) std::uint64_t masks[most_candidates + 64]; // tets whose box the candidate meets
+    alignas(64) std::uint64_t masks[most_candidates + 64];   // tets whose box the candidate meets
+    alignas(64) std::uint32_t meeting[most_candidates + 64]; // candidates whose mask is not empty
     // pairs: candidate << 6 | tet
     alignas(64) std::uint32_t pairs[most_pairs + 64];
     Finding findings[most_findings + 64];
     std::uint32_t finding_count = 0;
-    // Self-collision: stamps[v] is tag << 13 | degree << 6 | local index when v is a vertex of the tile at
+    // Self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the tile at
     // hand.
     std::uint32_t tag = 0;
     QueryCounters counters;

@@ -62,7 +62,8 @@ private:
             stamp_ = 1;
         }
         std::uint32_t list[tile_size];
-        std::uint8_t degree[tile_size] = {}, corner[4 * tile_size] = {};
+        std::uint64_t own[tile_size] = {};
+        std::uint8_t corner[4 * tile_size] = {};
         std::uint32_t found = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const Tet& tet = tets_[items[i].tet];
@@ -75,9 +76,7 @@ private:
                 }
                 const std::uint32_t local = seen_[v] & 63;
                 corner[c * tile_size + i] = static_cast<std::uint8_t>(local);
-                bool repeated = false; // a corner named twice counts once: the degree is a number of tets
-                for (std::uint32_t d = 0; d < c; ++d) repeated |= tet.v[d] == v;
-                if (!repeated) ++degree[local];
+                own[local] |= std::uint64_t{1} << i;
             }
         }
         Tile tile{};
@@ -88,10 +87,10 @@ private:
         for (std::uint32_t i = 0; i < found; ++i) tile.holds_last_vertex |= list[i] == vertex_count_ - 1;
         for (std::uint32_t i = 0; i < count; ++i) out_.tets.push_back(items[i].tet);
         out_.vertices.insert(out_.vertices.end(), list, list + found);
-        out_.degrees.insert(out_.degrees.end(), degree, degree + found);
+        out_.own.insert(out_.own.end(), own, own + found);
         while (out_.vertices.size() % 4) {
             out_.vertices.push_back(list[found - 1]);
-            out_.degrees.push_back(degree[found - 1]);
+            out_.own.push_back(own[found - 1]);
         }
         out_.corners.insert(out_.corners.end(), corner, corner + 4 * tile_size);
         out_.tiles.push_back(tile);
@@ -149,14 +148,14 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
         made.corners.reserve(tiles * 4 * tile_size);
         made.tets.reserve(tets.size());
         made.vertices.reserve(tiles * 36);
-        made.degrees.reserve(tiles * 36);
+        made.own.reserve(tiles * 36);
         Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(tets.size()));
     }
     list_blocks(vertex_count, made);
     made.tiles.shrink_to_fit();
     made.corners.shrink_to_fit();
     made.vertices.shrink_to_fit();
-    made.degrees.shrink_to_fit();
+    made.own.shrink_to_fit();
     made.blocks.shrink_to_fit();
     out = std::move(made);
 }

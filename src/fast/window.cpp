@@ -34,11 +34,11 @@ std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, 
         const auto inside_z = hn::And(hn::Ge(pz, lz), hn::Le(pz, hz));
         const auto inside = hn::And(hn::And(inside_x, inside_y), inside_z);
         if (hn::AllFalse(d, inside)) continue;
-        hn::CompressStore(px, inside, d, x + n);
-        hn::CompressStore(py, inside, d, y + n);
-        hn::CompressStore(pz, inside, d, z + n);
-        n += static_cast<std::uint32_t>(
-            hn::CompressStore(hn::Iota(du, v), hn::RebindMask(du, inside), du, id + n));
+        hn::StoreU(hn::Compress(px, inside), d, x + n);
+        hn::StoreU(hn::Compress(py, inside), d, y + n);
+        hn::StoreU(hn::Compress(pz, inside), d, z + n);
+        hn::StoreU(hn::Compress(hn::Iota(du, v), hn::RebindMask(du, inside)), du, id + n);
+        n += static_cast<std::uint32_t>(hn::CountTrue(d, inside));
     }
     for (; v < last; ++v) {
         const float* p = positions + std::size_t{v} * 3;
