@@ -1,12 +1,97 @@
-// The C border of the ready-made bodies and of surface to tetrahedra: validate, catch, forward.
+// The C border of surface to tetrahedra and of the ready-made bodies: validate, catch, forward.
 #include "border.hpp"
 #include "lattice_ball.hpp"
+#include "solid_bodies.hpp"
+#include "solid_cubes.hpp"
+#include "solid_quality.hpp"
+#include "solid_tetrahedralize.hpp"
 #include "structs.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace vox;
 using namespace vox::io;
+
+namespace {
+
+vox_io_tetrahedralize_desc default_tetrahedralize_desc() {
+    vox_io_tetrahedralize_desc desc{};
+    desc.kind = VOX_IO_SOLID_STUFFED;
+    desc.max_tets = 100000000;
+    return desc;
+}
+
+vox_io_mesh_view view_of(const vox_io_mesh* mesh) {
+    vox_io_mesh_view view{};
+    if (vox_io_mesh_get(mesh, &view) != VOX_OK)
+        throw Error(VOX_ERROR_INTERNAL, "the arrays of a mesh cannot be had");
+    return view;
+}
+
+void require_length(double length, const char* name) {
+    if (!std::isfinite(length) || length <= 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%s is %g, expected a finite number above 0", name, length));
+}
+
+// Lengths whose squares, cubes and quotients stay finite and normal.
+void require_lengths(std::initializer_list<std::pair<double, const char*>> lengths, double cell) {
+    require_length(cell, "cell");
+    for (const auto& [length, name] : lengths) {
+        require_length(length, name);
+        if (length > 1e100 || length < 1e-100)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("%s is %g, expected 1e-100 to 1e100", name, length));
+    }
+}
+
+} // namespace
+
+vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* desc, std::uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, default_tetrahedralize_desc(), "desc"); });
+}
+
+vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrahedralize_desc* desc,
+                                 vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(surface, "surface");
+        require(out_mesh, "out_mesh");
+        vox_io_tetrahedralize_desc wanted = default_tetrahedralize_desc();
+        if (desc) wanted = read_struct(desc, wanted, "desc");
+        if (wanted.kind != VOX_IO_SOLID_STUFFED && wanted.kind != VOX_IO_SOLID_CUBES)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.kind is %d, expected a vox_io_solid_kind",
+                                                           static_cast<int>(wanted.kind)));
+        if (!std::isfinite(wanted.cell) || wanted.cell < 0)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
+        if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("desc.max_tets is %llu, expected 1 to %u",
+                               static_cast<unsigned long long>(wanted.max_tets), VOX_MAX_TETS));
+        if (wanted.reserved != 0)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("desc.reserved is %u, expected 0", wanted.reserved));
+        const vox_io_mesh_view view = view_of(surface);
+        if (view.triangle_count == 0)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("the surface has no triangles (%llu vertices, %llu tets)",
+                               static_cast<unsigned long long>(view.vertex_count),
+                               static_cast<unsigned long long>(view.tet_count)));
+        *out_mesh = make_mesh(tetrahedralize(view, wanted));
+    });
+}
+
+vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* surface,
+                                  vox_io_quality* out_quality) {
+    return border([&] {
+        require(mesh, "mesh");
+        check_out_struct(out_quality, "out_quality");
+        const vox_io_mesh_view view = view_of(mesh);
+        const vox_io_mesh_view surface_view = surface ? view_of(surface) : vox_io_mesh_view{};
+        write_struct(out_quality, measure_quality(view, surface ? &surface_view : nullptr), "out_quality");
+    });
+}
 
 vox_result vox_io_make_lattice_ball(std::uint64_t tet_count, double radius, vox_io_mesh** out_mesh) {
     return border([&] {
@@ -15,9 +100,60 @@ vox_result vox_io_make_lattice_ball(std::uint64_t tet_count, double radius, vox_
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("tet_count is %llu, expected 1 to %u",
                                static_cast<unsigned long long>(tet_count), VOX_MAX_TETS / 4));
-        if (!std::isfinite(radius) || radius <= 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("radius is %g, expected a finite number above 0", radius));
+        require_length(radius, "radius");
         *out_mesh = make_mesh(make_lattice_ball(tet_count, radius));
+    });
+}
+
+vox_result vox_io_make_ball(double radius, double cell, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_lengths({{radius, "radius"}}, cell);
+        *out_mesh = make_mesh(make_ball(radius, cell));
+    });
+}
+
+vox_result vox_io_make_torus(double radius, double tube_radius, double cell, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_lengths({{radius, "radius"}, {tube_radius, "tube_radius"}}, cell);
+        if (tube_radius >= radius)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("tube_radius is %g, expected less than radius, %g", tube_radius, radius));
+        *out_mesh = make_mesh(make_torus(radius, tube_radius, cell));
+    });
+}
+
+vox_result vox_io_make_capsule(double radius, double length, double cell, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_lengths({{radius, "radius"}, {length, "length"}}, cell);
+        *out_mesh = make_mesh(make_capsule(radius, length, cell));
+    });
+}
+
+vox_result vox_io_make_cylinder(double radius, double length, double cell, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_lengths({{radius, "radius"}, {length, "length"}}, cell);
+        *out_mesh = make_mesh(make_cylinder(radius, length, cell));
+    });
+}
+
+vox_result vox_io_make_box(double size_x, double size_y, double size_z, double cell, vox_io_mesh** out_mesh) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_lengths({{size_x, "size_x"}, {size_y, "size_y"}, {size_z, "size_z"}}, cell);
+        const std::array<double, 3> size = {size_x, size_y, size_z};
+        std::array<std::int32_t, 3> cells{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double count = std::max(1.0, std::floor(size[k] / cell + 0.5));
+            if (!(count <= 1e6))
+                throw Error(VOX_ERROR_LIMIT,
+                            format("a cell of %g makes %.0f cells along %c, at most 1000000 are possible",
+                                   cell, count, static_cast<int>('x' + k)));
+            cells[k] = static_cast<std::int32_t>(count);
+        }
+        *out_mesh = make_mesh(make_box(size, cells));
     });
 }

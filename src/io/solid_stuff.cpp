@@ -277,14 +277,15 @@ private:
 
 } // namespace
 
-void Progress::report(double fraction) const {
-    if (receive_ && receive_(std::min(1.0, std::max(0.0, fraction)), user_) != 0)
-        throw Error(VOX_ERROR_INVALID_STATE,
-                    format("cancelled by the progress function at %.0f %%", 100 * fraction));
-}
-
 MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress,
                double from) {
+    // Uniform tets outnumber the nodes inside; this keeps memory within bounds before anything is laid out.
+    if (body.inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
+        throw Error(
+            VOX_ERROR_LIMIT,
+            format(
+                "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
+                body.inside.size(), static_cast<unsigned long long>(max_tets), 2 * body.frame.half_cell));
     MeshData mesh = Stuffing(body, max_tets, progress, from).run(coarsen);
     progress.report(1);
     return mesh;

@@ -4,23 +4,11 @@
 
 #include "mesh_data.hpp"
 #include "solid_lattice.hpp"
+#include "solid_progress.hpp"
 
 #include <functional>
 
 namespace vox::io {
-
-// Tells how far a long piece of work has come. Throws INVALID_STATE when the receiver wants it to end.
-class Progress {
-public:
-    Progress() = default;
-    Progress(std::int32_t (*receive)(double fraction, void* user), void* user)
-        : receive_(receive), user_(user) {}
-    void report(double fraction) const;
-
-private:
-    std::int32_t (*receive_)(double, void*) = nullptr;
-    void* user_ = nullptr;
-};
 
 // The body: the nodes inside it, and where the lattice edge from node `inside` to its neighbour number
 // `neighbour`, which is outside, leaves it: a fraction of the edge in [0, 1]. Called once for each such edge.

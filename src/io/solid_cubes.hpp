@@ -1,0 +1,17 @@
+// Bodies of whole lattice cubes, five tetrahedra each.
+#pragma once
+
+#include "mesh_data.hpp"
+#include "solid_lattice.hpp"
+
+namespace vox::io {
+
+// The cubes that a triangle of the surface touches, and those whose centre is inside (a node of odd
+// coordinates).
+MeshData make_cubes(const vox_io_mesh_view& surface, const Frame& frame, const NodeSet& inside,
+                    std::uint64_t max_tets);
+
+// A box of cells[0] x cells[1] x cells[2] cuboids around the origin.
+MeshData make_box(const std::array<double, 3>& size, const std::array<std::int32_t, 3>& cells);
+
+} // namespace vox::io

@@ -1,0 +1,32 @@
+// Distance from points to a set of triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vox::io {
+
+// Bounding volume hierarchy over triangles: median splits, exact distances.
+class TriangleTree {
+public:
+    // `positions`: 3 a vertex, borrowed; `triangles`: 3 indices each. At least one triangle.
+    TriangleTree(const double* positions, std::vector<std::uint32_t> triangles);
+
+    // Squared distance to the nearest triangle; when that is not above `enough`, any number not above it.
+    double squared_distance(const std::array<double, 3>& point, double enough) const;
+
+private:
+    struct Node {
+        std::array<double, 3> min, max;
+        std::uint32_t first, count; // of the triangles; count 0: children are this node + 1 and `first`
+    };
+
+    void build(std::uint32_t first, std::uint32_t count);
+
+    const double* positions_;
+    std::vector<std::array<std::uint32_t, 3>> triangles_;
+    std::vector<Node> nodes_;
+};
+
+} // namespace vox::io

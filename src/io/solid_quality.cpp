@@ -1,0 +1,141 @@
+#include "solid_quality.hpp"
+
+#include "solid_distance.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace vox::io {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+Vector3d corner(const vox_io_mesh_view& mesh, std::uint32_t vertex) {
+    return Vector3d(mesh.positions + 3 * std::size_t{vertex});
+}
+
+void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
+    if (mesh.tet_count == 0) return;
+    double smallest = kPi, largest = 0;
+    for (std::size_t t = 0; t < mesh.tet_count; ++t) {
+        std::array<Vector3d, 4> p;
+        for (std::size_t k = 0; k < 4; ++k) p[k] = corner(mesh, mesh.tets[4 * t + k]);
+        quality.volume += (p[1] - p[0]).dot((p[2] - p[0]).cross(p[3] - p[0])) / 6;
+        // Normals of the facets across from each corner, all outward or all inward.
+        const std::array<Vector3d, 4> normal = {
+            (p[2] - p[1]).cross(p[3] - p[1]), (p[3] - p[0]).cross(p[2] - p[0]),
+            (p[1] - p[0]).cross(p[3] - p[0]), (p[2] - p[0]).cross(p[1] - p[0])};
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                const double angle =
+                    kPi - std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
+                smallest = std::min(smallest, angle);
+                largest = std::max(largest, angle);
+            }
+    }
+    quality.min_dihedral = smallest * 180 / kPi;
+    quality.max_dihedral = largest * 180 / kPi;
+}
+
+// The facets of exactly one tet, three vertices each.
+std::vector<std::uint32_t> boundary_facets(const vox_io_mesh_view& mesh) {
+    // Facets by their lowest vertex, then sorted among the few that share it.
+    std::vector<std::uint64_t> start(mesh.vertex_count + 1, 0);
+    const auto for_each_facet = [&](auto&& visit) {
+        for (std::size_t t = 0; t < mesh.tet_count; ++t)
+            for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+                std::array<std::uint32_t, 3> facet{};
+                for (std::size_t k = 0, n = 0; k < 4; ++k)
+                    if (k != left_out) facet[n++] = mesh.tets[4 * t + k];
+                std::sort(facet.begin(), facet.end());
+                visit(facet);
+            }
+    };
+    for_each_facet([&](const auto& facet) { ++start[facet[0] + std::size_t{1}]; });
+    for (std::size_t v = 0; v < mesh.vertex_count; ++v) start[v + 1] += start[v];
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> others(4 * mesh.tet_count);
+    std::vector<std::uint64_t> next(start.begin(), start.end() - 1);
+    for_each_facet([&](const auto& facet) { others[next[facet[0]]++] = {facet[1], facet[2]}; });
+    std::vector<std::uint32_t> boundary;
+    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
+        const auto begin = others.begin() + static_cast<std::ptrdiff_t>(start[v]);
+        const auto end = others.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
+        std::sort(begin, end);
+        for (auto at = begin; at != end;) {
+            auto after = at;
+            while (after != end && *after == *at) ++after;
+            if (after - at == 1) {
+                boundary.push_back(static_cast<std::uint32_t>(v));
+                boundary.push_back(at->first);
+                boundary.push_back(at->second);
+            }
+            at = after;
+        }
+    }
+    return boundary;
+}
+
+// The largest distance from points on the triangles, no more than `spacing` apart, to the triangles of the
+// tree.
+double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* triangles, std::size_t count,
+                        double spacing, const TriangleTree& tree) {
+    double largest = 0; // squared
+    for (std::size_t t = 0; t < count; ++t) {
+        const Vector3d a = corner(mesh, triangles[3 * t]), b = corner(mesh, triangles[3 * t + 1]),
+                       c = corner(mesh, triangles[3 * t + 2]);
+        const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        // Two parts a side at least; at most a thousand, for surfaces with very large triangles.
+        const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 2.0, 1000.0));
+        for (int i = 0; i <= parts; ++i)
+            for (int j = 0; i + j <= parts; ++j) {
+                const Vector3d p = a + (b - a) * (double(i) / parts) + (c - a) * (double(j) / parts);
+                largest = std::max(largest, tree.squared_distance({p[0], p[1], p[2]}, largest));
+            }
+    }
+    return std::sqrt(largest);
+}
+
+} // namespace
+
+vox_io_quality measure_quality(const vox_io_mesh_view& mesh, const vox_io_mesh_view* surface) {
+    vox_io_quality quality{};
+    quality.vertices = mesh.vertex_count;
+    quality.tets = mesh.tet_count;
+    measure_tets(mesh, quality);
+    const std::vector<std::uint32_t> boundary = boundary_facets(mesh);
+    quality.boundary_facets = boundary.size() / 3;
+    if (!surface || surface->triangle_count == 0) return quality;
+    for (std::size_t t = 0; t < surface->triangle_count; ++t) {
+        // Around the first vertex rather than the origin, which may lie far away.
+        const Vector3d origin = corner(*surface, surface->triangles[0]);
+        const Vector3d a = corner(*surface, surface->triangles[3 * t]) - origin;
+        const Vector3d b = corner(*surface, surface->triangles[3 * t + 1]) - origin;
+        const Vector3d c = corner(*surface, surface->triangles[3 * t + 2]) - origin;
+        quality.surface_volume += a.dot(b.cross(c)) / 6;
+    }
+    if (boundary.empty()) return quality;
+
+    double edges = 0;
+    for (std::size_t i = 0; i < boundary.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k)
+            edges += (corner(mesh, boundary[i + k]) - corner(mesh, boundary[i + (k + 1) % 3])).norm();
+    const double spacing = edges / static_cast<double>(boundary.size()) / 2;
+    const TriangleTree surface_tree(
+        surface->positions,
+        std::vector<std::uint32_t>(surface->triangles, surface->triangles + 3 * surface->triangle_count));
+    const TriangleTree boundary_tree(mesh.positions, boundary);
+    quality.mesh_to_surface =
+        largest_distance(mesh, boundary.data(), boundary.size() / 3, spacing, surface_tree);
+    quality.surface_to_mesh =
+        largest_distance(*surface, surface->triangles, surface->triangle_count, spacing, boundary_tree);
+    quality.hausdorff = std::max(quality.mesh_to_surface, quality.surface_to_mesh);
+    return quality;
+}
+
+} // namespace vox::io
