@@ -34,6 +34,9 @@ const char* vox_build_info(void) {
         ", msvc " VOX_STRING(_MSC_FULL_VER)
 #endif
         ", C++ " VOX_STRING(__cplusplus)
+#if defined(VOX_TBB)
+            ", oneTBB"
+#endif
 #if defined(NDEBUG)
             ", release"
 #else
@@ -50,6 +53,7 @@ vox_grid_desc grid_defaults() {
     vox_grid_desc desc{};
     desc.struct_size = sizeof desc;
     desc.byte_budget = 4ull << 30;
+    desc.worker_count = 1;
     return desc;
 }
 
@@ -111,6 +115,13 @@ vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size) {
         require(grid, "grid");
         require(out_cell_size, "out_cell_size");
         *out_cell_size = grid->cell_size();
+    });
+}
+
+vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count) {
+    return border([&] {
+        require(grid, "grid");
+        grid->set_worker_count(worker_count);
     });
 }
 

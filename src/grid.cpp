@@ -40,6 +40,8 @@ void check_grid_desc(const vox_grid_desc& desc) {
                       static_cast<unsigned long long>(desc.hash_table_size), VOX_MAX_VERTICES));
     if (!desc.allocator.allocate != !desc.allocator.release)
         refuse("grid allocator has one of allocate and release, expected both or none");
+    check_workers(desc.tasks, desc.worker_count);
+    if (desc.reserved != 0) refuse(format("grid reserved is %u, expected 0", desc.reserved));
 }
 
 namespace {
@@ -65,6 +67,7 @@ using namespace vox;
 
 vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
     : allocator_(desc.allocator), log_(desc.log), memory_(desc.allocator, desc.byte_budget, held),
+      tasks_(desc.tasks), workers_(desc.tasks, desc.worker_count),
       fast_(desc.engine == VOX_ENGINE_FAST ||
             (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
       settings_{.storage = desc.storage,
@@ -73,8 +76,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
-      free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_), reference_(&memory_), hits_(&memory_), scratch_(&memory_),
-      contacts_(&memory_) {}
+      free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
+      reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -161,6 +164,11 @@ void vox_grid::set_cell_size(double cell_size) {
     cell_size_ = cell_size;
     choose_cell_size_ = cell_size == 0;
     cell_size_is_stale_ = true;
+}
+
+void vox_grid::set_worker_count(std::uint32_t worker_count) {
+    check_workers(tasks_, worker_count);
+    workers_.set_count(worker_count);
 }
 
 // ---- step -----------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include "fast.hpp"
 #include "memory.hpp"
 #include "mesh.hpp"
+#include "parallel.hpp"
 #include "reference.hpp"
 #include "scene.hpp"
 
@@ -30,6 +31,7 @@ public:
 
     void clear();
     void set_cell_size(double cell_size);
+    void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
     vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
@@ -65,6 +67,8 @@ private:
     vox_allocator allocator_;
     vox_log log_;
     vox::GridMemory memory_;
+    vox_task_system tasks_;
+    vox::Workers workers_;
 
     // settings
     bool fast_;

@@ -20,6 +20,7 @@ void release(const vox_allocator& allocator, void* memory, std::size_t size, std
 }
 
 void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
+    const std::lock_guard lock(mutex_);
     if (budget_ != 0 && (size > budget_ || bytes_ > budget_ - size))
         throw Error(VOX_ERROR_BUDGET,
                     format("the grid holds %llu bytes and needs %llu more, its byte budget is %llu",
@@ -33,6 +34,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
 }
 
 void GridMemory::do_deallocate(void* memory, std::size_t size, std::size_t alignment) {
+    const std::lock_guard lock(mutex_);
     vox::release(allocator_, memory, size, alignment);
     bytes_ -= size;
 }

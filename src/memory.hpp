@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <mutex>
 
 namespace vox {
 
+// May be used by many threads at once; the caller's functions see one call at a time.
 class GridMemory final : public std::pmr::memory_resource {
 public:
     // `held` bytes were taken from the allocator for the grid itself.
@@ -25,6 +27,7 @@ private:
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
     vox_allocator allocator_;
+    std::mutex mutex_;
     std::uint64_t budget_; // 0: none
     std::uint64_t bytes_;
     std::uint64_t peak_bytes_;

@@ -3,8 +3,9 @@
 namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, std::pmr::memory_resource* memory)
-    : tets_(view.tets.begin(), view.tets.end(), memory), copied_(memory), tiles_(memory), positions_(view.positions),
-      user_data_(desc.user_data), vertex_count_(view.vertex_count), flags_(desc.flags) {
+    : tets_(view.tets.begin(), view.tets.end(), memory), copied_(memory), tiles_(memory),
+      positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
+      flags_(desc.flags) {
     if ((flags_ & VOX_MESH_COPY_POSITIONS) && positions_.data) {
         copied_.reserve(vertex_count_);
         for (std::uint32_t v = 0; v < vertex_count_; ++v) copied_.push_back(positions_[v]);

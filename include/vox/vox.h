@@ -87,7 +87,8 @@ VOX_API const char* vox_build_info(void);
 
 /* Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
  * two), or null; `release` gets the same size and alignment back. Both null: the C++ runtime's heap.
- * Called only from functions of the grid it was given to, on the calling thread. */
+ * Called only from functions of the grid it was given to, one call at a time; during a step that may be on a
+ * thread that runs its tasks. */
 typedef struct vox_allocator {
     void* (*allocate)(size_t size, size_t alignment, void* user);
     void (*release)(void* memory, size_t size, size_t alignment, void* user);
@@ -106,6 +107,26 @@ typedef struct vox_log {
     void (*write)(vox_log_level level, const char* text, void* user);
     void* user;
 } vox_log;
+
+/* ---- threads ---------------------------------------------------------------------------------- */
+
+/* Handles the items [begin, end). `worker` is below worker_count; two calls that run at the same time have
+ * different ones. */
+typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* context);
+
+/* The caller's scheduler, in the manner of Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
+ * least min_range items where it can, and has `task` called once for each range, now or later, on any thread; it
+ * returns a handle for `finish`, or null when all calls have already returned. `finish` returns when they have.
+ * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step. Both null: the
+ * built-in scheduler. */
+typedef struct vox_task_system {
+    void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
+    void (*finish)(void* handle, void* user);
+    void* user;
+} vox_task_system;
+
+#define VOX_MAX_TASKS 64u    /* enqueued in one step */
+#define VOX_MAX_WORKERS 256u /* of a grid */
 
 /* ---- grid ------------------------------------------------------------------------------------- */
 
@@ -161,6 +182,13 @@ typedef struct vox_grid_desc {
     uint64_t hash_table_size;
     vox_allocator allocator;
     vox_log log;
+    vox_task_system tasks;
+    /* Threads that run a step's tasks: 1 (the default) serial, on the calling thread; 0 one per core; at most
+     * VOX_MAX_WORKERS. With a task system of one's own: how many workers it has, at least 1. Contacts do not
+     * depend on it. A library built without oneTBB has no threads of its own: then the built-in scheduler is
+     * serial. */
+    uint32_t worker_count;
+    uint32_t reserved; /* 0 */
 } vox_grid_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -189,6 +217,10 @@ VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
 /* The cell size in use: the one set, or the one chosen for the last step; 0 when none was chosen yet. */
 VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
+
+/* Sets vox_grid_desc.worker_count for the steps to come. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and 0
+ * with a task system of one's own. */
+VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
 
 /* ---- meshes ----------------------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE CC: installs into a scratch prefix and builds the two consumers there.
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE CC lean|tbb: installs into a scratch prefix and builds the two consumers there.
 set -eu
-build=$1 source=$2 cmake=$3 cc=$4
+build=$1 source=$2 cmake=$3 cc=$4 threads=$5
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -16,8 +16,8 @@ export PKG_CONFIG_PATH
 "$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
 
-# The core needs the C and C++ runtime and nothing else.
-if command -v readelf >/dev/null; then
+# Without oneTBB the core needs the C and C++ runtime and nothing else.
+if [ "$threads" = lean ] && command -v readelf >/dev/null; then
     library=$(find "$scratch/prefix" -name 'libvox.so' | head -n 1)
     foreign=$(readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' |
         grep -vE '^(libstdc\+\+|libc\+\+|libc\+\+abi|libgcc_s|libm|libc|ld-linux.*)\.so' || true)

@@ -1,0 +1,118 @@
+#include "parallel.hpp"
+
+#include "error.hpp"
+
+#include <algorithm>
+
+#if defined(VOX_TBB)
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace vox {
+
+void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
+    if (!tasks.enqueue != !tasks.finish)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    "grid tasks has one of enqueue and finish, expected both or none");
+    if (worker_count > VOX_MAX_WORKERS)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("grid worker_count is %u, the limit is %u", worker_count, VOX_MAX_WORKERS));
+    if (worker_count == 0 && tasks.enqueue)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    "grid worker_count is 0 with a task system of the caller's, expected how many it has");
+}
+
+// ---- built-in scheduler ---------------------------------------------------------------------------
+
+#if defined(VOX_TBB)
+
+struct Workers::Scheduler {
+    explicit Scheduler(std::uint32_t worker_count) : arena(static_cast<int>(worker_count)) {}
+
+    void run(Job& job, std::size_t items, std::size_t min_range) {
+        arena.execute([&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items, std::max<std::size_t>(min_range, 1)),
+                              [&](const tbb::blocked_range<std::size_t>& range) {
+                                  const int worker = tbb::this_task_arena::current_thread_index();
+                                  run_range(range.begin(), range.end(), static_cast<std::uint32_t>(worker),
+                                            &job);
+                              });
+        });
+    }
+
+    tbb::task_arena arena;
+};
+
+namespace {
+std::uint32_t most_workers(std::uint32_t asked) {
+    if (asked != 0) return asked;
+    const int cores = tbb::task_arena(tbb::task_arena::automatic).max_concurrency();
+    return std::clamp<std::uint32_t>(static_cast<std::uint32_t>(cores), 1, VOX_MAX_WORKERS);
+}
+} // namespace
+
+#else
+
+struct Workers::Scheduler {
+    explicit Scheduler(std::uint32_t) {}
+    void run(Job& job, std::size_t items, std::size_t) { run_range(0, items, 0, &job); }
+};
+
+namespace {
+std::uint32_t most_workers(std::uint32_t) { return 1; }
+} // namespace
+
+#endif
+
+// ---- workers --------------------------------------------------------------------------------------
+
+Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count) : tasks_(tasks) {
+    set_count(worker_count);
+}
+
+Workers::~Workers() = default;
+
+void Workers::set_count(std::uint32_t worker_count) {
+    if (tasks_.enqueue) {
+        count_ = worker_count;
+        return;
+    }
+    const std::uint32_t count = most_workers(worker_count);
+    scheduler_ = count > 1 ? std::make_unique<Scheduler>(count) : nullptr;
+    count_ = count;
+}
+
+void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker,
+                        void* context) noexcept {
+    Job& job = *static_cast<Job*>(context);
+    std::exception_ptr failure;
+    try {
+        if (worker >= job.worker_count || begin > end || end > job.items)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("the task system ran items %llu to %llu of %zu on worker %u of %u",
+                               static_cast<unsigned long long>(begin), static_cast<unsigned long long>(end),
+                               job.items, worker, job.worker_count));
+        job.call(job.callable, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), worker);
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    const std::lock_guard lock(job.mutex);
+    job.done += static_cast<std::size_t>(end - begin);
+    if (failure && !job.failure) job.failure = failure;
+}
+
+void Workers::run(Job& job, std::size_t items, std::size_t min_range) {
+    if (tasks_.enqueue) {
+        void* handle = tasks_.enqueue(&run_range, items, min_range, &job, tasks_.user);
+        if (handle) tasks_.finish(handle, tasks_.user);
+    } else {
+        scheduler_->run(job, items, min_range);
+    }
+    if (job.failure) std::rethrow_exception(job.failure);
+    if (job.done != items)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("the task system ran %zu of %zu items", job.done, items));
+}
+
+} // namespace vox

@@ -1,0 +1,68 @@
+// The threads of a step: the caller's task system, or the built-in one (oneTBB where the library is built
+// with it, else serial). What the stages compute never depends on how many there are.
+#pragma once
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <type_traits>
+
+namespace vox {
+
+class Workers {
+public:
+    // `worker_count` as in vox_grid_desc, checked (check_workers).
+    Workers(const vox_task_system& tasks, std::uint32_t worker_count);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    void set_count(std::uint32_t worker_count);
+    std::uint32_t count() const noexcept { return count_; }
+
+    // Calls function(begin, end, worker) for ranges that make up [0, items), each of at least min_range items
+    // where that can be, and returns when all have. The first exception that one of them throws is thrown
+    // here. Counts as one task of the step.
+    template <class Function>
+    void for_ranges(std::size_t items, std::size_t min_range, Function&& function) {
+        if (items == 0) return;
+        if (count_ == 1 || items <= min_range) {
+            function(std::size_t{0}, items, std::uint32_t{0});
+            return;
+        }
+        using Plain = std::remove_reference_t<Function>;
+        Job job{[](void* callable, std::size_t begin, std::size_t end, std::uint32_t worker) {
+                    (*static_cast<Plain*>(callable))(begin, end, worker);
+                },
+                const_cast<std::remove_const_t<Plain>*>(&function), count_, items};
+        run(job, items, min_range);
+    }
+
+private:
+    struct Job {
+        void (*call)(void* callable, std::size_t begin, std::size_t end, std::uint32_t worker);
+        void* callable;
+        std::uint32_t worker_count;
+        std::size_t items;
+        std::mutex mutex{};
+        std::exception_ptr failure{};
+        std::size_t done = 0;
+    };
+    struct Scheduler; // the built-in one
+
+    static void run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker, void* job) noexcept;
+    void run(Job& job, std::size_t items, std::size_t min_range);
+
+    vox_task_system tasks_;
+    std::uint32_t count_ = 1;
+    std::unique_ptr<Scheduler> scheduler_;
+};
+
+// Throws INVALID_ARGUMENT when the two fields do not fit each other.
+void check_workers(const vox_task_system& tasks, std::uint32_t worker_count);
+
+} // namespace vox
