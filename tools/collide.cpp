@@ -23,7 +23,6 @@ struct Options {
     bool json = false;
 };
 
-const Choices<vox_engine> engines = {{"auto", VOX_ENGINE_AUTO}, {"reference", VOX_ENGINE_REFERENCE}};
 const Choices<vox_storage> storages = {
     {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
 const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};

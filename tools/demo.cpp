@@ -3,6 +3,7 @@
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
+#include "options.hpp"
 #include "report.hpp"
 #include "stepping.hpp"
 #include "terminal.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct Options {
     std::uint64_t tets = 20000;
     std::uint32_t frames = 12;
+    vox_engine engine = VOX_ENGINE_AUTO;
     bool json = false;
 };
 
@@ -36,7 +38,7 @@ std::array<double, 3> moved(const double* rest, double side, double time) {
     const double z = rest[1] * std::sin(twist) + rest[2] * std::cos(twist);
     const double spin = side * (0.4 + 1.5 * time);
     const double along = rest[0] * squash, across = y * swell;
-    return {along * std::cos(spin) - across * std::sin(spin) + side * 1.4 * (1 - 2 * time),
+    return {along * std::cos(spin) - across * std::sin(spin) + side * (1 - 2 * time),
             along * std::sin(spin) + across * std::cos(spin) + side * 0.75, z * swell};
 }
 
@@ -72,8 +74,9 @@ struct Contender {
     double total_ns = 0;               // sum of the frames' medians
 };
 
-Contender make_contender(const std::vector<Body>& balls, double cell_size) {
+Contender make_contender(const std::vector<Body>& balls, vox_engine engine, double cell_size) {
     vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = engine;
     desc.cell_size = cell_size;
     Contender contender;
     contender.grid = make_grid(desc, balls, false, contender.ids);
@@ -133,8 +136,8 @@ void run(const Options& options) {
     move(balls, 0);
     const vox_suggestion suggestion = suggest_for(balls);
 
-    std::array<Contender, 2> contenders = {make_contender(balls, suggestion.cell_size),
-                                           make_contender(balls, suggestion.rules.mean_edge)};
+    std::array<Contender, 2> contenders = {make_contender(balls, options.engine, suggestion.cell_size),
+                                           make_contender(balls, options.engine, suggestion.rules.mean_edge)};
     for (const Contender& contender : contenders) check(vox_grid_step(contender.grid.get())); // warm up
     if (!options.json)
         std::printf("Two soft balls of %llu tetrahedra each (%llu vertices) wobble through each other.\n\n",
@@ -170,9 +173,9 @@ void run(const Options& options) {
         json["frames"].push_back(
             {{"frame", i}, {"contacts", frames[i].contacts}, {"step_ns", frames[i].profile.step_ns}});
     json["comparison"] = {
-        {"suggested", {{"cell_size", number(suggestion.cell_size)}, {"step_ns", number(suggested_ns)}}},
+        {"suggested", {{"cell_size", number(suggestion.cell_size)}, {"step_ns", std::llround(suggested_ns)}}},
         {"mean_edge",
-         {{"cell_size", number(suggestion.rules.mean_edge)}, {"step_ns", number(mean_edge_ns)}}}};
+         {{"cell_size", number(suggestion.rules.mean_edge)}, {"step_ns", std::llround(mean_edge_ns)}}}};
     add_suggestion(json, suggestion);
     // The keys of collide speak of the frame with the most contacts.
     json["frame"] = busiest;
@@ -190,6 +193,7 @@ void add_demo(CLI::App& app) {
     command->add_option("--tets", options->tets, "Tetrahedra of each body, about")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
     command->add_option("--frames", options->frames, "Frames of the motion")->check(CLI::Range(1u, 1000000u));
+    add_choice(*command, "--engine", options->engine, engines, "Algorithm");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
 }

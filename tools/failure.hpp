@@ -23,8 +23,6 @@ inline void check(vox_result result) {
     throw Failure(words.empty() ? vox_result_string(result) : words);
 }
 
-[[noreturn]] inline void wrong_usage(const std::string& words) {
-    throw CLI::ValidationError(words);
-}
+[[noreturn]] inline void wrong_usage(const std::string& words) { throw CLI::ValidationError(words); }
 
 } // namespace tool

@@ -56,12 +56,17 @@ Json to_json(const Info& info) {
             {"inverted", report.inverted_tets},
             {"degenerate", report.degenerate_tets},
             {"duplicate_vertices", report.duplicate_vertices},
+            {"nearly_flat", report.nearly_flat_tets},
             {"duplicate_tets", report.duplicate_tets},
+            {"degenerate_triangles", report.degenerate_triangles},
             {"unused_vertices", report.unused_vertices},
             {"non_manifold_facets", report.non_manifold_facets},
+            {"open_edges", report.open_edges},
+            {"misoriented_edges", report.misoriented_edges},
             {"components", report.components},
             {"skipped_elements", report.skipped_elements},
             {"second_order_tets", report.second_order_tets},
+            {"unit_in_metres", report.unit_in_metres > 0 ? number(report.unit_in_metres) : Json(nullptr)},
             {"bounds", bounds(report.bounds_min, report.bounds_max)},
             {"warnings", info.warnings}};
 }

@@ -3,8 +3,12 @@
 #include "failure.hpp"
 #include "report.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -21,6 +25,16 @@ int wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
     return 2;
 }
 
+// The arguments as CLI11 wants them: last first, and -.5 as -0.5, since it takes the former for an option.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+    std::vector<std::string> arguments(std::make_reverse_iterator(argv + argc),
+                                       std::make_reverse_iterator(argv + std::min(argc, 1)));
+    for (std::string& argument : arguments)
+        if (argument.size() > 2 && argument.starts_with("-.") && argument[2] >= '0' && argument[2] <= '9')
+            argument.insert(1, "0");
+    return arguments;
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Exact collision detection for deformable tetrahedral meshes on a voxel grid", "vox");
     app.set_version_flag("--version", std::string("vox ") + vox_version_string() + "\n" + vox_build_info());
@@ -30,7 +44,7 @@ int run(int argc, char** argv) {
     tool::add_suggest(app);
     tool::add_collide(app);
     try {
-        app.parse(argc, argv); // runs the command, too
+        app.parse(arguments_of(argc, argv)); // runs the command, too
         tool::finish_output();
         return 0;
     } catch (const CLI::Success& request) { // --help, --version

@@ -1,6 +1,8 @@
 // Kinds of option values that CLI11 has no check for. All refuse with exit code 2.
 #pragma once
 
+#include <vox/vox.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -15,12 +17,10 @@ namespace tool {
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-template <class Value>
-const std::string& name_of(const Choices<Value>& choices, Value value) {
-    for (const auto& [name, meaning] : choices)
-        if (meaning == value) return name;
-    return choices.front().first;
-}
+inline const Choices<vox_engine> engines = {
+    {"auto", VOX_ENGINE_AUTO},
+    {"reference", VOX_ENGINE_REFERENCE},
+};
 
 template <class Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& flag, Value& value, const Choices<Value>& choices,

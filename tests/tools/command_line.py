@@ -18,13 +18,12 @@ INFO_KEYS = ["file", "format", "vertices", "tets", "surface_triangles", "mean_ed
              "mean_facet_area", "mean_volume", "inverted", "degenerate", "duplicate_vertices", "bounds", "warnings"]
 
 
-def msh(points, tets=(), triangles=()):
-    """Gmsh 2.2 text; elements count vertices from 1."""
+def msh(points, tets):
+    """Gmsh 2.2 text; tetrahedra count vertices from 1."""
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(points)]
     lines += ["%d %r %r %r" % (i + 1, *p) for i, p in enumerate(points)]
-    elements = [(4, t) for t in tets] + [(2, t) for t in triangles]
-    lines += ["$EndNodes", "$Elements", len(elements)]
-    lines += ["%d %d 0 %s" % (i + 1, kind, " ".join(map(str, t))) for i, (kind, t) in enumerate(elements)]
+    lines += ["$EndNodes", "$Elements", len(tets)]
+    lines += ["%d 4 0 %s" % (i + 1, " ".join(map(str, t))) for i, t in enumerate(tets)]
     return "\n".join(map(str, lines + ["$EndElements", ""]))
 
 
@@ -34,7 +33,7 @@ class CommandLine(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.two = self.file("two.msh", msh(TWO_TETS[:5], TETS))
         self.one = self.file("one.msh", msh(TWO_TETS[:4], TETS[:1]))
-        self.surface = self.file("surface.msh", msh(TWO_TETS[:4], (), [(1, 2, 3), (2, 3, 4)]))
+        self.surface = self.file("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
 
     def file(self, name, text):
         path = os.path.join(self.folder.name, name)
