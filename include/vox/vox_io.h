@@ -141,6 +141,10 @@ typedef struct vox_io_tetrahedralize_desc {
     vox_io_solid_kind kind;
     double cell;       /* edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side */
     uint64_t max_tets; /* more fail with LIMIT; default 100000000 */
+    /* STUFFED: largest Hausdorff distance to the surface, as vox_io_measure_quality tells it. Cells at the boundary
+     * are halved until it is kept, those inside stay at `cell`; thin details may need many. 0 (the default): no
+     * halving, and no promise. */
+    double max_distance;
     /* STUFFED: how many times cells away from the boundary may be merged two by two by two; 0 (the default): all
      * tets are of one size. The boundary stays as it is. */
     uint32_t coarsen;
@@ -158,8 +162,8 @@ VOX_API vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* d
  * desc null: defaults. All tets positive, no two overlap, inner facets shared by exactly two. The surface may have
  * any orientation, several parts, and intersect itself: inside is where its winding number is not zero, or, where
  * its triangles do not agree on an orientation, where rays cross it an odd number of times. Holes smaller than a
- * cell or so are closed. Details thinner than a cell may be lost, and edges are rounded by a fraction of one. The
- * same input gives the same tets, bit for bit. Memory and time go with the cells inside.
+ * cell or so are closed. Details thinner than a cell may be lost, and edges are rounded by a fraction of one
+ * (max_distance prevents it). The same input gives the same tets, bit for bit. Memory and time go with the cells inside.
  * Errors: INVALID_ARGUMENT (no triangles, no volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is
  * open; not for CUBES), LIMIT (more than 4096 cells along an axis, more than max_tets), INVALID_STATE (cancelled),
  * OUT_OF_MEMORY. */
@@ -188,6 +192,52 @@ typedef struct vox_io_quality {
  * (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* surface,
                                           vox_io_quality* out_quality);
+
+/* ---- writing ---------------------------------------------------------------------------------- */
+
+typedef enum vox_io_write_format {
+    VOX_IO_WRITE_AUTO = 0,   /* told by the name's extension: .msh is MSH_41, .vtu is VTU */
+    VOX_IO_WRITE_MSH_22 = 1, /* Gmsh .msh 2.2 */
+    VOX_IO_WRITE_MSH_41 = 2, /* Gmsh .msh 4.1 */
+    VOX_IO_WRITE_VTU = 3,    /* VTK XML, for ParaView */
+    VOX_IO_WRITE_FORMAT_FORCE_32_BITS = 0x7fffffff
+} vox_io_write_format;
+
+/* Numbers that belong to the vertices, e.g. contacts or penetration depths. */
+typedef struct vox_io_point_data {
+    const char* name;     /* not empty, without control characters and double quotes */
+    const double* values; /* components * vertex_count, finite */
+    uint32_t components;  /* 1 (scalars), 3 (vectors) or 9 (tensors) */
+    uint32_t reserved;    /* 0 */
+} vox_io_point_data;
+
+typedef struct vox_io_write_desc {
+    uint32_t struct_size;
+    vox_io_write_format format;
+    uint32_t binary;   /* 0: text that reads back to the same doubles; 1: binary, in this machine's byte order */
+    uint32_t reserved; /* 0 */
+    const vox_io_point_data* point_data; /* point_data_count of them; read during the call */
+    uint64_t point_data_count;
+} vox_io_write_desc;
+
+/* Fills `desc` with the defaults (AUTO, text, no point data) for the fields that `struct_size` covers. */
+VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size);
+
+/* Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. A file that exists at `path`
+ * is replaced at the end, and only if all went well.
+ * Errors: FILE, INVALID_ARGUMENT (names the field), NON_FINITE, UNSUPPORTED (the extension), LIMIT (more
+ * elements than .msh 2.2 can number), OUT_OF_MEMORY. */
+VOX_API vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc);
+
+/* Receives `size` bytes of a file, in order; 0 on success, anything else ends the writing. */
+typedef struct vox_io_sink {
+    int32_t (*write)(const void* data, size_t size, void* user);
+    void* user;
+} vox_io_sink;
+
+/* The same into memory or anywhere else. desc->format must not be AUTO. A failing sink gives
+ * VOX_ERROR_FILE; what it has received by then is of no use. */
+VOX_API vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* desc, const vox_io_sink* sink);
 
 /* ---- ready-made bodies ------------------------------------------------------------------------ */
 

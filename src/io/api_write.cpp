@@ -1,0 +1,144 @@
+// The C border of writing: validate, forward, catch.
+#include "border.hpp"
+#include "mesh.hpp"
+#include "readers.hpp"
+#include "structs.hpp"
+#include "writers.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace vox::io {
+namespace {
+
+vox_io_write_desc default_write_desc() {
+    vox_io_write_desc desc{};
+    desc.struct_size = sizeof desc;
+    return desc;
+}
+
+vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
+    const vox_io_write_desc desc =
+        in ? read_struct(in, default_write_desc(), "vox_io_write_desc") : default_write_desc();
+    const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
+    if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
+        refuse(format("vox_io_write_desc.format is %d, no format", static_cast<int>(desc.format)));
+    if (desc.binary > 1) refuse(format("vox_io_write_desc.binary is %u, neither 0 nor 1", desc.binary));
+    if (desc.reserved != 0) refuse(format("vox_io_write_desc.reserved is %u, not 0", desc.reserved));
+    if (desc.point_data_count > 0) require(desc.point_data, "vox_io_write_desc.point_data");
+    for (std::uint64_t i = 0; i < desc.point_data_count; ++i) {
+        const vox_io_point_data& data = desc.point_data[i];
+        const auto index = static_cast<unsigned long long>(i);
+        require(data.name, format("point_data[%llu].name", index).c_str());
+        if (!*data.name) refuse(format("point_data[%llu].name is empty", index));
+        for (const char* c = data.name; *c; ++c)
+            if (static_cast<unsigned char>(*c) < ' ' || *c == '"' || *c == 0x7f)
+                refuse(format("point_data[%llu].name holds a control character or a double quote", index));
+        if (data.components != 1 && data.components != 3 && data.components != 9)
+            refuse(format("point_data[%llu].components is %u, not 1, 3 or 9", index, data.components));
+        if (data.reserved != 0)
+            refuse(format("point_data[%llu].reserved is %u, not 0", index, data.reserved));
+        const std::uint64_t values = data.components * mesh.report.vertices;
+        if (values > 0) require(data.values, format("point_data[%llu].values", index).c_str());
+        for (std::uint64_t v = 0; v < values; ++v)
+            if (!std::isfinite(data.values[v]))
+                throw Error(VOX_ERROR_NON_FINITE,
+                            format("point_data[%llu] (%s) is not finite at vertex %llu", index,
+                                   printable(data.name).c_str(),
+                                   static_cast<unsigned long long>(v / data.components)));
+    }
+    return desc;
+}
+
+void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
+           std::function<void(std::string_view)> sink) {
+    Output out(std::move(sink));
+    const PointData point_data(desc.point_data, desc.point_data_count);
+    const bool binary = desc.binary != 0;
+    if (desc.format == VOX_IO_WRITE_MSH_22)
+        write_msh22(mesh.data, point_data, binary, out);
+    else if (desc.format == VOX_IO_WRITE_MSH_41)
+        write_msh41(mesh.data, point_data, binary, out);
+    else
+        write_vtu(mesh.data, point_data, binary, out);
+    out.flush();
+}
+
+[[noreturn]] void fail(const std::string& path, int error) {
+    throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), std::strerror(error)));
+}
+
+// Writes to a file beside `path` and moves it there at the end; what is no regular file (a pipe, a terminal)
+// is written directly.
+void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const std::string& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) fail(path, EISDIR);
+    const bool direct = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    const std::string target = direct ? path : path + ".part";
+    bool done = false;
+    {
+        const auto close = [&](std::FILE* file) {
+            std::fclose(file);
+            if (!direct && !done) std::remove(target.c_str());
+        };
+        std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(target.c_str(), "wb"), close);
+        if (!file) fail(target, errno);
+        write(mesh, desc, [&](std::string_view bytes) {
+            if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(target, errno);
+        });
+        if (std::fflush(file.get()) != 0) fail(target, errno);
+        done = true;
+    }
+    if (direct) return;
+    std::filesystem::rename(target, path, error);
+    if (error) {
+        std::remove(target.c_str());
+        throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), error.message().c_str()));
+    }
+}
+
+} // namespace
+} // namespace vox::io
+
+using namespace vox;
+using namespace vox::io;
+
+vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, default_write_desc(), "vox_io_write_desc"); });
+}
+
+vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc) {
+    return border([&] {
+        require(mesh, "mesh");
+        require(path, "path");
+        vox_io_write_desc settings = checked(desc, *mesh);
+        if (settings.format == VOX_IO_WRITE_AUTO) {
+            const std::string extension = extension_of(path);
+            if (extension != "msh" && extension != "vtu")
+                throw Error(VOX_ERROR_UNSUPPORTED,
+                            format("%s: expected a name that ends with .msh or .vtu", path));
+            settings.format = extension == "msh" ? VOX_IO_WRITE_MSH_41 : VOX_IO_WRITE_VTU;
+        }
+        write_file(*mesh, settings, path);
+    });
+}
+
+vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* desc, const vox_io_sink* sink) {
+    return border([&] {
+        require(mesh, "mesh");
+        require(sink, "sink");
+        if (!sink->write) throw Error(VOX_ERROR_INVALID_ARGUMENT, "sink->write is null");
+        const vox_io_write_desc settings = checked(desc, *mesh);
+        if (settings.format == VOX_IO_WRITE_AUTO)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        "vox_io_write_desc.format is AUTO, which needs a file name");
+        write(*mesh, settings, [&](std::string_view bytes) {
+            if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
+                throw Error(VOX_ERROR_FILE, "the sink reports a failure");
+        });
+    });
+}

@@ -1,0 +1,71 @@
+// One writer a format: a mesh and numbers on its vertices in, bytes out.
+#pragma once
+
+#include "mesh_data.hpp"
+
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <string_view>
+
+namespace vox::io {
+
+// Collects bytes and hands them on in large pieces. `flush` must be called at the end.
+class Output {
+public:
+    explicit Output(std::function<void(std::string_view)> write) : write_(std::move(write)) {
+        buffer_.reserve(piece + 64);
+    }
+
+    Output& operator<<(std::string_view text) {
+        buffer_.append(text);
+        return checked();
+    }
+    Output& operator<<(char c) {
+        buffer_ += c;
+        return checked();
+    }
+    Output& operator<<(double value) { return number(value); } // shortest text that reads back the same
+    Output& operator<<(std::uint32_t value) { return number(value); }
+    Output& operator<<(std::uint64_t value) { return number(value); }
+
+    template <class T>
+    Output& binary(T value) {
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, &value, sizeof value);
+        buffer_.append(bytes, sizeof bytes);
+        return checked();
+    }
+
+    void flush() {
+        write_(buffer_);
+        buffer_.clear();
+    }
+
+private:
+    static constexpr std::size_t piece = std::size_t{1} << 18;
+
+    template <class T>
+    Output& number(T value) {
+        char text[32];
+        const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+        return *this << std::string_view(text, static_cast<std::size_t>(end - text));
+    }
+    Output& checked() {
+        if (buffer_.size() >= piece) flush();
+        return *this;
+    }
+
+    std::function<void(std::string_view)> write_;
+    std::string buffer_;
+};
+
+using PointData = std::span<const vox_io_point_data>;
+
+void write_msh22(const MeshData& mesh, PointData point_data, bool binary, Output& out);
+void write_msh41(const MeshData& mesh, PointData point_data, bool binary, Output& out);
+void write_vtu(const MeshData& mesh, PointData point_data, bool binary, Output& out);
+
+} // namespace vox::io
