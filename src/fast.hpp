@@ -45,41 +45,41 @@ public:
 
 private:
     struct BodyState {
-        const float* positions;    // packed
-        std::uint32_t first_block; // in block_boxes_
-        std::uint32_t first_super; // in super_boxes_
-        std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
-        bool super_known;          // super_boxes_ are made
+        const float* positions;        // packed
+        std::uint32_t first_block;     // in block_boxes_
+        std::uint32_t first_super;     // in super_boxes_
+        std::uint32_t first_tile;      // in tile_boxes_ and tile_known_
+        bool super_known;              // super_boxes_ are made
+        double tile_sides, tile_count; // of the tiles that will query its window
+        fast::Window window;
     };
-    // Tiles of body b that meet the region where the body at hand overlaps it.
-    struct Partner {
-        std::uint32_t body;
+    // Vertices of body a may be in tets of body b, and then are in `region`.
+    struct Reach {
+        std::uint32_t a, b;
         fast::Box region;
-        std::size_t first, count; // in tile_list_ and list_boxes_
     };
     struct Step;
 
     void stream(Step& step);
     void pack(const Body& body, std::size_t first);
     void know_super_tiles(Step& step, std::uint32_t body);
-    void select_tiles(Step& step, Partner& partner);
-    void detect_body(Step& step, std::uint32_t body, std::span<const fast::Pair> pairs);
-    void mark_blocks(const Step& step, std::uint32_t body, bool all);
-    double automatic_cell_size(const Step& step, std::uint32_t body, bool self) const;
-    void query(Step& step, std::uint32_t body_a, std::uint32_t body_b, fast::Query& query);
+    void reach(Step& step, Reach& reach);
+    void make_window(Step& step, std::uint32_t body, std::span<const Reach> reaches);
+    double cell_size(const Step& step, std::uint32_t body, bool self);
+    void query(Step& step, std::uint32_t body, std::span<const std::uint32_t> reaching);
 
     std::pmr::vector<float> packed_; // positions of bodies whose own are strided
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
     std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
-    std::pmr::vector<std::uint32_t> order_;
+    fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_;
-    std::pmr::vector<Partner> partners_;
-    std::pmr::vector<std::uint32_t> tile_list_;
-    std::pmr::vector<fast::Box> list_boxes_;
-    std::pmr::vector<std::uint8_t> block_marks_;
-    fast::Points points_;
-    fast::Window window_;
+    std::pmr::vector<Reach> reaches_;          // sorted by a, then b
+    std::pmr::vector<std::uint32_t> by_b_;     // their indices sorted by b, then a
+    std::pmr::vector<std::uint32_t> first_of_; // buffer of that sort
+    fast::Points points_;                      // of one body, before they are binned
+    fast::Bins bins_;
+    std::pmr::vector<fast::Source> sources_, near_; // all of a body, and those near a super-tile
     std::pmr::vector<std::uint32_t> stamps_;
     std::pmr::vector<fast::QueryScratch> scratch_;
     std::pmr::vector<std::uint64_t> degenerate_; // body << 32 | tet

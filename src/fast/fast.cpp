@@ -28,7 +28,7 @@ namespace {
 // Edge length of a cell in mean box sides of a tile: the optimum is flat from 0.4 to 0.9.
 constexpr double cells_per_tile = 0.6;
 // Most cells of a window, by vertices in it.
-constexpr std::size_t cells_per_vertex = 4;
+constexpr std::size_t cells_per_vertex = 2;
 // A cell size asked for is kept up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
@@ -57,26 +57,27 @@ std::uint32_t block_count(std::uint32_t vertices) {
 // Turns findings into hits: the exact part of the narrow phase.
 class Decide final : public fast::Findings {
 public:
-    Decide(std::span<const Body> bodies, std::uint32_t a, std::uint32_t b, std::pmr::vector<Hit>& hits,
+    Decide(std::span<const Body> bodies, std::uint32_t body, std::pmr::vector<Hit>& hits,
            std::pmr::vector<std::uint64_t>& degenerate)
-        : a_(bodies[a]), b_(bodies[b]), body_a_(a), body_b_(b), hits_(hits), degenerate_(degenerate) {}
+        : bodies_(bodies), body_(body), hits_(hits), degenerate_(degenerate) {}
 
     void take(std::span<const fast::Finding> findings) override {
         const std::uint64_t start = nanoseconds();
         for (const fast::Finding& f : findings) {
             Containment where = Containment::interior;
             if (!f.certain) {
-                const Tet& tet = b_.tets[f.tet];
-                where = locate(a_.positions[f.vertex], b_.positions[tet.v[0]], b_.positions[tet.v[1]],
-                               b_.positions[tet.v[2]], b_.positions[tet.v[3]], exact_tests);
+                const Tet& tet = bodies_[body_].tets[f.tet];
+                const Positions& q = bodies_[body_].positions;
+                where = locate(bodies_[f.body].positions[f.vertex], q[tet.v[0]], q[tet.v[1]], q[tet.v[2]],
+                               q[tet.v[3]], exact_tests);
                 if (where == Containment::degenerate)
-                    degenerate_.push_back(std::uint64_t{body_b_} << 32 | f.tet);
+                    degenerate_.push_back(std::uint64_t{body_} << 32 | f.tet);
                 if (where == Containment::degenerate || where == Containment::outside) continue;
             }
             Hit hit{};
-            hit.body_a = body_a_;
+            hit.body_a = f.body;
             hit.vertex = f.vertex;
-            hit.body_b = body_b_;
+            hit.body_b = body_;
             hit.tet = f.tet;
             hit.interior = where == Containment::interior;
             hits_.push_back(hit);
@@ -87,8 +88,8 @@ public:
     std::uint64_t exact_tests = 0, time_ns = 0;
 
 private:
-    const Body &a_, &b_;
-    std::uint32_t body_a_, body_b_;
+    std::span<const Body> bodies_;
+    std::uint32_t body_; // of the tets
     std::pmr::vector<Hit>& hits_;
     std::pmr::vector<std::uint64_t>& degenerate_;
 };
@@ -97,8 +98,8 @@ private:
 
 Fast::Fast(std::pmr::memory_resource* memory)
     : packed_(memory), states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory),
-      tile_boxes_(memory), tile_known_(memory), order_(memory), pairs_(memory), partners_(memory),
-      tile_list_(memory), list_boxes_(memory), block_marks_(memory), points_(memory), window_(memory),
+      tile_boxes_(memory), tile_known_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory),
+      by_b_(memory), first_of_(memory), points_(memory), bins_(memory), sources_(memory), near_(memory),
       stamps_(memory), scratch_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
@@ -118,13 +119,38 @@ void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const>
     stream(step);
     profile.bin_ns = nanoseconds() - start;
 
-    fast::find_pairs(body_boxes_, order_, pairs_);
+    fast::find_pairs(body_boxes_, pair_buffers_, pairs_);
+    reaches_.clear();
+    for (const fast::Pair& pair : pairs_) {
+        if (bodies[pair.b].tets.empty()) continue;
+        Reach reached{pair.a, pair.b, body_boxes_[pair.a]};
+        fast::intersect(reached.region, body_boxes_[pair.b]);
+        reach(step, reached);
+        if (!fast::is_empty(reached.region)) reaches_.push_back(reached);
+    }
+
+    const std::uint64_t reached = nanoseconds();
     std::size_t first = 0;
     for (std::uint32_t a = 0; a < bodies.size(); ++a) {
         std::size_t last = first;
-        while (last < pairs_.size() && pairs_[last].a == a) ++last;
-        detect_body(step, a, std::span(pairs_).subspan(first, last - first));
+        while (last < reaches_.size() && reaches_[last].a == a) ++last;
+        make_window(step, a, std::span(reaches_).subspan(first, last - first));
         first = last;
+    }
+    counters.cells = bins_.occupied_cells;
+    counters.entries = bins_.points.count;
+    counters.fullest_cell = bins_.fullest_cell;
+    profile.bin_ns += nanoseconds() - reached;
+
+    // Sorted by b, then a: counted, summed, placed.
+    first_of_.assign(bodies.size() + 1, 0);
+    for (const Reach& r : reaches_) ++first_of_[r.b + 1];
+    std::partial_sum(first_of_.begin(), first_of_.end(), first_of_.begin());
+    by_b_.resize(reaches_.size());
+    for (std::uint32_t r = 0; r < reaches_.size(); ++r) by_b_[first_of_[reaches_[r].b]++] = r;
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+        const std::uint32_t begin = b == 0 ? 0 : first_of_[b - 1];
+        query(step, b, std::span(by_b_).subspan(begin, first_of_[b] - begin));
     }
 
     const fast::QueryCounters& counted = scratch_[0].counters;
@@ -148,8 +174,10 @@ void Fast::stream(Step& step) {
     };
     for (std::size_t b = 0; b < step.bodies.size(); ++b) {
         const Body& body = step.bodies[b];
-        states_[b] = {nullptr, static_cast<std::uint32_t>(blocks), static_cast<std::uint32_t>(supers),
-                      static_cast<std::uint32_t>(tiles), false};
+        states_[b] = {};
+        states_[b].first_block = static_cast<std::uint32_t>(blocks);
+        states_[b].first_super = static_cast<std::uint32_t>(supers);
+        states_[b].first_tile = static_cast<std::uint32_t>(tiles);
         blocks += block_count(body.vertex_count);
         supers += step.prepared[b]->super_tile_count();
         tiles += step.prepared[b]->tiles.size();
@@ -160,6 +188,7 @@ void Fast::stream(Step& step) {
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
     packed_.resize(3 * strided);
+    bins_.clear();
 
     bool finite = true;
     strided = 0;
@@ -206,162 +235,141 @@ void Fast::know_super_tiles(Step& step, std::uint32_t body) {
     }
 }
 
-// Lists the tiles that meet partner.region and shrinks it to the part that they cover.
-void Fast::select_tiles(Step& step, Partner& partner) {
-    know_super_tiles(step, partner.body);
-    const BodyState& state = states_[partner.body];
-    const FastMesh& mesh = *step.prepared[partner.body];
+// Shrinks the region where the bodies' boxes overlap to what blocks of a reach of it, and that to what tiles
+// of b cover.
+void Fast::reach(Step& step, Reach& reach) {
+    Box reached = fast::empty_box;
+    const Box* blocks = block_boxes_.data() + states_[reach.a].first_block;
+    const std::uint32_t count = block_count(step.bodies[reach.a].vertex_count);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (fast::overlap(blocks[i], reach.region)) fast::add(reached, blocks[i]);
+    fast::intersect(reach.region, reached);
+    if (fast::is_empty(reach.region)) return;
+
+    know_super_tiles(step, reach.b);
+    const BodyState& state = states_[reach.b];
+    const FastMesh& mesh = *step.prepared[reach.b];
     const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size());
+    const std::uint32_t super_tiles = mesh.super_tile_count();
+    Box* boxes = tile_boxes_.data() + state.first_tile;
+    std::uint8_t* known = tile_known_.data() + state.first_tile;
     Box covered = fast::empty_box;
-    partner.first = tile_list_.size();
-    for (std::uint32_t s = 0; s < mesh.super_tile_count(); ++s) {
-        if (!fast::overlap(super_boxes_[state.first_super + s], partner.region)) continue;
-        const std::uint32_t end = std::min(tiles, (s + 1) * fast::super_tile_size);
-        for (std::uint32_t t = s * fast::super_tile_size; t < end; ++t) {
-            Box& box = tile_boxes_[state.first_tile + t];
-            if (!tile_known_[state.first_tile + t]) {
-                fast::tile_boxes(mesh, state.positions, std::span(&t, 1), &box);
-                tile_known_[state.first_tile + t] = 1;
-            }
-            if (!fast::overlap(box, partner.region)) continue;
-            tile_list_.push_back(t);
-            list_boxes_.push_back(box);
-            fast::add(covered, box);
+    double sides = 0, number = 0;
+    for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        if (!fast::overlap(super_boxes_[state.first_super + s], reach.region)) continue;
+        const std::uint32_t first = s * fast::super_tile_size;
+        const std::uint32_t last = std::min(tiles, first + fast::super_tile_size);
+        fast::tile_boxes(mesh, state.positions, first, last, boxes, known);
+        for (std::uint32_t t = first; t < last; ++t) {
+            if (!fast::overlap(boxes[t], reach.region)) continue;
+            fast::add(covered, boxes[t]);
+            sides += (double{boxes[t].hi[0]} - double{boxes[t].lo[0]}) +
+                     (double{boxes[t].hi[1]} - double{boxes[t].lo[1]}) +
+                     (double{boxes[t].hi[2]} - double{boxes[t].lo[2]});
+            number += 3;
         }
     }
-    partner.count = tile_list_.size() - partner.first;
-    fast::intersect(partner.region, covered);
+    fast::intersect(reach.region, covered);
+    states_[reach.a].tile_sides += sides;
+    states_[reach.a].tile_count += number;
 }
 
-// Marks the blocks of a body that meet the region of a partner.
-void Fast::mark_blocks(const Step& step, std::uint32_t body, bool all) {
-    const std::uint32_t blocks = block_count(step.bodies[body].vertex_count);
-    block_marks_.assign(blocks, all ? 1 : 0);
-    if (all) return;
-    const Box* boxes = block_boxes_.data() + states_[body].first_block;
-    for (const Partner& partner : partners_)
-        for (std::uint32_t b = 0; b < blocks; ++b) block_marks_[b] |= fast::overlap(boxes[b], partner.region);
-}
-
-// From the mean side of tiles that will query the window.
-double Fast::automatic_cell_size(const Step& step, std::uint32_t body, bool self) const {
-    double sides = 0, count = 0;
-    const auto take = [&](const Box& box) {
-        for (int a = 0; a < 3; ++a) sides += double{box.hi[a]} - double{box.lo[a]};
-        count += 3;
-    };
-    const std::size_t listed = list_boxes_.size();
-    for (std::size_t i = 0; i < 64 && i < listed; ++i)
-        take(list_boxes_[i * listed / std::min<std::size_t>(64, listed)]);
+// From the mean side of the tiles that will query the window of a body.
+double Fast::cell_size(const Step& step, std::uint32_t body, bool self) {
+    BodyState& state = states_[body];
     if (self) {
         const FastMesh& mesh = *step.prepared[body];
-        const std::size_t tiles = mesh.tiles.size(), samples = std::min<std::size_t>(64, tiles);
-        for (std::size_t i = 0; i < samples; ++i) {
-            const auto t = static_cast<std::uint32_t>(i * tiles / samples);
-            Box box;
-            fast::tile_boxes(mesh, states_[body].positions, std::span(&t, 1), &box);
-            take(box);
+        const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
+        for (std::uint32_t i = 0; i < samples; ++i) {
+            const auto t = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / samples);
+            fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
+                             tile_known_.data() + state.first_tile);
+            const Box& box = tile_boxes_[state.first_tile + t];
+            for (int a = 0; a < 3; ++a) state.tile_sides += double{box.hi[a]} - double{box.lo[a]};
         }
+        state.tile_count += 3.0 * samples;
     }
-    return count > 0 ? cells_per_tile * sides / count : 0;
+    const double automatic = cells_per_tile * state.tile_sides / std::max(1.0, state.tile_count);
+    const double wanted = step.settings.cell_size;
+    return wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
 }
 
-void Fast::detect_body(Step& step, std::uint32_t a, std::span<const fast::Pair> pairs) {
+// The window of the vertices of a body that reach another one, or of all where they may be in its own tets.
+void Fast::make_window(Step& step, std::uint32_t a, std::span<const Reach> reaches) {
     const Body& body = step.bodies[a];
-    const BodyState& state = states_[a];
     const bool self = body.self_collision && !body.tets.empty();
+    if (body.vertex_count == 0 || (reaches.empty() && !self)) return;
 
-    partners_.clear();
-    tile_list_.clear();
-    list_boxes_.clear();
-    for (const fast::Pair& pair : pairs) {
-        if (step.bodies[pair.b].tets.empty()) continue;
-        Partner partner{pair.b, body_boxes_[a], 0, 0};
-        fast::intersect(partner.region, body_boxes_[pair.b]);
-        // Only as far as blocks of A reach into it.
-        Box reach = fast::empty_box;
-        const Box* blocks = block_boxes_.data() + state.first_block;
-        for (std::uint32_t b = 0; b < block_count(body.vertex_count); ++b)
-            if (fast::overlap(blocks[b], partner.region)) fast::add(reach, blocks[b]);
-        fast::intersect(partner.region, reach);
-        if (fast::is_empty(partner.region)) continue;
-        select_tiles(step, partner);
-        if (partner.count) partners_.push_back(partner);
-    }
-    if (partners_.empty() && !self) return;
-
-    // Vertices that may be in a tile.
-    const std::uint64_t start = nanoseconds();
-    mark_blocks(step, a, self);
+    BodyState& state = states_[a];
     Box region = self ? body_boxes_[a] : fast::empty_box;
-    for (const Partner& partner : partners_) fast::add(region, partner.region);
+    for (const Reach& reach : reaches) fast::add(region, reach.region);
     points_.count = 0;
-    points_.reserve(static_cast<std::size_t>(std::count(block_marks_.begin(), block_marks_.end(), 1)) *
-                    fast::block_size);
-    for (std::uint32_t b = 0; b < block_marks_.size(); ++b)
-        if (block_marks_[b])
+    points_.reserve(body.vertex_count);
+    const Box* blocks = block_boxes_.data() + state.first_block;
+    const std::uint32_t count = block_count(body.vertex_count);
+    for (std::uint32_t b = 0; b < count; ++b) {
+        bool wanted = self;
+        for (std::size_t r = 0; r < reaches.size() && !wanted; ++r)
+            wanted = fast::overlap(blocks[b], reaches[r].region);
+        if (wanted)
             fast::collect(state.positions, b * fast::block_size,
                           std::min(body.vertex_count, (b + 1) * fast::block_size), region, points_);
-    if (points_.count) {
-        const double automatic = automatic_cell_size(step, a, self);
-        cell_size_ = step.settings.cell_size > 0
-                         ? std::min(step.settings.cell_size, largest_factor * automatic)
-                         : automatic;
-        const Box box = fast::bounds(points_);
-        window_.lattice = fast::make_lattice(box, cell_size_, cells_per_vertex * points_.count + 64);
-        fast::bin(points_, window_);
-        step.counters.cells += window_.occupied_cells;
-        step.counters.entries += points_.count;
-        step.counters.fullest_cell = std::max(step.counters.fullest_cell, window_.fullest_cell);
-        // Tiles that meet the vertices' box.
-        for (Partner& partner : partners_) {
-            std::size_t kept = partner.first;
-            for (std::size_t i = partner.first; i < partner.first + partner.count; ++i)
-                if (fast::overlap(list_boxes_[i], box)) {
-                    tile_list_[kept] = tile_list_[i];
-                    list_boxes_[kept++] = list_boxes_[i];
-                }
-            partner.count = kept - partner.first;
-        }
     }
-    step.profile.bin_ns += nanoseconds() - start;
-    if (!points_.count) return;
-
-    for (const Partner& partner : partners_) {
-        fast::Query query{};
-        query.tiles = step.prepared[partner.body];
-        query.positions = states_[partner.body].positions;
-        query.list = tile_list_.data() + partner.first;
-        query.boxes = list_boxes_.data() + partner.first;
-        query.count = partner.count;
-        this->query(step, a, partner.body, query);
-    }
-    if (self) {
-        // The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
-        if (stamps_.size() < body.vertex_count) stamps_.resize(body.vertex_count, 0);
-        constexpr std::size_t most_tiles = 1u << 25;
-        const FastMesh& mesh = *step.prepared[a];
-        for (std::size_t first = 0; first < mesh.tiles.size(); first += most_tiles) {
-            fast::Query query{};
-            query.tiles = &mesh;
-            query.positions = state.positions;
-            query.first = static_cast<std::uint32_t>(first);
-            query.count = std::min(most_tiles, mesh.tiles.size() - first);
-            query.stamps = stamps_.data();
-            if ((scratch_[0].tag >> 6) + query.count >= 1u << 26) {
-                std::fill(stamps_.begin(), stamps_.end(), 0u);
-                scratch_[0].tag = 0;
-            }
-            this->query(step, a, a, query);
-        }
-    }
+    if (points_.count == 0) return;
+    cell_size_ = cell_size(step, a, self);
+    const Box box = fast::bounds(points_);
+    const fast::Lattice lattice =
+        fast::make_lattice(box, cell_size_, cells_per_vertex * std::size_t{points_.count} + 64);
+    state.window = fast::bin(points_, lattice, box, bins_);
 }
 
-void Fast::query(Step& step, std::uint32_t body_a, std::uint32_t body_b, fast::Query& query) {
-    query.window = &window_;
-    Decide decide(step.bodies, body_a, body_b, step.hits, degenerate_);
-    fast::query_tiles(query, scratch_[0], decide);
-    fast::flush(scratch_[0], decide);
+// The tiles of a body against the windows of the bodies that reach it.
+void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> reaching) {
+    const Body& body = step.bodies[b];
+    const BodyState& state = states_[b];
+    const bool self = body.self_collision && !body.tets.empty();
+    sources_.clear();
+    if (self) sources_.push_back({state.window, state.window.box, b});
+    for (const std::uint32_t r : reaching) {
+        const Reach& reach = reaches_[r];
+        const fast::Window& window = states_[reach.a].window;
+        fast::Source source{window, reach.region, reach.a};
+        fast::intersect(source.region, window.box);
+        if (window.count && !fast::is_empty(source.region)) sources_.push_back(source);
+    }
+    if (sources_.empty()) return;
+
+    const FastMesh& mesh = *step.prepared[b];
+    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size());
+    const std::uint32_t super_tiles = mesh.super_tile_count();
+    fast::Query query{};
+    query.tiles = &mesh;
+    query.positions = state.positions;
+    query.bins = &bins_;
+    query.boxes = tile_boxes_.data() + state.first_tile;
+    query.known = tile_known_.data() + state.first_tile;
+    fast::QueryScratch& scratch = scratch_[0];
+    if (self) {
+        if (stamps_.size() < body.vertex_count) stamps_.resize(body.vertex_count, 0);
+        query.stamps = stamps_.data();
+        // The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
+        if ((scratch.tag >> 6) + mesh.tiles.size() >= 1u << 26) {
+            std::fill(stamps_.begin(), stamps_.end(), 0u);
+            scratch.tag = 0;
+        }
+    }
+    Decide decide(step.bodies, b, step.hits, degenerate_);
+    for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        near_.clear();
+        for (std::size_t i = 0; i < sources_.size(); ++i)
+            if ((self && i == 0) || fast::overlap(super_boxes_[state.first_super + s], sources_[i].region))
+                near_.push_back(sources_[i]);
+        if (near_.empty()) continue;
+        const std::uint32_t first = s * fast::super_tile_size;
+        fast::query_tiles(query, near_, first, std::min(tiles, first + fast::super_tile_size), scratch,
+                          decide);
+    }
+    fast::flush(scratch, decide);
     step.counters.exact_tests += decide.exact_tests;
     step.profile.narrow_ns += decide.time_ns;
 }

@@ -33,12 +33,22 @@ int widest_axis(std::span<const Box> boxes) {
     return axis;
 }
 
+// One pass of a radix sort whose digit is a whole index: stable, by Pair::*key.
+void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair> from, std::span<Pair> to,
+             std::pmr::vector<std::uint32_t>& first) {
+    first.assign(indices + 1, 0);
+    for (const Pair& pair : from) ++first[pair.*key + 1];
+    for (std::size_t i = 1; i <= indices; ++i) first[i] += first[i - 1];
+    for (const Pair& pair : from) to[first[pair.*key]++] = pair;
+}
+
 } // namespace
 
-void find_pairs(std::span<const Box> boxes, std::pmr::vector<std::uint32_t>& order,
-                std::pmr::vector<Pair>& pairs) {
-    pairs.clear();
+void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs) {
+    std::pmr::vector<std::uint32_t>& order = buffers.order;
+    std::pmr::vector<Pair>& found = buffers.found;
     order.clear();
+    found.clear();
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
         if (!is_empty(boxes[i])) order.push_back(i);
     const int axis = widest_axis(boxes);
@@ -46,16 +56,21 @@ void find_pairs(std::span<const Box> boxes, std::pmr::vector<std::uint32_t>& ord
         const float x = boxes[a].lo[axis], y = boxes[b].lo[axis];
         return x != y ? x < y : a < b;
     });
+    buffers.boxes.clear();
+    for (const std::uint32_t i : order) buffers.boxes.push_back(boxes[i]);
+    const Box* sorted = buffers.boxes.data();
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const Box& box = boxes[order[i]];
-        for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].lo[axis] <= box.hi[axis]; ++j) {
-            if (!overlap(box, boxes[order[j]])) continue;
-            pairs.push_back({order[i], order[j]});
-            pairs.push_back({order[j], order[i]});
+        const Box box = sorted[i];
+        for (std::size_t j = i + 1; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j) {
+            if (!overlap(box, sorted[j])) continue;
+            found.push_back({order[i], order[j]});
+            found.push_back({order[j], order[i]});
         }
     }
-    std::sort(pairs.begin(), pairs.end(),
-              [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+    pairs.resize(found.size());
+    sort_by(&Pair::b, boxes.size(), found, pairs, buffers.first);
+    std::copy(pairs.begin(), pairs.end(), found.begin());
+    sort_by(&Pair::a, boxes.size(), found, pairs, buffers.first);
 }
 
 } // namespace vox::fast

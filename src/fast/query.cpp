@@ -77,16 +77,18 @@ HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std
     hn::Store(hn::Max(hi0, hi1), d, box.hi);
 }
 
-void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions,
-               const std::uint32_t* HWY_RESTRICT list, std::size_t count, Box* HWY_RESTRICT boxes) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const Tile& tile = tiles.tiles.data()[list[i]];
+void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions, std::uint32_t first,
+               std::uint32_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known) {
+    for (std::uint32_t t = first; t < last; ++t) {
+        if (known[t]) continue;
+        known[t] = 1;
+        const Tile& tile = tiles.tiles.data()[t];
         const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
         const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
         if (tile.holds_last_vertex)
-            BoxOf(positions, vertices, padded, LoadLastVertex, boxes[i]);
+            BoxOf(positions, vertices, padded, LoadLastVertex, boxes[t]);
         else
-            BoxOf(positions, vertices, padded, LoadVertex, boxes[i]);
+            BoxOf(positions, vertices, padded, LoadVertex, boxes[t]);
     }
 }
 
@@ -315,6 +317,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
             const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
             const std::uint32_t p = s.pairs[i + lane];
             Finding& finding = s.findings[s.finding_count++];
+            finding.body = s.candidate_body[p >> 6];
             finding.vertex = s.candidate_id[p >> 6];
             finding.tet = tets[p & 63] & 0x7fffffffu;
             finding.certain = (sure >> lane) & 1u;
@@ -340,7 +343,7 @@ HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
 #endif
 }
 
-// The rows of cells that a box meets, and what of their points is in it.
+// One tile and how far it is prepared.
 struct TileWork {
     const Query& query;
     QueryScratch& s;
@@ -349,12 +352,13 @@ struct TileWork {
     Box box;
     bool ready;  // the tile is in scratch, with its boxes
     bool loaded; // its vertices are
+    bool stamped;
     Scale scales[3];
     float underflow;
 };
 
-// All candidates in scratch against the tile.
-HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
+// All candidates in scratch against the tile; the first own_count are vertices of the same body.
+HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_count) {
     QueryScratch& s = w.s;
     const Tile& tile = w.tile;
     if (!w.ready) {
@@ -364,11 +368,12 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
         w.underflow = Underflow(w.box);
         w.ready = true;
-        if (w.query.stamps) {
-            s.tag += 1u << 6;
-            const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
-            for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.query.stamps[vertices[i]] = s.tag | i;
-        }
+    }
+    if (own_count && !w.stamped) {
+        w.stamped = true;
+        s.tag += 1u << 6;
+        const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
+        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.query.stamps[vertices[i]] = s.tag | i;
     }
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
@@ -379,28 +384,25 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
     const std::uint32_t* stamps = w.query.stamps;
     // Without the tets that own the candidate; then without the candidates that are left with none. Neither
     // branches: what a candidate meets is hard to predict.
-    std::uint32_t left = 0;
-    if (stamps) {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t stamp = stamps[s.candidate_id[i]];
-            const std::uint64_t mine = stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
-            const std::uint64_t mask = s.masks[i] & ~mine;
-            s.masks[left] = mask;
-            s.meeting[left] = i;
-            left += mask != 0;
-        }
-    } else {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint64_t mask = s.masks[i];
-            s.masks[left] = mask;
-            s.meeting[left] = i;
-            left += mask != 0;
-        }
+    std::uint32_t left = 0, i = 0;
+    for (; i < own_count; ++i) {
+        const std::uint32_t stamp = stamps[s.candidate_id[i]];
+        const std::uint64_t mine = stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
+        const std::uint64_t mask = s.masks[i] & ~mine;
+        s.masks[left] = mask;
+        s.meeting[left] = i;
+        left += mask != 0;
+    }
+    for (; i < count; ++i) {
+        const std::uint64_t mask = s.masks[i];
+        s.masks[left] = mask;
+        s.meeting[left] = i;
+        left += mask != 0;
     }
     std::uint32_t pairs = 0;
-    for (std::uint32_t i = 0; i < left; ++i) {
-        std::uint64_t mask = s.masks[i];
-        const std::uint32_t candidate = s.meeting[i] << 6;
+    for (std::uint32_t k = 0; k < left; ++k) {
+        std::uint64_t mask = s.masks[k];
+        const std::uint32_t candidate = s.meeting[k] << 6;
         std::uint32_t* to = s.pairs + pairs;
         pairs += static_cast<std::uint32_t>(hwy::PopCount(mask));
         do {
@@ -419,20 +421,15 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count) {
     if (pairs) Narrow(tets, s, pairs, w.underflow, w.out);
 }
 
-HWY_INLINE void QueryTile(const Query& query, std::size_t position, QueryScratch& s, Findings& out) {
+// Appends the points of a source that lie in the tile's box to the candidates.
+HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std::uint32_t n,
+                               std::uint32_t& own_count) {
     const Floats d;
     const Words du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const std::size_t index = query.list ? query.list[position] : query.first + position;
-    TileWork w{query, s, out, query.tiles->tiles.data()[index], {}, false, false, {}, 0};
-    if (query.boxes) {
-        w.box = query.boxes[position];
-    } else {
-        LoadTile(query, w.tile, s, w.box);
-        w.loaded = true;
-    }
+    QueryScratch& s = w.s;
     const Box& box = w.box;
-    const Window& window = *query.window;
+    const Window& window = source.window;
     const Lattice& lattice = window.lattice;
     const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
     const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
@@ -440,11 +437,13 @@ HWY_INLINE void QueryTile(const Query& query, std::size_t position, QueryScratch
     s.counters.visited_cells += std::uint64_t{x1 - x0 + 1} * (y1 - y0 + 1) * (z1 - z0 + 1);
     const auto lx = hn::Set(d, box.lo[0]), ly = hn::Set(d, box.lo[1]), lz = hn::Set(d, box.lo[2]);
     const auto hx = hn::Set(d, box.hi[0]), hy = hn::Set(d, box.hi[1]), hz = hn::Set(d, box.hi[2]);
-    const float *HWY_RESTRICT px = window.points.x.data(), *HWY_RESTRICT py = window.points.y.data(),
-                              *HWY_RESTRICT pz = window.points.z.data();
-    const std::uint32_t* HWY_RESTRICT ids = window.points.id.data();
-    const std::uint32_t* HWY_RESTRICT begin = window.begin.data();
-    std::uint32_t n = 0;
+    const Points& points = w.query.bins->points;
+    const float* HWY_RESTRICT px = points.x.data() + window.first_point;
+    const float* HWY_RESTRICT py = points.y.data() + window.first_point;
+    const float* HWY_RESTRICT pz = points.z.data() + window.first_point;
+    const std::uint32_t* HWY_RESTRICT ids = points.id.data() + window.first_point;
+    const std::uint32_t* HWY_RESTRICT begin = w.query.bins->begin.data() + window.first_cell;
+    std::uint32_t labelled = n;
     std::uint64_t visited = 0;
     for (std::uint32_t z = z0; z <= z1; ++z)
         for (std::uint32_t y = y0; y <= y1; ++y) {
@@ -453,31 +452,52 @@ HWY_INLINE void QueryTile(const Query& query, std::size_t position, QueryScratch
             std::uint32_t i = begin[row + x0];
             visited += end - i;
             for (; i < end; i += lanes) {
-                const auto x = hn::LoadU(d, px + i), y_ = hn::LoadU(d, py + i), z_ = hn::LoadU(d, pz + i);
-                const auto inside_x = hn::And(hn::Ge(x, lx), hn::Le(x, hx));
-                const auto inside_y = hn::And(hn::Ge(y_, ly), hn::Le(y_, hy));
-                const auto inside_z = hn::And(hn::Ge(z_, lz), hn::Le(z_, hz));
+                const auto vx = hn::LoadU(d, px + i), vy = hn::LoadU(d, py + i), vz = hn::LoadU(d, pz + i);
+                const auto inside_x = hn::And(hn::Ge(vx, lx), hn::Le(vx, hx));
+                const auto inside_y = hn::And(hn::Ge(vy, ly), hn::Le(vy, hy));
+                const auto inside_z = hn::And(hn::Ge(vz, lz), hn::Le(vz, hz));
                 const auto inside =
                     hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, end - i)));
                 if (hn::AllFalse(d, inside)) continue;
-                hn::StoreU(hn::Compress(x, inside), d, s.candidate_x + n);
-                hn::StoreU(hn::Compress(y_, inside), d, s.candidate_y + n);
-                hn::StoreU(hn::Compress(z_, inside), d, s.candidate_z + n);
+                hn::StoreU(hn::Compress(vx, inside), d, s.candidate_x + n);
+                hn::StoreU(hn::Compress(vy, inside), d, s.candidate_y + n);
+                hn::StoreU(hn::Compress(vz, inside), d, s.candidate_z + n);
                 hn::StoreU(hn::Compress(hn::LoadU(du, ids + i), hn::RebindMask(du, inside)), du,
                            s.candidate_id + n);
                 n += static_cast<std::uint32_t>(hn::CountTrue(d, inside));
                 if (n > QueryScratch::most_candidates - 16) {
-                    Process(w, n);
-                    n = 0;
+                    for (; labelled < n; ++labelled) s.candidate_body[labelled] = source.body;
+                    Process(w, n, own ? n : own_count);
+                    n = labelled = own_count = 0;
                 }
             }
         }
     s.counters.visited_points += visited;
-    if (n) Process(w, n);
+    for (; labelled < n; ++labelled) s.candidate_body[labelled] = source.body;
+    if (own) own_count = n;
+    return n;
 }
 
-void QueryTiles(const Query& query, QueryScratch& s, Findings& out) {
-    for (std::size_t i = 0; i < query.count; ++i) QueryTile(query, i, s, out);
+void QueryTiles(const Query& query, const Source* sources, std::size_t source_count, std::uint32_t first,
+                std::uint32_t last, QueryScratch& s, Findings& out) {
+    for (std::uint32_t t = first; t < last; ++t) {
+        TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, 0};
+        if (!query.known[t]) {
+            LoadTile(query, w.tile, s, w.box);
+            w.loaded = true;
+            query.boxes[t] = w.box;
+            query.known[t] = 1;
+        }
+        std::uint32_t n = 0, own_count = 0;
+        for (std::size_t i = 0; i < source_count; ++i) {
+            const Box& region = sources[i].region;
+            const bool apart = (w.box.lo[0] > region.hi[0]) | (w.box.lo[1] > region.hi[1]) |
+                               (w.box.lo[2] > region.hi[2]) | (region.lo[0] > w.box.hi[0]) |
+                               (region.lo[1] > w.box.hi[1]) | (region.lo[2] > w.box.hi[2]);
+            if (!apart) n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
+        }
+        if (n) Process(w, n, own_count);
+    }
 }
 
 } // namespace HWY_NAMESPACE
@@ -496,12 +516,14 @@ void flush(QueryScratch& scratch, Findings& out) {
     if (scratch.finding_count) hand_over(scratch, out);
 }
 
-void query_tiles(const Query& query, QueryScratch& scratch, Findings& out) {
-    VOX_SIMD_DISPATCH(QueryTiles)(query, scratch, out);
+void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
+                 QueryScratch& scratch, Findings& out) {
+    VOX_SIMD_DISPATCH(QueryTiles)(query, sources.data(), sources.size(), first, last, scratch, out);
 }
 
-void tile_boxes(const Tiles& tiles, const float* positions, std::span<const std::uint32_t> list, Box* boxes) {
-    VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, list.data(), list.size(), boxes);
+void tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
+                Box* boxes, std::uint8_t* known) {
+    VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, first, last, boxes, known);
 }
 
 } // namespace vox::fast

@@ -12,6 +12,7 @@ namespace vox::fast {
 
 // A vertex in the box of a tetrahedron that the float filter did not clear away.
 struct Finding {
+    std::uint32_t body;   // of the vertex
     std::uint32_t vertex; // the caller's indices
     std::uint32_t tet : 31;
     std::uint32_t certain : 1; // strictly inside; else only exact arithmetic can tell
@@ -47,6 +48,7 @@ struct alignas(64) QueryScratch {
     alignas(64) float candidate_x[most_candidates + 64], candidate_y[most_candidates + 64],
         candidate_z[most_candidates + 64];
     alignas(64) std::uint32_t candidate_id[most_candidates + 64];
+    alignas(64) std::uint32_t candidate_body[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
     alignas(64) std::uint64_t masks[most_candidates + 64];   // tets whose box the candidate meets
     alignas(64) std::uint32_t meeting[most_candidates + 64]; // candidates whose mask is not empty
@@ -60,27 +62,34 @@ struct alignas(64) QueryScratch {
     QueryCounters counters;
 };
 
+// Points to test against tiles: a window, or what of it matters.
+struct Source {
+    Window window;
+    Box region; // only tiles that meet it
+    std::uint32_t body;
+};
+
 struct Query {
     const Tiles* tiles;
     const float* positions; // packed, of the body of the tiles
-    const Window* window;
-    // The tiles to query: those of a list (with their boxes), or `count` from `first` on.
-    const std::uint32_t* list;
-    const Box* boxes; // null: not known
-    std::uint32_t first;
-    std::size_t count;
-    // Not null: the window holds vertices of the same body, and tets do not meet their own corners. One
+    const Bins* bins;       // of the windows
+    // Boxes of the tiles of the body; one that is not known is made when it is needed.
+    Box* boxes;
+    std::uint8_t* known;
+    // Not null: the first source holds vertices of the same body, and tets do not meet their own corners. One
     // zeroed word a vertex, kept with the scratch.
     std::uint32_t* stamps;
 };
 
-// Finds every vertex of the window in the closed box of a tet and, as far as floats can tell, in the tet.
-// Nothing is lost: what is not certain is reported as such. Findings are left in scratch; flush() hands the
-// rest over.
-void query_tiles(const Query& query, QueryScratch& scratch, Findings& out);
+// Finds every point of the sources in the closed box of a tet of the tiles [first, last) and, as far as
+// floats can tell, in the tet. Nothing is lost: what is not certain is reported as such. Findings are left in
+// scratch; flush() hands the rest over.
+void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
+                 QueryScratch& scratch, Findings& out);
 void flush(QueryScratch& scratch, Findings& out);
 
-// The exact boxes of tiles.
-void tile_boxes(const Tiles& tiles, const float* positions, std::span<const std::uint32_t> list, Box* boxes);
+// Makes the boxes of the tiles [first, last) that are not known.
+void tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
+                Box* boxes, std::uint8_t* known);
 
 } // namespace vox::fast

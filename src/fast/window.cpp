@@ -155,17 +155,19 @@ Box bounds(const Points& points) {
     return box;
 }
 
-void bin(const Points& points, Window& window) {
+Window bin(const Points& points, const Lattice& lattice, const Box& box, Bins& bins) {
     const std::uint32_t n = points.count;
-    const std::size_t cells = window.lattice.count();
-    window.points.reserve(n);
-    if (window.cell_of.size() < n + Points::padding) window.cell_of.resize(n + n / 8 + Points::padding);
-    if (window.begin.size() < cells + 2) window.begin.resize(cells + cells / 8 + 2);
-    std::uint32_t* cell_of = window.cell_of.data();
-    VOX_SIMD_DISPATCH(Cells)(window.lattice, points.x.data(), points.y.data(), points.z.data(), n, cell_of);
+    const std::size_t cells = lattice.count();
+    const Window window{lattice, box, bins.points.count, bins.cells, n};
+    bins.points.reserve(bins.points.count + std::size_t{n});
+    if (bins.cell_of.size() < n + Points::padding) bins.cell_of.resize(n + n / 8 + Points::padding);
+    const std::size_t used = bins.cells + cells + 2;
+    if (bins.begin.size() < used) bins.begin.resize(used + used / 8);
+    std::uint32_t* cell_of = bins.cell_of.data();
+    VOX_SIMD_DISPATCH(Cells)(lattice, points.x.data(), points.y.data(), points.z.data(), n, cell_of);
 
     // begin[c + 1] is first the number of points in c, then where c begins, and in the end where it ends.
-    std::uint32_t* begin = window.begin.data();
+    std::uint32_t* begin = bins.begin.data() + window.first_cell;
     std::fill_n(begin, cells + 2, 0u);
     for (std::uint32_t i = 0; i < n; ++i) ++begin[cell_of[i] + 1];
     std::uint32_t sum = 0, occupied = 0, fullest = 0;
@@ -176,12 +178,10 @@ void bin(const Points& points, Window& window) {
         occupied += count != 0;
         fullest = count > fullest ? count : fullest;
     }
-    window.occupied_cells = occupied;
-    window.fullest_cell = fullest;
-    Points& sorted = window.points;
-    sorted.count = n;
-    float *x = sorted.x.data(), *y = sorted.y.data(), *z = sorted.z.data();
-    std::uint32_t* id = sorted.id.data();
+    float* x = bins.points.x.data() + window.first_point;
+    float* y = bins.points.y.data() + window.first_point;
+    float* z = bins.points.z.data() + window.first_point;
+    std::uint32_t* id = bins.points.id.data() + window.first_point;
     for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t place = begin[cell_of[i] + 1]++;
         x[place] = points.x[i];
@@ -189,6 +189,11 @@ void bin(const Points& points, Window& window) {
         z[place] = points.z[i];
         id[place] = points.id[i];
     }
+    bins.points.count += n;
+    bins.cells = used;
+    bins.occupied_cells += occupied;
+    bins.fullest_cell = std::max<std::uint64_t>(bins.fullest_cell, fullest);
+    return window;
 }
 
 } // namespace vox::fast

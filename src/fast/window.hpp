@@ -22,7 +22,7 @@ struct Points {
     std::uint32_t count = 0;
 
     static constexpr std::size_t padding = 64;
-    void reserve(std::size_t most);
+    void reserve(std::size_t most); // keeps what is there
 };
 
 // Where a coordinate falls: trunc((c - origin) * inverse), clamped to [0, last]. Monotone in c also as
@@ -46,14 +46,29 @@ struct Lattice {
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
 Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 
+// The binned vertices of one body, in buffers that the windows of a step share.
 struct Window {
-    explicit Window(std::pmr::memory_resource* memory) : points(memory), begin(memory), cell_of(memory) {}
-
     Lattice lattice;
-    Points points;                                      // sorted by cell
-    std::pmr::vector<std::uint32_t> begin;              // of each cell, and the end of the last
-    std::pmr::vector<std::uint32_t> cell_of;            // buffer: cell of each unsorted point
-    std::uint64_t occupied_cells = 0, fullest_cell = 0; // of the last build
+    Box box;                 // of its points
+    std::size_t first_point; // in Bins::points
+    std::size_t
+        first_cell; // in Bins::begin: of each cell its first point, counted from first_point, and the end
+    std::uint32_t count; // points; 0: there is no window
+};
+
+struct Bins {
+    explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory), cell_of(memory) {}
+
+    Points points; // window after window, sorted by cell
+    std::pmr::vector<std::uint32_t> begin;
+    std::size_t cells = 0;                   // of `begin` that are in use
+    std::pmr::vector<std::uint32_t> cell_of; // buffer: cell of each unsorted point
+    std::uint64_t occupied_cells = 0, fullest_cell = 0;
+
+    void clear() noexcept {
+        points.count = 0;
+        cells = occupied_cells = fullest_cell = 0;
+    }
 };
 
 // Appends the vertices [first, last) of packed `positions` that lie in `region`. The caller has reserved
@@ -64,7 +79,7 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, co
 // The box of points.
 Box bounds(const Points& points);
 
-// Sorts `points` into the cells of window.lattice, stably.
-void bin(const Points& points, Window& window);
+// Adds the window of `points`, sorted stably into the cells of `lattice`.
+Window bin(const Points& points, const Lattice& lattice, const Box& box, Bins& bins);
 
 } // namespace vox::fast
