@@ -21,6 +21,8 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/voxConfigVersion.cm
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/voxConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
 
+# Relative to the file itself, so that the installed tree can be moved.
+file(RELATIVE_PATH VOX_PC_PREFIX /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
 configure_file(cmake/vox.pc.in vox.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(VOX_BUILD_IO)
