@@ -73,7 +73,7 @@ private:
 };
 
 // The mean of the two middle values where their number is even.
-double median(std::vector<double>& values) {
+double median(std::pmr::vector<double>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -102,12 +102,13 @@ bool names_a_vertex_twice(const Tet& ascending) {
 // emits. A counting sort by `first` (a vertex) makes short lists, which are then sorted by `rest`; `generate`
 // is called twice, to count and to place.
 template <class Rest, class Generate, class Visit>
-void for_each_unique(std::uint32_t vertex_count, Generate&& generate, Visit&& visit) {
-    std::vector<std::uint64_t> ends(std::size_t{vertex_count} + 1, 0);
+void for_each_unique(std::uint32_t vertex_count, std::pmr::memory_resource* memory, Generate&& generate,
+                     Visit&& visit) {
+    std::pmr::vector<std::uint64_t> ends(std::size_t{vertex_count} + 1, 0, memory);
     generate([&](std::uint32_t first, Rest) { ++ends[std::size_t{first} + 1]; });
     for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
 
-    std::vector<Rest> rests(static_cast<std::size_t>(ends[vertex_count]));
+    std::pmr::vector<Rest> rests(static_cast<std::size_t>(ends[vertex_count]), memory);
     // Placing moves ends[v] from the start of list v to its end, the start of list v + 1.
     generate([&](std::uint32_t first, Rest rest) { rests[static_cast<std::size_t>(ends[first]++)] = rest; });
 
@@ -128,9 +129,13 @@ void for_each_unique(std::uint32_t vertex_count, Generate&& generate, Visit&& vi
 // ---- one pass over a scene ------------------------------------------------------------------------
 
 struct Sums {
+    explicit Sums(std::pmr::memory_resource* memory) : box_sides(memory) {}
+
     Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume;
-    std::vector<double> box_sides;
+    std::pmr::vector<double> box_sides;
     std::uint64_t degenerate = 0;
+
+    std::pmr::memory_resource* memory() const { return box_sides.get_allocator().resource(); }
 };
 
 void check_finite(const Body& body) {
@@ -175,7 +180,7 @@ void measure_edges(const Body& body, Sums& sums) {
             for (const auto& edge : edge_corners) emit(t.v[edge[0]], t.v[edge[1]]);
         }
     };
-    for_each_unique<std::uint32_t>(body.vertex_count, generate,
+    for_each_unique<std::uint32_t>(body.vertex_count, sums.memory(), generate,
                                    [&](std::uint32_t a, std::uint32_t b, std::size_t) {
                                        sums.edge.add(edge_length(body.positions[a], body.positions[b]));
                                    });
@@ -190,18 +195,19 @@ void measure_facets(const Body& body, Sums& sums) {
                 emit(t.v[facet[0]], std::uint64_t{t.v[facet[1]]} << 32 | t.v[facet[2]]);
         }
     };
-    for_each_unique<std::uint64_t>(
-        body.vertex_count, generate, [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
-            const double area =
-                facet_area(body.positions[a], body.positions[rest >> 32], body.positions[rest & 0xffffffffu]);
-            sums.facet.add(area);
-            if (multiplicity == 1) sums.boundary_facet.add(area);
-        });
+    for_each_unique<std::uint64_t>(body.vertex_count, sums.memory(), generate,
+                                   [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
+                                       const double area =
+                                           facet_area(body.positions[a], body.positions[rest >> 32],
+                                                      body.positions[rest & 0xffffffffu]);
+                                       sums.facet.add(area);
+                                       if (multiplicity == 1) sums.boundary_facet.add(area);
+                                   });
 }
 
 } // namespace
 
-Geometry measure(std::span<const Body> bodies) {
+Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory) {
     Geometry result{};
     vox_geometry_stats& stats = result.stats;
     for (const Body& body : bodies) {
@@ -210,7 +216,7 @@ Geometry measure(std::span<const Body> bodies) {
         stats.tets += body.tets.size();
     }
 
-    Sums sums;
+    Sums sums(memory);
     sums.box_sides.reserve(static_cast<std::size_t>(stats.tets));
     Box3d bounds;
     Mean object_side;

@@ -6,6 +6,7 @@
 
 #include <vox/vox.h>
 
+#include <memory_resource>
 #include <span>
 
 namespace vox {
@@ -20,8 +21,9 @@ struct Geometry {
 // Measures the positions as they are now. The bounds are those of the vertices that tetrahedra use, and of
 // all vertices for a body without tetrahedra; every vertex must be finite all the same. A tetrahedron that
 // names a vertex twice has no edges and facets of its own; it counts in the means over tetrahedra. Means of
-// nothing are 0. Time and memory in proportion to the tetrahedra. Throws Error(NON_FINITE) naming mesh_id and
-// vertex.
-Geometry measure(std::span<const Body> bodies);
+// nothing are 0. Time, and bytes of `memory` until it returns, in proportion to the tetrahedra. Throws
+// Error(NON_FINITE) naming mesh_id and vertex.
+Geometry measure(std::span<const Body> bodies,
+                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 } // namespace vox

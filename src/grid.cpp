@@ -236,7 +236,7 @@ void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
 
 void vox_grid::choose_cell_size() {
     if (!choose_cell_size_ || !cell_size_is_stale_) return;
-    const Geometry geometry = measure(bodies_);
+    const Geometry geometry = measure(bodies_, &memory_);
     if (geometry.stats.mean_edge > 0 && geometry.stats.mean_facet_area > 0)
         cell_size_ = suggest(vox_default_suggest_desc(), geometry).cell_size;
     else
