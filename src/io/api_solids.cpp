@@ -65,6 +65,10 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
         if (!std::isfinite(wanted.cell) || wanted.cell < 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
+        if (!std::isfinite(wanted.max_distance) || wanted.max_distance < 0)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("desc.max_distance is %g, expected a finite number above 0, or 0",
+                               wanted.max_distance));
         if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc.max_tets is %llu, expected 1 to %u",

@@ -22,8 +22,8 @@ constexpr std::uint32_t kNone = NodeSet::kNone;
 
 class Stuffing {
 public:
-    Stuffing(const Body& body, std::uint64_t max_tets, const Progress& progress, double from)
-        : body_(body), max_tets_(max_tets), progress_(progress), from_(from),
+    Stuffing(const Body& body, std::uint64_t max_tets, const Progress& progress)
+        : body_(body), max_tets_(max_tets), progress_(progress),
           nodes_(with_neighbours(body.frame, body.inside)), sides_(nodes_.size(), Side::outside),
           fringe_(nodes_.size(), kNone), numbers_(nodes_.size(), kNone) {}
 
@@ -92,7 +92,7 @@ private:
 
     void find_cuts() {
         for_each_node(body_.inside, [&](std::uint32_t number, const Node& node) {
-            if (number % 65536 == 0) report(0.4 * number / body_.inside.size());
+            if (number % 65536 == 0) progress_.report(0.4 * number / body_.inside.size());
             std::uint32_t self = kNone;
             for (std::uint32_t k = 0; k < kNeighbours.size(); ++k) {
                 const std::uint32_t other = nodes_.find(node + kNeighbours[k]);
@@ -143,7 +143,7 @@ private:
     // between the two cells.
     void fill(const Octree& octree) {
         for_each_node(nodes_, [&](std::uint32_t number, const Node& low) {
-            if (number % 65536 == 0) report(0.4 + 0.6 * number / nodes_.size());
+            if (number % 65536 == 0) progress_.report(0.4 + 0.6 * number / nodes_.size());
             if ((low.y & 1) == 0) return;
             const bool low_merged = octree.is_merged(low);
             for (unsigned d = 0; d < 3; ++d) {
@@ -260,12 +260,9 @@ private:
         return cut.vertex;
     }
 
-    void report(double done) const { progress_.report(from_ + (1 - from_) * done); }
-
     const Body& body_;
     const std::uint64_t max_tets_;
     const Progress& progress_;
-    const double from_;
     const NodeSet nodes_; // inside, and next to those
     std::vector<Side> sides_;
     std::vector<std::uint32_t> fringe_;  // of each node: index into fringes_, or kNone
@@ -277,8 +274,7 @@ private:
 
 } // namespace
 
-MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress,
-               double from) {
+MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {
     // Uniform tets outnumber the nodes inside; this keeps memory within bounds before anything is laid out.
     if (body.inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
         throw Error(
@@ -286,7 +282,7 @@ MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, 
             format(
                 "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
                 body.inside.size(), static_cast<unsigned long long>(max_tets), 2 * body.frame.half_cell));
-    MeshData mesh = Stuffing(body, max_tets, progress, from).run(coarsen);
+    MeshData mesh = Stuffing(body, max_tets, progress).run(coarsen);
     progress.report(1);
     return mesh;
 }

@@ -19,8 +19,7 @@ struct Body {
 };
 
 // The body's tetrahedra, positively oriented. `coarsen`: number of times cells far from the boundary may be
-// merged 2 x 2 x 2. Reports progress from `from` to 1. Throws LIMIT when there would be more than max_tets.
-MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress,
-               double from);
+// merged 2 x 2 x 2. Throws LIMIT when there would be more than max_tets.
+MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress);
 
 } // namespace vox::io

@@ -123,8 +123,7 @@ void check_edges(const std::vector<Triangle>& triangles, SurfaceCheck& check) {
 
 } // namespace
 
-SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress,
-                           double to) {
+SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress) {
     int shift = kCoordinateBits; // a lattice unit, half a cell, is 2^shift
     const std::int32_t longest = 2 * *std::max_element(frame.cells.begin(), frame.cells.end());
     while ((std::int64_t{longest} << shift) >= std::int64_t{1} << kCoordinateBits) --shift;
@@ -150,7 +149,7 @@ SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, 
     check_edges(triangles, check_);
     for (unsigned direction = 0; direction < 7; ++direction) {
         lines_[direction] = cast(direction, points, triangles, shift);
-        progress.report(to * (direction + 1) / 7);
+        progress.report((direction + 1) / 7.0);
     }
 }
 

@@ -32,8 +32,7 @@ struct SurfaceCheck {
 class SurfaceLines {
 public:
     // Welds vertices of equal position (on the integer grid) and drops triangles that have collapsed.
-    // Reports progress from 0 to `to`.
-    SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress, double to);
+    SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress);
 
     const SurfaceCheck& check() const { return check_; }
 

@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "solid_cubes.hpp"
+#include "solid_quality.hpp"
 #include "solid_stuff.hpp"
 #include "solid_surface.hpp"
 
@@ -41,6 +42,51 @@ void refuse_open(const SurfaceLines& lines, double doubtful) {
                static_cast<unsigned long long>(lines.check().edges), 100 * doubtful, 100 * kMostDoubtful));
 }
 
+struct Attempt {
+    const vox_io_mesh_view& surface;
+    const vox_io_tetrahedralize_desc& desc;
+    const Box& box;
+    double cell;
+    std::uint32_t coarsen;
+};
+
+MeshData run(const Attempt& attempt, const Progress& progress) {
+    const auto& [surface, desc, box, cell, coarsen] = attempt;
+    const Frame frame = make_frame(box.min, box.max, cell);
+    const SurfaceLines lines(surface, frame, progress.part(0, 0.3));
+    double doubtful = 0;
+    NodeSet inside = lines.inside(frame, doubtful);
+    const bool open = lines.check().open_edges > 0;
+
+    MeshData mesh;
+    if (desc.kind == VOX_IO_SOLID_CUBES) {
+        mesh = make_cubes(surface, frame, inside, desc.max_tets);
+    } else {
+        if (open && inside.size() == 0) refuse_open(lines, 1);
+        if (doubtful > kMostDoubtful) refuse_open(lines, doubtful);
+        const Body body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
+                               return lines.leaves(node, neighbour);
+                           }};
+        mesh = stuff(body, coarsen, desc.max_tets, progress.part(0.3, 1));
+    }
+    if (open)
+        mesh.notes.push_back(format("the surface has %llu open edges; the holes were closed",
+                                    static_cast<unsigned long long>(lines.check().open_edges)));
+    else if (!lines.check().oriented)
+        mesh.notes.push_back(
+            "the surface's triangles do not agree on an orientation; parity told inside from outside");
+    return mesh;
+}
+
+double distance(const MeshData& mesh, const vox_io_mesh_view& surface) {
+    vox_io_mesh_view view{};
+    view.positions = mesh.positions.data();
+    view.vertex_count = mesh.positions.size() / 3;
+    view.tets = mesh.tets.data();
+    view.tet_count = mesh.tets.size() / 4;
+    return measure_quality(view, &surface).hausdorff;
+}
+
 } // namespace
 
 MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedralize_desc& desc) {
@@ -49,38 +95,35 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
     const Box box = bounds_of_triangles(surface);
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.max[k] - box.min[k]);
-    const double cell = desc.cell > 0 ? desc.cell : longest / 50;
+    double cell = desc.cell > 0 ? desc.cell : longest / 50;
     if (!std::isfinite(longest) || !(cell / 2 >= std::numeric_limits<double>::min()))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("the surface is %g long: no cells can be laid through it", longest));
-    const Frame frame = make_frame(box.min, box.max, cell);
-    const SurfaceLines lines(surface, frame, progress, 0.3);
-    double doubtful = 0;
-    NodeSet inside = lines.inside(frame, doubtful);
-
-    MeshData mesh;
-    if (desc.kind == VOX_IO_SOLID_CUBES) {
-        mesh = make_cubes(surface, frame, inside, desc.max_tets);
-        progress.report(1);
-    } else {
-        if (doubtful > kMostDoubtful || (inside.size() == 0 && lines.check().open_edges > 0))
-            refuse_open(lines, lines.check().open_edges > 0 && inside.size() == 0 ? 1 : doubtful);
-        Body body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
-                         return lines.leaves(node, neighbour);
-                     }};
-        mesh = stuff(body, desc.coarsen, desc.max_tets, progress, 0.3);
+    const bool to_distance = desc.max_distance > 0 && desc.kind == VOX_IO_SOLID_STUFFED;
+    for (std::uint32_t halvings = 0;; ++halvings, cell /= 2) {
+        // How many rounds it takes is not known: each is half of what is left.
+        const double begin = 1 - std::ldexp(1.0, -static_cast<int>(halvings));
+        const Progress round = to_distance ? progress.part(begin, (1 + begin) / 2) : progress;
+        MeshData mesh = run({surface, desc, box, cell, std::min(desc.coarsen, 16u) + halvings}, round);
+        // Half the cell makes four times the tets at least, where they are at the boundary.
+        const bool last = 2 * longest / cell > kMaxCells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
+        if (mesh.tets.empty() && (!to_distance || last))
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("no tet fits into the surface with a cell of %g (its longest side is %g)",
+                               cell, longest));
+        const double reached = to_distance && !mesh.tets.empty() ? distance(mesh, surface) : 0;
+        if (!mesh.tets.empty() && (!to_distance || reached <= desc.max_distance)) {
+            progress.report(1);
+            return mesh;
+        }
+        if (last)
+            throw Error(
+                VOX_ERROR_LIMIT,
+                format("cells of %g, %llu tets, come within %g of the surface; %g (max_distance) needs more "
+                       "than %llu tets (max_tets) or %d cells along an axis",
+                       cell, static_cast<unsigned long long>(mesh.tets.size() / 4), reached,
+                       desc.max_distance, static_cast<unsigned long long>(desc.max_tets), kMaxCells));
     }
-    if (mesh.tets.empty())
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("no tet fits into the surface with a cell of %g (its longest side is %g)", cell, longest));
-    if (lines.check().open_edges > 0)
-        mesh.notes.push_back(format("the surface has %llu open edges; the holes were closed",
-                                    static_cast<unsigned long long>(lines.check().open_edges)));
-    else if (!lines.check().oriented)
-        mesh.notes.push_back(
-            "the surface's triangles do not agree on an orientation; parity told inside from outside");
-    return mesh;
 }
 
 } // namespace vox::io
