@@ -1,0 +1,53 @@
+// What the driver sees of everything it times: a vox engine, a peer or a floor.
+#pragma once
+
+#include "scenes.hpp"
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+class Entrant {
+public:
+    virtual ~Entrant() = default;
+
+    // Gets the topology, and positions to build from. The scene outlives the entrant; its positions change
+    // between steps.
+    virtual void setup(const Scene& scene) = 0;
+
+    // Finds every vertex in a closed tetrahedron for the positions as they are now. This is what is timed.
+    virtual void step() = 0;
+
+    // What the last step found, by the library's canonical rule, with bodies' indices for mesh ids. Not
+    // timed.
+    virtual std::vector<vox_contact> contacts() = 0;
+
+    // Bytes held beside the scene's own arrays; 0: not known.
+    virtual std::size_t bytes() const { return 0; }
+
+    // The cell size in use; 0 where there is none.
+    virtual double cell_size() const { return 0; }
+};
+
+enum class Kind { vox, peer, floor };
+
+struct EntrantMaker {
+    std::string name;
+    Kind kind;
+    std::function<std::unique_ptr<Entrant>()> make;
+};
+
+extern const std::string reference_name; // the entrant that ratios are taken to
+extern const std::string subject_name;   // the entrant whose figures are judged
+
+std::vector<EntrantMaker> vox_entrants();
+std::vector<EntrantMaker> peers();
+std::vector<EntrantMaker> floors();
+
+} // namespace bench

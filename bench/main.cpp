@@ -1,0 +1,212 @@
+// The benchmark: vox's engines, other libraries and two floors on the same scenes in one process. First all
+// of them must find the same contacts in every frame; then they take turns, so that what disturbs the machine
+// disturbs them alike, and medians are compared.
+#include "entrant.hpp"
+#include "results.hpp"
+#include "scenes.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+#if defined(__linux__)
+#include <sched.h>
+#endif
+
+namespace bench {
+namespace {
+
+struct Options {
+    std::vector<double> tets = {84000};
+    std::vector<std::string> scenes, entrants;
+    std::string mesh_folder, csv;
+    double seconds = 2;
+    std::size_t steps = 60;
+    bool shuffle = false;
+    bool list = false;
+};
+
+struct Running {
+    EntrantMaker maker;
+    std::unique_ptr<Entrant> entrant;
+    Result result;
+    double spent = 0;
+};
+
+double seconds_of_step(Entrant& entrant) {
+    const auto start = std::chrono::steady_clock::now();
+    entrant.step();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool same(const std::vector<vox_contact>& x, const std::vector<vox_contact>& y) {
+    static_assert(sizeof(vox_contact) == 32, "no padding");
+    return x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(vox_contact)) == 0);
+}
+
+// Steps all entrants through all frames; marks those that disagree with the first one. Returns the number of
+// contacts in the last frame.
+std::size_t check(Scene& scene, std::vector<Running>& running) {
+    std::size_t count = 0;
+    for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) {
+        scene.pose(frame);
+        std::vector<vox_contact> expected;
+        const Running* first = nullptr;
+        for (Running& r : running) {
+            r.entrant->step();
+            if (r.maker.kind == Kind::floor) continue;
+            std::vector<vox_contact> found = r.entrant->contacts();
+            if (!first) {
+                first = &r;
+                expected = std::move(found);
+                count = expected.size();
+            } else if (!same(found, expected)) {
+                r.result.agrees = false;
+                std::fprintf(stderr, "%s, frame %zu: %s finds %zu contacts, %s finds %zu, not all the same\n",
+                             scene.name.c_str(), frame, r.maker.name.c_str(), found.size(),
+                             first->maker.name.c_str(), expected.size());
+            }
+        }
+    }
+    return count;
+}
+
+// In turns. A turn is some consecutive frames, so that fast entrants find their own data in the caches as
+// they would in a simulation that does little else; slow ones, which overflow the caches anyway, get one
+// frame.
+void time(Scene& scene, std::vector<Running>& running, const Options& options) {
+    constexpr std::size_t frames_in_turn = 4, least_steps = 3;
+    constexpr double seconds_in_turn = 0.05;
+    std::size_t frame = 0;
+    for (bool any = true; any;) {
+        any = false;
+        for (Running& r : running) {
+            std::vector<double>& seconds = r.result.seconds;
+            double turn = 0;
+            for (std::size_t i = 0; i < frames_in_turn && turn < seconds_in_turn; ++i) {
+                if (seconds.size() >= options.steps ||
+                    (seconds.size() >= least_steps && r.spent > options.seconds))
+                    break;
+                scene.pose((frame + i) % scene.frame_count());
+                seconds.push_back(seconds_of_step(*r.entrant));
+                turn += seconds.back();
+                r.spent += seconds.back();
+                any = true;
+            }
+        }
+        ++frame;
+    }
+}
+
+bool run(const SceneMaker& maker, double tets, const std::vector<EntrantMaker>& entrants,
+         const Options& options, Csv* csv) {
+    Scene scene = maker.make(tets, options.shuffle);
+    std::vector<Running> running;
+    for (const EntrantMaker& entrant : entrants) {
+        running.push_back({entrant, entrant.make(), {entrant.name, entrant.kind, {}, 0, 0, true}});
+        running.back().entrant->setup(scene);
+    }
+    SceneResult result{scene.name,          maker.title,           scene.tet_count(), scene.vertex_count(),
+                       scene.bodies.size(), check(scene, running), scene.mean_edge,   {}};
+    time(scene, running, options);
+    bool agree = true;
+    for (Running& r : running) {
+        r.result.bytes = r.entrant->bytes();
+        r.result.cell_size = r.entrant->cell_size();
+        agree = agree && r.result.agrees;
+        result.results.push_back(std::move(r.result));
+    }
+    print(result);
+    if (csv) csv->add(result);
+    return agree;
+}
+
+// One core for the whole process: nobody, libraries with threads of their own included, runs on two.
+void stay_on_one_core() {
+#if defined(__linux__)
+    const int core = sched_getcpu();
+    if (core < 0) return;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<std::size_t>(core), &set);
+    sched_setaffinity(0, sizeof set, &set);
+#endif
+}
+
+bool chosen(const std::vector<std::string>& names, const std::string& name) {
+    return names.empty() || std::ranges::find(names, name) != names.end();
+}
+
+int run_all(const Options& options, const std::string& command) {
+    std::vector<EntrantMaker> all;
+    for (auto& part : {vox_entrants(), peers(), floors()}) all.insert(all.end(), part.begin(), part.end());
+    std::vector<SceneMaker> makers = scene_makers(options.mesh_folder);
+    if (options.list) {
+        std::puts("scenes:");
+        for (const SceneMaker& maker : makers)
+            std::printf("  %-18s %s\n", maker.name.c_str(), maker.title.c_str());
+        std::puts("entrants:");
+        for (const EntrantMaker& entrant : all) std::printf("  %s\n", entrant.name.c_str());
+        return 0;
+    }
+    std::erase_if(all, [&](const EntrantMaker& e) { return !chosen(options.entrants, e.name); });
+    std::erase_if(makers, [&](const SceneMaker& m) { return !chosen(options.scenes, m.name); });
+    if (all.empty() || makers.empty())
+        throw std::runtime_error("no such scene or entrant; --list shows them");
+
+    stay_on_one_core();
+    std::printf("%s\n%s\n%s\n", cpu_name().c_str(), vox_build_info(), command.c_str());
+    std::unique_ptr<Csv> csv;
+    if (!options.csv.empty()) csv = std::make_unique<Csv>(options.csv, command);
+    bool agree = true;
+    for (const SceneMaker& maker : makers)
+        for (double tets : options.tets) {
+            agree = run(maker, tets, all, options, csv.get()) && agree;
+            if (!maker.sized) break;
+        }
+    if (!agree) std::fputs("\nnot all entrants found the same contacts\n", stderr);
+    return agree ? 0 : 1;
+}
+
+} // namespace
+} // namespace bench
+
+int main(int argc, char** argv) {
+    bench::Options options;
+    CLI::App app(
+        "Times vox beside other libraries on the same scenes, and checks that all find the same contacts.");
+    bool full = false;
+    app.add_option("--tets", options.tets,
+                   "sizes of the scenes in tetrahedra, e.g. 42000,1000000 (default 84000)")
+        ->delimiter(',')
+        ->check(CLI::Range(1000.0, 5e7));
+    app.add_flag("--full", full, "the sizes that the documentation shows: 1000000");
+    app.add_option("--scenes", options.scenes, "names of the scenes to run (default: all)")->delimiter(',');
+    app.add_option("--entrants", options.entrants, "names of the entrants to run (default: all)")
+        ->delimiter(',');
+    app.add_option("--meshes", options.mesh_folder,
+                   "folder with bunny.msh, cow.msh and armadillo.msh, for three more scenes each")
+        ->check(CLI::ExistingDirectory);
+    app.add_option("--csv", options.csv, "file for the results");
+    app.add_option("--seconds", options.seconds, "time for one entrant in one scene (default 2)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--steps", options.steps, "most steps of one entrant in one scene (default 60)")
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--shuffle", options.shuffle, "number vertices and tetrahedra at random");
+    app.add_flag("--list", options.list, "name the scenes and entrants, then stop");
+    CLI11_PARSE(app, argc, argv);
+    if (full) options.tets = {1e6};
+    std::string command = "./dev bench";
+    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    try {
+        return bench::run_all(options, command);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "vox_bench: %s\n", error.what());
+        return 2;
+    }
+}

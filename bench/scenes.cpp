@@ -1,0 +1,285 @@
+#include "scenes.hpp"
+
+#include "bodies.hpp"
+
+#include <vox/vox.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace bench {
+namespace {
+
+constexpr std::size_t frame_count = 4;
+constexpr double pi = std::numbers::pi;
+
+// ---- placing and deforming ------------------------------------------------------------------------
+
+using Pose = std::function<Vec3(const Vec3& rest, std::size_t frame)>;
+
+std::vector<float> frame_positions(const Solid& solid, const Pose& pose, std::size_t frame) {
+    std::vector<float> positions;
+    positions.reserve(3 * solid.positions.size() + 1);
+    for (const Vec3& rest : solid.positions) {
+        const Vec3 p = pose(rest, frame);
+        positions.insert(positions.end(),
+                         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    positions.push_back(0);
+    return positions;
+}
+
+void add(Scene& scene, const Solid& solid, const Pose& pose, bool self = false) {
+    Body body;
+    for (std::size_t frame = 0; frame < frame_count; ++frame)
+        body.frames.push_back(frame_positions(solid, pose, frame));
+    body.positions = body.frames[0];
+    body.tets = solid.tets;
+    body.self_collision = self;
+    scene.bodies.push_back(std::move(body));
+}
+
+// Three waves across a body of the given radius, moved by `offset`; each frame they run on a little, vertices
+// by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
+Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0.01) {
+    return [=](const Vec3& p, std::size_t frame) {
+        const double a = amplitude * radius, k = pi / radius, run = 0.1 * static_cast<double>(frame) + phase;
+        return Vec3{offset.x + p.x + a * std::sin(k * p.y + run),
+                    offset.y + p.y + a * std::sin(k * p.z + run + 1),
+                    offset.z + p.z + a * std::sin(k * p.x + run + 2)};
+    };
+}
+
+double mean_edge(const Scene& scene) {
+    double sum = 0;
+    for (const Body& body : scene.bodies)
+        for (std::size_t t = 0; t < body.tets.size(); t += 4)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = 0; j < i; ++j) {
+                    const float* a = &body.positions[3 * body.tets[t + i]];
+                    const float* b = &body.positions[3 * body.tets[t + j]];
+                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
+                }
+    return sum / (6 * static_cast<double>(scene.tet_count()));
+}
+
+// f falls from f(low) to f(high): where it passes `target`.
+double bisect(double low, double high, double target, const std::function<double(double)>& f) {
+    for (int i = 0; i < 20 && high - low > 1e-4 * high; ++i) {
+        const double middle = (low + high) / 2;
+        (f(middle) > target ? low : high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+void must(vox_result result) {
+    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
+}
+
+// Share of the tetrahedra of two bodies that hold a vertex of the other one.
+double contact_share(const Solid (&solids)[2], const Pose (&poses)[2]) {
+    vox_grid* grid = nullptr;
+    must(vox_grid_create(nullptr, &grid));
+    std::vector<float> positions[2];
+    vox_mesh meshes[2] = {};
+    for (std::size_t b = 0; b < 2; ++b) {
+        positions[b] = frame_positions(solids[b], poses[b], 0);
+        vox_mesh_desc desc = vox_default_mesh_desc();
+        desc.positions = positions[b].data();
+        desc.vertex_count = solids[b].positions.size();
+        desc.tets = solids[b].tets.data();
+        desc.tet_count = solids[b].tets.size() / 4;
+        must(vox_mesh_insert(grid, &desc, &meshes[b]));
+    }
+    must(vox_grid_step(grid));
+    vox_contact_view view;
+    must(vox_grid_contacts(grid, &view));
+    std::vector<bool> hit[2];
+    for (std::size_t b = 0; b < 2; ++b) hit[b].resize(solids[b].tets.size() / 4);
+    for (std::uint64_t c = 0; c < view.count; ++c)
+        hit[view.data[c].mesh_b == meshes[1]][view.data[c].tet] = true;
+    vox_grid_destroy(grid);
+    double hits = 0;
+    for (const std::vector<bool>& of_body : hit)
+        hits += static_cast<double>(std::ranges::count(of_body, true));
+    return hits / static_cast<double>(hit[0].size() + hit[1].size());
+}
+
+// ---- the scenes -----------------------------------------------------------------------------------
+
+// Two balls side by side at `distance` radii. The small offset keeps their lattices from lining up.
+constexpr double second_y = 0.123, second_z = 0.271;
+
+Scene two_balls(double tets, bool shuffled,
+                const std::function<double(const Solid (&)[2], double radius)>& place) {
+    Solid solids[2] = {lattice_ball(tets / 2, 1), lattice_ball(tets / 2, 2)};
+    if (shuffled)
+        for (std::size_t b = 0; b < 2; ++b) shuffle(solids[b], b);
+    const double radius = ball_radius(tets / 2);
+    const double distance = place(solids, radius);
+    Scene scene;
+    add(scene, solids[0], waves(radius, {0, 0, 0}, 0));
+    add(scene, solids[1], waves(radius, {distance, second_y, second_z}, 0.9));
+    return scene;
+}
+
+Scene two_balls_by_volume(double tets, bool shuffled, double share) {
+    return two_balls(tets, shuffled, [=](const Solid(&)[2], double radius) {
+        // Two unit balls at distance d have pi (4 + d) (2 - d)^2 / 12 in common.
+        return radius * bisect(0, 2, share, [](double d) { return (4 + d) * (2 - d) * (2 - d) / 16; });
+    });
+}
+
+Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
+    return two_balls(tets, shuffled, [=](const Solid(&solids)[2], double radius) {
+        return bisect(radius, 2.2 * radius, share, [&](double d) {
+            return contact_share(solids,
+                                 {waves(radius, {0, 0, 0}, 0), waves(radius, {d, second_y, second_z}, 0.9)});
+        });
+    });
+}
+
+Scene one_ball(double tets, bool shuffled) {
+    Solid ball = lattice_ball(tets, 1);
+    if (shuffled) shuffle(ball, 1);
+    Scene scene;
+    add(scene, ball, waves(ball_radius(tets), {0, 0, 0}, 0), true);
+    return scene;
+}
+
+// Balls in a cubic lattice, 3.5 % closer than touching, each a little off its place.
+Scene many_balls(double tets, bool shuffled, double tets_each) {
+    const int n = std::max(2, static_cast<int>(std::lround(std::cbrt(tets / tets_each))));
+    const double radius = ball_radius(tets_each), spacing = 1.93 * radius;
+    Random random(7);
+    Scene scene;
+    for (int i = 0; i < n * n * n; ++i) {
+        Solid ball = lattice_ball(tets_each, static_cast<std::uint64_t>(i));
+        if (shuffled) shuffle(ball, static_cast<std::uint64_t>(i));
+        const double off = 0.05 * radius;
+        const Vec3 place{spacing * (i % n) + off * random.uniform(),
+                         spacing * (i / n % n) + off * random.uniform(),
+                         spacing * (i / n / n) + off * random.uniform()};
+        add(scene, ball, waves(radius, place, 0.9 * i));
+    }
+    return scene;
+}
+
+// A beam of w * w cubes wound up to a coil of six turns that touch here and there.
+Scene coil(double tets, bool shuffled) {
+    const double turns = 6, bend = 3; // radius of the coil in widths
+    const double length_in_widths = 2 * pi * bend * turns;
+    const int width = std::max(2, static_cast<int>(std::lround(std::cbrt(tets / (12 * length_in_widths)))));
+    const int length = static_cast<int>(std::lround(tets / (12.0 * width * width)));
+    Solid beam = lattice_solid(
+        width, width, length, [](const Vec3&) { return true; }, 0.08, 5);
+    if (shuffled) shuffle(beam, 5);
+    const Pose wind = [=](const Vec3& p, std::size_t frame) {
+        const double w = width, angle = p.z / (bend * w), radius = bend * w + p.y - w / 2;
+        // Neighbouring turns swing against each other.
+        const double swing = 0.02 * w * std::sin(5.5 * angle + 0.1 * static_cast<double>(frame));
+        return Vec3{radius * std::cos(angle), radius * std::sin(angle),
+                    1.015 * w * angle / (2 * pi) + p.x - w / 2 + swing};
+    };
+    Scene scene;
+    add(scene, beam, wind, true);
+    return scene;
+}
+
+double half_longest_side(const Solid& solid) {
+    Vec3 low = solid.positions.front(), high = low;
+    for (const Vec3& p : solid.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / 2;
+}
+
+// A body and its copy, turned by a right angle and put beside it until `share` of the tetrahedra hold a
+// vertex.
+Scene file_pair(const std::string& path, bool shuffled, double share) {
+    Solid solids[2] = {read_solid(path), read_solid(path)};
+    for (Vec3& p : solids[1].positions) p = {p.z, p.y, -p.x};
+    if (shuffled)
+        for (std::size_t b = 0; b < 2; ++b) shuffle(solids[b], b);
+    const double radius = half_longest_side(solids[0]);
+    const auto poses = [&](double d, Pose(&out)[2]) {
+        out[0] = waves(radius, {0, 0, 0}, 0, 0.005);
+        out[1] = waves(radius, {d, 0.013 * radius, 0.027 * radius}, 0.9, 0.005);
+    };
+    Pose placed[2];
+    const double distance = bisect(0, 2.2 * radius, share, [&](double d) {
+        poses(d, placed);
+        return contact_share(solids, placed);
+    });
+    poses(distance, placed);
+    Scene scene;
+    for (std::size_t b = 0; b < 2; ++b) add(scene, solids[b], placed[b]);
+    return scene;
+}
+
+Scene file_self(const std::string& path, bool shuffled) {
+    Solid solid = read_solid(path);
+    if (shuffled) shuffle(solid, 1);
+    Scene scene;
+    add(scene, solid, waves(half_longest_side(solid), {0, 0, 0}, 0, 0.005), true);
+    return scene;
+}
+
+} // namespace
+
+std::size_t Scene::vertex_count() const {
+    std::size_t count = 0;
+    for (const Body& body : bodies) count += body.vertex_count();
+    return count;
+}
+
+std::size_t Scene::tet_count() const {
+    std::size_t count = 0;
+    for (const Body& body : bodies) count += body.tet_count();
+    return count;
+}
+
+void Scene::pose(std::size_t frame) {
+    for (Body& body : bodies) std::ranges::copy(body.frames[frame], body.positions.begin());
+}
+
+std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
+    std::vector<SceneMaker> makers = {
+        {"overlap-1", "two bodies, 1 % overlap volume", true,
+         [](double n, bool s) { return two_balls_by_volume(n, s, 0.01); }},
+        {"contact-1", "two bodies, 1 % of tets in contact", true,
+         [](double n, bool s) { return two_balls_by_contacts(n, s, 0.01); }},
+        {"self", "one compact body, self, no contact", true, [](double n, bool s) { return one_ball(n, s); }},
+        {"coil", "coil, self, in contact", true, [](double n, bool s) { return coil(n, s); }},
+        {"bodies-5k", "bodies of 5k, light contact", true,
+         [](double n, bool s) { return many_balls(n, s, 5000); }},
+        {"bodies-1k", "bodies of 1k, light contact", true,
+         [](double n, bool s) { return many_balls(n, s, 1000); }},
+        {"overlap-50", "two bodies, 50 % overlap volume", true,
+         [](double n, bool s) { return two_balls_by_volume(n, s, 0.5); }},
+    };
+    if (!mesh_folder.empty())
+        for (const std::string name : {"bunny", "cow", "armadillo"}) {
+            const std::string path = mesh_folder + "/" + name + ".msh";
+            makers.push_back({name + "-light", name + " pair, 0.5 % of tets in contact", false,
+                              [=](double, bool s) { return file_pair(path, s, 0.005); }});
+            makers.push_back({name + "-deep", name + " pair, 5 % of tets in contact", false,
+                              [=](double, bool s) { return file_pair(path, s, 0.05); }});
+            makers.push_back({name + "-self", name + ", self, no contact", false,
+                              [=](double, bool s) { return file_self(path, s); }});
+        }
+    for (SceneMaker& maker : makers)
+        maker.make = [name = maker.name, make = maker.make](double tets, bool shuffled) {
+            Scene scene = make(tets, shuffled);
+            scene.name = name;
+            scene.mean_edge = mean_edge(scene);
+            return scene;
+        };
+    return makers;
+}
+
+} // namespace bench

@@ -1,0 +1,46 @@
+// The benchmark's scenes: deforming bodies made from a size and a seed, or read from a folder of meshes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+struct Body {
+    std::vector<float>
+        positions; // of the current frame: 3 * vertex_count, and one more to load four at a time
+    std::vector<std::vector<float>> frames;
+    std::vector<std::uint32_t> tets; // 4 * tet_count
+    bool self_collision = false;
+
+    std::size_t vertex_count() const { return positions.size() / 3; }
+    std::size_t tet_count() const { return tets.size() / 4; }
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Body> bodies;
+    double mean_edge = 0;
+
+    std::size_t vertex_count() const;
+    std::size_t tet_count() const;
+    std::size_t frame_count() const { return bodies.front().frames.size(); }
+    // Writes the positions of a frame, as a simulation would, into the memory that the entrants read.
+    void pose(std::size_t frame);
+};
+
+struct SceneMaker {
+    std::string name;
+    std::string title;
+    bool sized;                                           // false: the size is that of a file
+    std::function<Scene(double tets, bool shuffle)> make; // about `tets` tetrahedra in all
+};
+
+// All scenes; those of `mesh_folder` (bunny, cow and armadillo as Gmsh files) are left out when it is empty.
+// `shuffle` gives vertices and tetrahedra random numbers instead of the generator's.
+std::vector<SceneMaker> scene_makers(const std::string& mesh_folder);
+
+} // namespace bench

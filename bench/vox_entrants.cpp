@@ -1,0 +1,124 @@
+// The engines of vox through its C interface, as a user would call them.
+#include "entrant.hpp"
+
+#include <vox/vox.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+namespace bench {
+
+const std::string reference_name = "vox reference";
+const std::string subject_name = "vox";
+
+namespace {
+
+void must(vox_result result) {
+    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
+}
+
+struct Engine {
+    std::string name;
+    vox_engine engine;
+    bool sweep; // try cell sizes at setup and keep the fastest one
+};
+
+const Engine engines[] = {
+    {subject_name, VOX_ENGINE_AUTO, false},
+    {reference_name, VOX_ENGINE_REFERENCE, true},
+};
+
+// Cell sizes of the sweep, in mean edges. The reference engine's best ones lie between 1 and 1.8.
+constexpr double sweep_factors[] = {0.85, 1.0, 1.2, 1.45, 1.75, 2.1, 2.5};
+
+class VoxEntrant final : public Entrant {
+public:
+    explicit VoxEntrant(const Engine& engine) : sweep_(engine.sweep) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.engine = engine.engine;
+        desc.byte_budget = 0;
+        must(vox_grid_create(&desc, &grid_));
+    }
+    ~VoxEntrant() override { vox_grid_destroy(grid_); }
+    VoxEntrant(const VoxEntrant&) = delete;
+    VoxEntrant& operator=(const VoxEntrant&) = delete;
+
+    void setup(const Scene& scene) override {
+        for (const Body& body : scene.bodies) {
+            vox_mesh_desc desc = vox_default_mesh_desc();
+            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
+            desc.positions = body.positions.data();
+            desc.vertex_count = body.vertex_count();
+            desc.tets = body.tets.data();
+            desc.tet_count = body.tet_count();
+            meshes_.emplace_back();
+            must(vox_mesh_insert(grid_, &desc, &meshes_.back()));
+        }
+        if (sweep_) find_cell_size(scene.mean_edge);
+    }
+
+    void step() override { must(vox_grid_step(grid_)); }
+
+    std::vector<vox_contact> contacts() override {
+        vox_contact_view view;
+        must(vox_grid_contacts(grid_, &view));
+        std::vector<vox_contact> contacts(view.data, view.data + view.count);
+        const auto body = [&](vox_mesh mesh) { // ids ascend as bodies do
+            return static_cast<vox_mesh>(std::ranges::lower_bound(meshes_, mesh) - meshes_.begin());
+        };
+        for (vox_contact& contact : contacts) {
+            contact.mesh_a = body(contact.mesh_a);
+            contact.mesh_b = body(contact.mesh_b);
+        }
+        return contacts;
+    }
+
+    std::size_t bytes() const override {
+        vox_counters counters{};
+        counters.struct_size = sizeof counters;
+        must(vox_grid_counters(grid_, &counters));
+        return counters.bytes;
+    }
+
+    double cell_size() const override {
+        double size = 0;
+        must(vox_grid_cell_size(grid_, &size));
+        return size;
+    }
+
+private:
+    void find_cell_size(double mean_edge) {
+        double best_size = 0, best_seconds = std::numeric_limits<double>::infinity();
+        for (double factor : sweep_factors) {
+            must(vox_grid_set_cell_size(grid_, factor * mean_edge));
+            for (int repeat = 0; repeat < 3; ++repeat) {
+                const auto start = std::chrono::steady_clock::now();
+                step();
+                const double seconds =
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                if (seconds >= best_seconds) continue;
+                best_seconds = seconds;
+                best_size = factor * mean_edge;
+            }
+        }
+        must(vox_grid_set_cell_size(grid_, best_size));
+    }
+
+    bool sweep_;
+    vox_grid* grid_ = nullptr;
+    std::vector<vox_mesh> meshes_;
+};
+
+} // namespace
+
+std::vector<EntrantMaker> vox_entrants() {
+    std::vector<EntrantMaker> makers;
+    for (const Engine& engine : engines)
+        makers.push_back(
+            {engine.name, Kind::vox, [&engine] { return std::make_unique<VoxEntrant>(engine); }});
+    return makers;
+}
+
+} // namespace bench
