@@ -9,5 +9,6 @@ void add_info(CLI::App& app);
 void add_suggest(CLI::App& app);
 void add_collide(CLI::App& app);
 void add_demo(CLI::App& app);
+void add_tetrahedralize(CLI::App& app);
 
 } // namespace tool

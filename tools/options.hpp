@@ -19,6 +19,7 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 inline const Choices<vox_engine> engines = {
     {"auto", VOX_ENGINE_AUTO},
+    {"fast", VOX_ENGINE_FAST},
     {"reference", VOX_ENGINE_REFERENCE},
 };
 

@@ -52,11 +52,11 @@ vox_profile median(std::span<const vox_profile> profiles) {
 }
 
 vox_profile measure_steps(vox_grid* grid, std::uint32_t repeat) {
-    Progress progress("step", repeat + std::uint64_t{1});
+    Progress progress;
     check(vox_grid_step(grid));
     std::vector<vox_profile> profiles;
     for (std::uint32_t i = 0; i < repeat; ++i) {
-        progress.show(i + std::uint64_t{2});
+        progress.show("step " + std::to_string(i + 1) + " of " + std::to_string(repeat));
         check(vox_grid_step(grid));
         profiles.push_back(profile_of(grid));
     }

@@ -37,18 +37,15 @@ constexpr const char* rows_utf8[8] = {"", "▏", "▎", "▍", "▌", "▋", "�
 
 } // namespace
 
-Progress::Progress(const char* what, std::uint64_t total)
-    : what_(what), total_(total), terminal_(standard_error_is_terminal()),
-      begin_(std::chrono::steady_clock::now()) {}
+Progress::Progress() : terminal_(standard_error_is_terminal()), begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
     if (shown_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::show(std::uint64_t number) {
+void Progress::show(const std::string& where) {
     if (!terminal_ || std::chrono::steady_clock::now() - begin_ < std::chrono::milliseconds(500)) return;
-    std::fprintf(stderr, "\r\033[Kvox: %s %llu of %llu", what_, static_cast<unsigned long long>(number),
-                 static_cast<unsigned long long>(total_));
+    std::fprintf(stderr, "\r\033[Kvox: %s", where.c_str());
     std::fflush(stderr);
     shown_ = true;
 }

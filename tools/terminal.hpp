@@ -4,25 +4,22 @@
 #include <vox/vox.h>
 
 #include <chrono>
-#include <cstdint>
 #include <string>
 
 namespace tool {
 
-// "vox: step 3 of 100", overwritten in place, on standard error. Silent when that is no terminal, and for the
-// first half second, so that short work shows nothing. Wiped when it ends.
+// A line on standard error that overwrites itself, "vox: step 3 of 100". Silent when that is no terminal, and
+// for the first half second, so that short work shows nothing. Wiped when it ends.
 class Progress {
 public:
-    Progress(const char* what, std::uint64_t total);
+    Progress();
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(std::uint64_t number);
+    void show(const std::string& where);
 
 private:
-    const char* what_;
-    std::uint64_t total_;
     bool terminal_;
     bool shown_ = false;
     std::chrono::steady_clock::time_point begin_;

@@ -59,7 +59,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stdout.decode(), r"\Avox \d+\.\d+\.\d+\n.+\n\Z")
         self.assertEqual(done.stderr, b"")
-        for command in [], ["info"], ["suggest"], ["collide"], ["demo"]:
+        for command in [], ["info"], ["suggest"], ["collide"], ["demo"], ["tetrahedralize"]:
             done = run(*command, "--help")
             self.assertEqual(done.returncode, 0, command)
             self.assertIn(b"--help", done.stdout)
@@ -74,6 +74,7 @@ class CommandLine(unittest.TestCase):
             ["collide", self.two, self.two, self.two],
             ["collide", self.two, self.two, "--offset", 1, 2],
             ["collide", self.two, self.two, "--offset", 1, 2, "nan"],
+            ["collide", self.two, self.two, "--offset", "-.x", 1, 2],
             ["collide", self.two, self.two, "--scale", "inf"],
             ["collide", self.two, self.two, "--scale", "2x"],
             ["collide", self.two, self.two, "--cell-size", -1],
@@ -88,6 +89,9 @@ class CommandLine(unittest.TestCase):
             ["suggest", self.two, "--ratio", 0], ["suggest", self.two, "--world", -4],
             ["suggest", self.two, "--model", "guess"], ["suggest", self.two, "--size-reading", "guess"],
             ["suggest", self.two, "--area-reading", "guess"], ["suggest", self.two, "--factor", "nan"],
+            ["tetrahedralize"], ["tetrahedralize", self.surface], ["tetrahedralize", "-o", "out.msh"],
+            ["tetrahedralize", self.surface, "-o", "out.msh", "--cell", -1],
+            ["tetrahedralize", self.surface, "-o", "out.msh", "--kind", "spheres"],
             ["demo", "--tets", 0], ["demo", "--frames", 0], ["demo", self.two],
         ):
             with self.subTest(arguments=arguments):
@@ -263,6 +267,34 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+ ", text, re.M)), 2)
         self.assertIn("and 8 more", text)
 
+    # ---- tetrahedralize ----
+
+    def test_tetrahedralize(self):
+        corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+        faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+        lines = ["v %d %d %d" % corner for corner in corners] + ["f %d %d %d %d" % face for face in faces]
+        cube = self.file("cube.obj", "\n".join(lines) + "\n")
+        for out, more in ("cube.msh", []), ("cube.vtu", ["--binary"]), ("cubes.msh", ["--kind", "cubes"]):
+            out = os.path.join(self.folder.name, out)
+            found = run_json("tetrahedralize", cube, "-o", out, "--cell", 0.1, *more)
+            self.assertEqual(found["file"], out)
+            self.assertAlmostEqual(found["surface_volume"], 1, 9)
+            self.assertLess(abs(found["volume"] - 1), 0.05 if "--kind" not in more else 1)
+            self.assertLess(found["hausdorff"], 0.2)
+            self.assertTrue(5 < found["min_dihedral"] < found["max_dihedral"] < 170)
+            written = run_json("info", out)["meshes"][0]
+            for key in "tets", "vertices", "surface_triangles":
+                self.assertEqual(written[key], found[key])
+            self.assertAlmostEqual(written["volume"], found["volume"], 9)
+            self.assertEqual(written["inverted"], 0)
+        # With tetrahedra it holds what a surface cannot.
+        self.assertGreater(run_json("collide", out, self.one, "--scale", 0.5)["contact_count"], 4)
+
+    def test_surfaces_that_cannot_be_filled(self):
+        out = os.path.join(self.folder.name, "out.msh")
+        self.refused(1, "open|closed", "tetrahedralize", self.surface, "-o", out)
+        self.assertFalse(os.path.exists(out))
+
     # ---- demo ----
 
     def test_demo(self):
@@ -275,8 +307,9 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(found["frames"][found["frame"]]["contacts"], most)
         self.assertEqual(found["contact_count"], most)
         self.assertEqual(len(found["contacts"]), most)
-        self.assertEqual(found["comparison"]["suggested"]["cell_size"], found["cell_size"])
-        self.assertEqual(found["comparison"]["mean_edge"]["cell_size"], found["rules"]["mean_edge"])
+        sizes = {"suggested": found["cell_size"], "mean_edge": found["rules"]["mean_edge"]}
+        self.assertEqual([(c["engine"], c["rule"], c["cell_size"]) for c in found["comparison"]],
+                         [(engine, *rule) for engine in ("fast", "reference") for rule in sizes.items()])
         again = run_json("demo", "--tets", 1500, "--frames", 5)
         self.assertEqual(found["hash"], again["hash"])
 
@@ -284,7 +317,7 @@ class CommandLine(unittest.TestCase):
         done = run("demo", "--tets", 1000, "--frames", 3)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         self.assertTrue(done.stdout.isascii())
-        self.assertEqual(len(re.findall(rb"^ +\d+ +\d+ +[0-9.]+ ms", done.stdout, re.M)), 3)
+        self.assertEqual(len(re.findall(rb"^ +\d+ +\d+ +[0-9.]+ ms +[0-9.]+ ms", done.stdout, re.M)), 3)
         self.assertIn(b"mean edge", done.stdout)
 
     def test_table_2(self):

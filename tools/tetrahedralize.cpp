@@ -1,0 +1,103 @@
+// vox tetrahedralize: a closed surface in, a file of tetrahedra out.
+#include "body.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "terminal.hpp"
+
+#include <cstdio>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::string surface, out;
+    vox_io_tetrahedralize_desc desc{};
+    bool binary = false;
+    bool json = false;
+};
+
+const Choices<vox_io_solid_kind> kinds = {{"stuffed", VOX_IO_SOLID_STUFFED}, {"cubes", VOX_IO_SOLID_CUBES}};
+
+std::unique_ptr<vox_io_mesh, MeshDeleter> fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
+    Progress progress;
+    desc.progress = [](double fraction, void* user) -> std::int32_t {
+        static_cast<Progress*>(user)->show("filled " + std::to_string(static_cast<int>(100 * fraction)) +
+                                           " %");
+        return 0;
+    };
+    desc.progress_user = &progress;
+    vox_io_mesh* filled = nullptr;
+    check(vox_io_tetrahedralize(surface, &desc, &filled));
+    return std::unique_ptr<vox_io_mesh, MeshDeleter>(filled);
+}
+
+void write(const vox_io_mesh* mesh, const Options& options) {
+    vox_io_write_desc desc;
+    check(vox_io_write_desc_init(&desc, sizeof desc));
+    desc.binary = options.binary ? 1 : 0;
+    check(vox_io_write(mesh, options.out.c_str(), &desc));
+}
+
+void print_text(const Options& options, const vox_io_quality& quality) {
+    std::printf("%s: %llu tetrahedra, %llu vertices\n", options.out.c_str(),
+                static_cast<unsigned long long>(quality.tets),
+                static_cast<unsigned long long>(quality.vertices));
+    std::printf("  %-20s %.9g to %.9g degrees\n", "dihedral angles", quality.min_dihedral,
+                quality.max_dihedral);
+    std::printf("  %-20s %.9g (of the mesh's boundary and the surface)\n", "Hausdorff distance",
+                quality.hausdorff);
+    std::printf("  %-20s %.9g (the surface's: %.9g)\n", "volume", quality.volume, quality.surface_volume);
+}
+
+void run(const Options& options) {
+    vox_io_mesh* loaded = nullptr;
+    check(vox_io_load(options.surface.c_str(), nullptr, &loaded));
+    const std::unique_ptr<vox_io_mesh, MeshDeleter> surface(loaded);
+    const auto mesh = fill(surface.get(), options.desc);
+    write(mesh.get(), options);
+    vox_io_quality quality{};
+    quality.struct_size = sizeof quality;
+    check(vox_io_measure_quality(mesh.get(), surface.get(), &quality));
+    if (!options.json) return print_text(options, quality);
+    print({{"file", options.out},
+           {"tets", quality.tets},
+           {"vertices", quality.vertices},
+           {"surface_triangles", quality.boundary_facets},
+           {"min_dihedral", number(quality.min_dihedral)},
+           {"max_dihedral", number(quality.max_dihedral)},
+           {"hausdorff", number(quality.hausdorff)},
+           {"mesh_to_surface", number(quality.mesh_to_surface)},
+           {"surface_to_mesh", number(quality.surface_to_mesh)},
+           {"volume", number(quality.volume)},
+           {"surface_volume", number(quality.surface_volume)}});
+}
+
+} // namespace
+
+void add_tetrahedralize(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    check(vox_io_tetrahedralize_desc_init(&options->desc, sizeof options->desc));
+    vox_io_tetrahedralize_desc& desc = options->desc;
+    CLI::App* command = app.add_subcommand("tetrahedralize", "Fill a closed surface with tetrahedra");
+    command->add_option("SURFACE", options->surface, "Surface file")->required();
+    command->add_option("-o,--output", options->out, "File to write: .msh or .vtu")->required();
+    command
+        ->add_option("--cell", desc.cell,
+                     "Edge of a lattice cube; 0: a fiftieth of the surface's longest side")
+        ->check(not_negative());
+    add_choice(*command, "--kind", desc.kind, kinds, "Follow the surface, or keep whole cubes around it");
+    command
+        ->add_option("--max-distance", desc.max_distance,
+                     "Refine until the Hausdorff distance is at most this; 0: do not")
+        ->check(not_negative());
+    command->add_option("--coarsen", desc.coarsen, "Times that cells inside may be merged");
+    command->add_option("--max-tets", desc.max_tets, "Fail above that many tetrahedra");
+    command->add_flag("--binary", options->binary, "Write binary instead of text");
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace tool
