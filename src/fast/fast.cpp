@@ -38,10 +38,6 @@ std::uint64_t nanoseconds() {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
-std::uint32_t block_count(std::uint32_t vertices) {
-    return (vertices + fast::block_size - 1) / fast::block_size;
-}
-
 [[noreturn]] void throw_non_finite(std::span<const Body> bodies) {
     for (const Body& body : bodies)
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
@@ -178,7 +174,7 @@ void Fast::stream(Step& step) {
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
-        blocks += block_count(body.vertex_count);
+        blocks += step.prepared[b]->block_count();
         supers += step.prepared[b]->super_tile_count();
         tiles += step.prepared[b]->tiles.size();
         if (!is_packed(body)) strided += body.vertex_count;
@@ -204,7 +200,7 @@ void Fast::stream(Step& step) {
             state.positions = packed_.data() + 3 * strided;
             strided += body.vertex_count;
         }
-        finite &= fast::stream_boxes(state.positions, body.vertex_count,
+        finite &= fast::stream_boxes(state.positions, body.vertex_count, step.prepared[b]->block_first,
                                      block_boxes_.data() + state.first_block, body_boxes_[b]);
     }
     if (!finite) throw_non_finite(step.bodies);
@@ -240,7 +236,7 @@ void Fast::know_super_tiles(Step& step, std::uint32_t body) {
 void Fast::reach(Step& step, Reach& reach) {
     Box reached = fast::empty_box;
     const Box* blocks = block_boxes_.data() + states_[reach.a].first_block;
-    const std::uint32_t count = block_count(step.bodies[reach.a].vertex_count);
+    const std::uint32_t count = step.prepared[reach.a]->block_count();
     for (std::uint32_t i = 0; i < count; ++i)
         if (fast::overlap(blocks[i], reach.region)) fast::add(reached, blocks[i]);
     fast::intersect(reach.region, reached);
@@ -249,7 +245,6 @@ void Fast::reach(Step& step, Reach& reach) {
     know_super_tiles(step, reach.b);
     const BodyState& state = states_[reach.b];
     const FastMesh& mesh = *step.prepared[reach.b];
-    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size());
     const std::uint32_t super_tiles = mesh.super_tile_count();
     Box* boxes = tile_boxes_.data() + state.first_tile;
     std::uint8_t* known = tile_known_.data() + state.first_tile;
@@ -257,8 +252,7 @@ void Fast::reach(Step& step, Reach& reach) {
     double sides = 0, number = 0;
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
         if (!fast::overlap(super_boxes_[state.first_super + s], reach.region)) continue;
-        const std::uint32_t first = s * fast::super_tile_size;
-        const std::uint32_t last = std::min(tiles, first + fast::super_tile_size);
+        const std::uint32_t first = mesh.super_first[s], last = mesh.super_first[s + 1];
         fast::tile_boxes(mesh, state.positions, first, last, boxes, known);
         for (std::uint32_t t = first; t < last; ++t) {
             if (!fast::overlap(boxes[t], reach.region)) continue;
@@ -306,14 +300,20 @@ void Fast::make_window(Step& step, std::uint32_t a, std::span<const Reach> reach
     points_.count = 0;
     points_.reserve(body.vertex_count);
     const Box* blocks = block_boxes_.data() + state.first_block;
-    const std::uint32_t count = block_count(body.vertex_count);
-    for (std::uint32_t b = 0; b < count; ++b) {
-        bool wanted = self;
-        for (std::size_t r = 0; r < reaches.size() && !wanted; ++r)
-            wanted = fast::overlap(blocks[b], reaches[r].region);
-        if (wanted)
-            fast::collect(state.positions, b * fast::block_size,
-                          std::min(body.vertex_count, (b + 1) * fast::block_size), region, points_);
+    const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
+    const std::uint32_t count = step.prepared[a]->block_count();
+    const auto is_wanted = [&](std::uint32_t b) {
+        for (const Reach& reach : reaches)
+            if (fast::overlap(blocks[b], reach.region)) return true;
+        return self;
+    };
+    for (std::uint32_t b = 0; b < count;) { // runs of wanted blocks
+        const std::uint32_t begin = b;
+        while (b < count && is_wanted(b)) ++b;
+        if (b > begin)
+            fast::collect(state.positions, first[begin], first[b], region, points_);
+        else
+            ++b;
     }
     if (points_.count == 0) return;
     cell_size_ = cell_size(step, a, self);
@@ -340,7 +340,6 @@ void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> rea
     if (sources_.empty()) return;
 
     const FastMesh& mesh = *step.prepared[b];
-    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size());
     const std::uint32_t super_tiles = mesh.super_tile_count();
     fast::Query query{};
     query.tiles = &mesh;
@@ -365,9 +364,7 @@ void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> rea
             if ((self && i == 0) || fast::overlap(super_boxes_[state.first_super + s], sources_[i].region))
                 near_.push_back(sources_[i]);
         if (near_.empty()) continue;
-        const std::uint32_t first = s * fast::super_tile_size;
-        fast::query_tiles(query, near_, first, std::min(tiles, first + fast::super_tile_size), scratch,
-                          decide);
+        fast::query_tiles(query, near_, mesh.super_first[s], mesh.super_first[s + 1], scratch, decide);
     }
     fast::flush(scratch, decide);
     step.counters.exact_tests += decide.exact_tests;

@@ -428,7 +428,11 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
     const Words du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     QueryScratch& s = w.s;
-    const Box& box = w.box;
+    Box box = w.box; // no further than the source matters
+    for (int a = 0; a < 3; ++a) {
+        box.lo[a] = box.lo[a] > source.region.lo[a] ? box.lo[a] : source.region.lo[a];
+        box.hi[a] = box.hi[a] < source.region.hi[a] ? box.hi[a] : source.region.hi[a];
+    }
     const Window& window = source.window;
     const Lattice& lattice = window.lattice;
     const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);

@@ -1,4 +1,5 @@
-// Minimum and maximum of interleaved coordinates, a vector register per axis.
+// Minimum and maximum of positions, a position a register; and of the bits of all coordinates, for the finite
+// check.
 #include "stream.hpp"
 #include "../simd.hpp"
 
@@ -13,64 +14,59 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-bool StreamBoxes(const float* HWY_RESTRICT positions, std::uint32_t count, Box* HWY_RESTRICT blocks,
-                 Box& body) {
-    const hn::CappedTag<float, 16> d;
-    const hn::RebindToUnsigned<decltype(d)> du;
-    const std::size_t lanes = hn::Lanes(d);
-    const std::uint32_t full = count / 64;
-    // A number is finite when its bits without the sign are below those of infinity.
+// All of `values` are: the bits without the sign are below those of infinity.
+HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
+    const hn::CappedTag<std::uint32_t, 16> du;
+    const hn::RebindToFloat<decltype(du)> df;
     const auto magnitude = hn::Set(du, 0x7fffffffu);
     auto largest = hn::Zero(du);
-    Box all = empty_box;
-    for (std::uint32_t b = 0; b < full; ++b) {
-        const float* p = positions + std::size_t{b} * 192;
-        auto lx = hn::Undefined(d), ly = lx, lz = lx;
-        hn::LoadInterleaved3(d, p, lx, ly, lz);
-        auto hx = lx, hy = ly, hz = lz;
-        largest = hn::Max(largest, hn::And(hn::BitCast(du, lx), magnitude));
-        largest = hn::Max(largest, hn::And(hn::BitCast(du, ly), magnitude));
-        largest = hn::Max(largest, hn::And(hn::BitCast(du, lz), magnitude));
-        for (std::size_t i = lanes; i < 64; i += lanes) {
-            auto x = hn::Undefined(d), y = x, z = x;
-            hn::LoadInterleaved3(d, p + 3 * i, x, y, z);
-            largest = hn::Max(largest, hn::And(hn::BitCast(du, x), magnitude));
-            largest = hn::Max(largest, hn::And(hn::BitCast(du, y), magnitude));
-            largest = hn::Max(largest, hn::And(hn::BitCast(du, z), magnitude));
-            lx = hn::Min(lx, x);
-            hx = hn::Max(hx, x);
-            ly = hn::Min(ly, y);
-            hy = hn::Max(hy, y);
-            lz = hn::Min(lz, z);
-            hz = hn::Max(hz, z);
-        }
-        Box& box = blocks[b];
-        box.lo[0] = hn::GetLane(hn::MinOfLanes(d, lx));
-        box.lo[1] = hn::GetLane(hn::MinOfLanes(d, ly));
-        box.lo[2] = hn::GetLane(hn::MinOfLanes(d, lz));
-        box.lo[3] = 0;
-        box.hi[0] = hn::GetLane(hn::MaxOfLanes(d, hx));
-        box.hi[1] = hn::GetLane(hn::MaxOfLanes(d, hy));
-        box.hi[2] = hn::GetLane(hn::MaxOfLanes(d, hz));
-        box.hi[3] = 0;
-        for (int a = 0; a < 4; ++a) all.lo[a] = box.lo[a] < all.lo[a] ? box.lo[a] : all.lo[a];
-        for (int a = 0; a < 4; ++a) all.hi[a] = box.hi[a] > all.hi[a] ? box.hi[a] : all.hi[a];
-    }
+    std::size_t i = 0;
+    for (; i + hn::Lanes(du) <= count; i += hn::Lanes(du))
+        largest = hn::Max(largest, hn::And(hn::BitCast(du, hn::LoadU(df, values + i)), magnitude));
     bool finite = hn::GetLane(hn::MaxOfLanes(du, largest)) < 0x7f800000u;
-    if (full * 64 < count) {
-        Box box = empty_box;
-        for (std::uint32_t v = full * 64; v < count; ++v)
-            for (int a = 0; a < 3; ++a) {
-                const float c = positions[std::size_t{v} * 3 + static_cast<std::size_t>(a)];
-                finite &= c - c == 0; // not so for infinities and NaN
-                box.lo[a] = c < box.lo[a] ? c : box.lo[a];
-                box.hi[a] = c > box.hi[a] ? c : box.hi[a];
-            }
-        blocks[full] = box;
-        for (int a = 0; a < 3; ++a) all.lo[a] = box.lo[a] < all.lo[a] ? box.lo[a] : all.lo[a];
-        for (int a = 0; a < 3; ++a) all.hi[a] = box.hi[a] > all.hi[a] ? box.hi[a] : all.hi[a];
+    for (; i < count; ++i) finite &= values[i] - values[i] == 0; // not so for infinities and NaN
+    return finite;
+}
+
+bool StreamBoxes(const float* HWY_RESTRICT positions, std::uint32_t count,
+                 const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
+                 Box& body) {
+    const hn::FixedTag<float, 4> d;
+    bool finite = true;
+    std::uint32_t checked = 0;
+    auto all_lo = hn::Set(d, infinity), all_hi = hn::Set(d, -infinity);
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const std::uint32_t end = first[b + 1];
+        if (end > checked) { // a few kilobytes at a time, which the boxes then find in the cache
+            const std::uint32_t next = count - end > 256 ? end + 256 : count;
+            finite &= AllFinite(positions + std::size_t{checked} * 3, std::size_t{next - checked} * 3);
+            checked = next;
+        }
+        const float* p = positions + std::size_t{first[b]} * 3;
+        std::uint32_t left = end - first[b];
+        auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
+        if (end == count) { // the fourth lane of a load is the next position's x, and there is none
+            alignas(16) const float last[4] = {p[3 * left - 3], p[3 * left - 2], p[3 * left - 1], 0};
+            lo = hi = hn::Load(d, last);
+            --left;
+        }
+        for (; left >= 4; left -= 4, p += 12) {
+            const auto p0 = hn::LoadU(d, p), p1 = hn::LoadU(d, p + 3);
+            const auto p2 = hn::LoadU(d, p + 6), p3 = hn::LoadU(d, p + 9);
+            lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+            hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+        }
+        for (; left; --left, p += 3) {
+            lo = hn::Min(lo, hn::LoadU(d, p));
+            hi = hn::Max(hi, hn::LoadU(d, p));
+        }
+        hn::Store(lo, d, boxes[b].lo);
+        hn::Store(hi, d, boxes[b].hi);
+        all_lo = hn::Min(all_lo, lo);
+        all_hi = hn::Max(all_hi, hi);
     }
-    body = all;
+    hn::Store(all_lo, d, body.lo);
+    hn::Store(all_hi, d, body.hi);
     return finite;
 }
 
@@ -81,8 +77,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-bool stream_boxes(const float* positions, std::uint32_t count, Box* blocks, Box& body) {
-    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, count, blocks, body);
+bool stream_boxes(const float* positions, std::uint32_t count, std::span<const std::uint32_t> first,
+                  Box* boxes, Box& body) {
+    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, count, first.data(), first.size() - 1, boxes, body);
 }
 
 } // namespace vox::fast

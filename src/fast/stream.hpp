@@ -9,8 +9,9 @@
 
 namespace vox::fast {
 
-// Writes the box of every 64 consecutive of `count` packed positions to `blocks`, and the box of all to
-// `body`. Returns false when one is not finite; the boxes mean nothing then.
-bool stream_boxes(const float* positions, std::uint32_t count, Box* blocks, Box& body);
+// Writes the box of each of the blocks [first[i], first[i + 1]) of `count` packed positions to `boxes`, and
+// the box of all to `body`. Returns false when a position is not finite; the boxes mean nothing then.
+bool stream_boxes(const float* positions, std::uint32_t count, std::span<const std::uint32_t> first,
+                  Box* boxes, Box& body);
 
 } // namespace vox::fast

@@ -6,6 +6,7 @@
 #include "box.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vox::fast {
@@ -26,8 +27,14 @@ public:
         : tets_(tets), vertex_count_(vertex_count), out_(out),
           seen_(vertex_count, 0, out.tiles.get_allocator().resource()) {}
 
-    void split(Item* items, std::uint32_t count) {
-        if (count <= tile_size && emit(items, count)) return;
+    void split(Item* items, std::uint32_t count, bool in_super_tile = false) {
+        const bool is_super_tile = !in_super_tile && count <= super_tile_size * target_tets;
+        if (!(count <= tile_size && emit(items, count))) cut(items, count, in_super_tile || is_super_tile);
+        if (is_super_tile) out_.super_first.push_back(static_cast<std::uint32_t>(out_.tiles.size()));
+    }
+
+private:
+    void cut(Item* items, std::uint32_t count, bool in_super_tile) {
         const std::uint32_t parts = std::max(2u, (count + target_tets - 1) / target_tets);
         const auto middle = static_cast<std::uint32_t>(std::uint64_t{count} * (parts / 2) / parts);
         const int axis = longest_side(items, count);
@@ -35,11 +42,10 @@ public:
         std::nth_element(items, items + middle, items + count, [axis](const Item& a, const Item& b) {
             return a.centroid[axis] != b.centroid[axis] ? a.centroid[axis] < b.centroid[axis] : a.tet < b.tet;
         });
-        split(items, middle);
-        split(items + middle, count - middle);
+        split(items, middle, in_super_tile);
+        split(items + middle, count - middle, in_super_tile);
     }
 
-private:
     static int longest_side(const Item* items, std::uint32_t count) {
         float lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
         for (std::uint32_t i = 0; i < count; ++i)
@@ -104,17 +110,47 @@ private:
     std::uint32_t stamp_ = 0;
 };
 
+// Cuts the vertices into blocks: at sixteen, and before where the numbering jumps (from the end of a row of a
+// lattice to the start of the next, say), so that the box of a block is no larger than it must be.
+void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
+    out.block_first.assign(1, 0);
+    if (vertex_count == 0) return;
+    const auto distance = [&](std::uint32_t v) { // squared, from the vertex before
+        const Vec3f p = positions[v - 1], q = positions[v];
+        const float x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
+        return x * x + y * y + z * z;
+    };
+    std::array<float, 256> sample{};
+    const std::uint32_t samples = std::min(vertex_count - 1, 256u);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const float d =
+            distance(1 + static_cast<std::uint32_t>(std::uint64_t{vertex_count - 1} * i / samples));
+        sample[i] = d < infinity ? d : infinity;
+    }
+    std::nth_element(sample.begin(), sample.begin() + samples / 2, sample.begin() + samples);
+    const float far = 25 * sample[samples / 2]; // five times the median distance
+    out.block_first.reserve(vertex_count / (block_size - 4) + 2);
+    for (std::uint32_t v = 1, first = 0; v < vertex_count; ++v)
+        if (v - first == block_size || distance(v) > far) {
+            out.block_first.push_back(v);
+            first = v;
+        }
+    out.block_first.push_back(vertex_count);
+    out.block_first.shrink_to_fit();
+}
+
 void list_blocks(std::uint32_t vertex_count, Tiles& out) {
-    std::pmr::vector<std::uint32_t> seen((vertex_count + block_size - 1) / block_size, 0,
-                                         out.tiles.get_allocator().resource());
+    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
+    std::pmr::vector<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
+    for (std::uint32_t b = 0; b < out.block_count(); ++b)
+        std::fill(block_of.begin() + out.block_first[b], block_of.begin() + out.block_first[b + 1], b);
     out.block_begin.assign(1, 0);
     const std::uint32_t super_tiles = out.super_tile_count();
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
-        const std::size_t end = std::min<std::size_t>(out.tiles.size(), (s + 1) * super_tile_size);
-        for (std::size_t t = s * super_tile_size; t < end; ++t) {
+        for (std::uint32_t t = out.super_first[s]; t < out.super_first[s + 1]; ++t) {
             const Tile& tile = out.tiles[t];
             for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
-                const std::uint32_t block = out.vertices[tile.first_vertex + i] / block_size;
+                const std::uint32_t block = block_of[out.vertices[tile.first_vertex + i]];
                 if (seen[block] == s + 1) continue;
                 seen[block] = s + 1;
                 out.blocks.push_back(block);
@@ -151,6 +187,7 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
         made.own.reserve(tiles * 36);
         Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(tets.size()));
     }
+    cut_blocks(vertex_count, positions, made);
     list_blocks(vertex_count, made);
     made.tiles.shrink_to_fit();
     made.corners.shrink_to_fit();

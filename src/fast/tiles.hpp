@@ -13,9 +13,8 @@
 namespace vox::fast {
 
 inline constexpr std::uint32_t tile_size = 64;       // most tets, and most vertices, of a tile
-inline constexpr std::uint32_t super_tile_size = 16; // tiles of a super-tile
-inline constexpr std::uint32_t block_size =
-    64; // consecutive vertices (as the caller numbers them) of a block
+inline constexpr std::uint32_t super_tile_size = 16; // tiles of a super-tile, about
+inline constexpr std::uint32_t block_size = 8;       // most vertices of a block
 
 struct Tile {
     std::uint32_t first_tet;    // in Tiles::tets
@@ -27,21 +26,29 @@ struct Tile {
 
 struct Tiles {
     explicit Tiles(std::pmr::memory_resource* memory)
-        : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_begin(memory),
-          blocks(memory) {}
+        : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_first(memory),
+          block_begin(memory), blocks(memory) {
+        super_first.push_back(0);
+        block_first.push_back(0);
+    }
 
     std::pmr::vector<Tile> tiles;
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
     std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
     std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
     std::pmr::vector<std::uint64_t> own; // for each of `vertices`: the tile's tets that have it as a corner
-    // Super-tile s is tiles [16 s, 16 s + 16); blocks[block_begin[s] .. block_begin[s + 1]) hold its
-    // vertices.
+    // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
+    // [block_first[i], block_first[i + 1]).
+    std::pmr::vector<std::uint32_t> block_first;
+    // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree;
+    // blocks[block_begin[s] .. block_begin[s + 1]) hold its vertices.
+    std::pmr::vector<std::uint32_t> super_first;
     std::pmr::vector<std::uint32_t> block_begin;
     std::pmr::vector<std::uint32_t> blocks;
 
+    std::uint32_t block_count() const noexcept { return static_cast<std::uint32_t>(block_first.size()) - 1; }
     std::uint32_t super_tile_count() const noexcept {
-        return static_cast<std::uint32_t>((tiles.size() + super_tile_size - 1) / super_tile_size);
+        return static_cast<std::uint32_t>(super_first.size()) - 1;
     }
 };
 
