@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+"""Writes the sample files of this folder: one small mesh in every format that vox_io reads.
+
+Two cubes, each of five tets; formats of mixed elements get two triangles and a hexahedron as well. An
+implementation of the formats of its own, so that the readers are not tested against our own writers alone.
+"""
+import base64
+import os
+import struct
+import zlib
+
+os.chdir(os.path.dirname(os.path.abspath(__file__)))
+
+POINTS = [(x / 2, y, z * 0.1) for x in range(3) for y in range(2) for z in range(2)]
+TETS = [(0, 4, 2, 1), (6, 4, 7, 2), (5, 4, 1, 7), (3, 2, 7, 1), (4, 2, 1, 7),
+        (8, 4, 9, 10), (6, 4, 10, 7), (5, 4, 7, 9), (11, 10, 9, 7), (4, 10, 7, 9)]
+TRIANGLES = [(0, 1, 2), (1, 3, 2)]
+HEXAHEDRA = [(0, 1, 3, 2, 4, 5, 7, 6)]
+# What is in a file of mixed elements: Gmsh type, VTK type, corners.
+MIXED = ([(2, 5, c) for c in TRIANGLES] + [(5, 12, c) for c in HEXAHEDRA] + [(4, 10, c) for c in TETS])
+
+
+def write(name, content):
+    with open(name, "wb") as file:
+        file.write(content if isinstance(content, bytes) else content.encode())
+
+
+def lines(rows):
+    return "".join(" ".join(repr(x) if isinstance(x, float) else str(x) for x in row) + "\n" for row in rows)
+
+
+def one_up(corners):
+    return [c + 1 for c in corners]
+
+
+def numbered(rows, first):
+    return [(first + i, *row) for i, row in enumerate(rows)]
+
+
+# ---- Gmsh ----
+
+def gmsh_1():
+    write("box_1.msh", "$NOD\n12\n" + lines(numbered(POINTS, 1)) + "$ENDNOD\n$ELM\n13\n" +
+          lines((i + 1, g, 1, 1, len(c), *one_up(c)) for i, (g, _, c) in enumerate(MIXED)) + "$ENDELM\n")
+
+
+def gmsh_22():
+    write("box_22.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"box\"\n$EndPhysicalNames\n"
+          "$Nodes\n12\n" + lines(numbered(POINTS, 1)) + "$EndNodes\n$Elements\n13\n" +
+          lines((i + 1, g, 2, 1, 1, *one_up(c)) for i, (g, _, c) in enumerate(MIXED)) + "$EndElements\n")
+    for order, name in (("<", "box_22_little.msh"), (">", "box_22_big.msh")):
+        out = b"$MeshFormat\n2.2 1 8\n" + struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n$Nodes\n12\n"
+        for i, p in enumerate(POINTS):
+            out += struct.pack(order + "i3d", i + 1, *p)
+        out += b"\n$EndNodes\n$Elements\n13\n"
+        for kind, cells in ((2, TRIANGLES), (5, HEXAHEDRA), (4, TETS)):
+            out += struct.pack(order + "3i", kind, len(cells), 2)
+            for i, c in enumerate(cells):
+                out += struct.pack(order + "%di" % (3 + len(c)), i + 1, 1, 1, *one_up(c))
+        write(name, out + b"\n$EndElements\n")
+
+
+def gmsh_4():
+    blocks = ((2, 2, TRIANGLES), (3, 5, HEXAHEDRA), (3, 4, TETS))
+    nodes = "".join("%d\n" % (i + 1) for i in range(12)) + lines(POINTS)
+    text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 12 1 12\n3 1 0 12\n" + nodes + "$EndNodes\n"
+    text += "$Elements\n3 13 1 13\n"
+    for dimension, kind, cells in blocks:
+        text += "%d 1 %d %d\n" % (dimension, kind, len(cells)) + lines(numbered([one_up(c) for c in cells], 1))
+    write("box_41.msh", text + "$EndElements\n")
+    text = "$MeshFormat\n4 0 8\n$EndMeshFormat\n$Nodes\n1 12\n1 3 0 12\n" + lines(numbered(POINTS, 1))
+    text += "$EndNodes\n$Elements\n3 13\n"
+    for dimension, kind, cells in blocks:
+        text += "1 %d %d %d\n" % (dimension, kind, len(cells)) + lines(numbered([one_up(c) for c in cells], 1))
+    write("box_40.msh", text + "$EndElements\n")
+
+    for order, name in (("<", "little"), (">", "big")):
+        head = struct.pack(order + "i", 1) + b"\n$EndMeshFormat\n$Nodes\n"
+        out = b"$MeshFormat\n4.1 1 8\n" + head + struct.pack(order + "4Q3iQ", 1, 12, 1, 12, 3, 1, 0, 12)
+        out += struct.pack(order + "12Q", *range(1, 13))
+        for p in POINTS:
+            out += struct.pack(order + "3d", *p)
+        out += b"\n$EndNodes\n$Elements\n" + struct.pack(order + "4Q", 3, 13, 1, 13)
+        for dimension, kind, cells in blocks:
+            out += struct.pack(order + "3iQ", dimension, 1, kind, len(cells))
+            for i, c in enumerate(cells):
+                out += struct.pack(order + "%dQ" % (1 + len(c)), i + 1, *one_up(c))
+        write("box_41_%s.msh" % name, out + b"\n$EndElements\n")
+
+        out = b"$MeshFormat\n4 1 8\n" + head + struct.pack(order + "2Q3iQ", 1, 12, 1, 3, 0, 12)
+        for i, p in enumerate(POINTS):
+            out += struct.pack(order + "i3d", i + 1, *p)
+        out += b"\n$EndNodes\n$Elements\n" + struct.pack(order + "2Q", 3, 13)
+        for dimension, kind, cells in blocks:
+            out += struct.pack(order + "3iQ", 1, dimension, kind, len(cells))
+            for i, c in enumerate(cells):
+                out += struct.pack(order + "%di" % (1 + len(c)), i + 1, *one_up(c))
+        write("box_40_%s.msh" % name, out + b"\n$EndElements\n")
+
+
+# ---- TetGen, Medit, Vega ----
+
+def tetgen():
+    write("box.node", "# two cubes\n12 3 1 1\n" + lines((i + 1, *p, 0.5, 1) for i, p in enumerate(POINTS)))
+    write("box.ele", "10 4 1\n" + lines((i + 1, *one_up(c), 2.5) for i, c in enumerate(TETS)) + "# end\n")
+
+
+def medit():
+    write("box.mesh", "MeshVersionFormatted 2\n# two cubes\nDimension 3\nVertices 12\n" +
+          lines((*p, 0) for p in POINTS) + "Triangles 2\n" + lines((*one_up(c), 1) for c in TRIANGLES) +
+          "Hexahedra 1\n" + lines((*one_up(c), 1) for c in HEXAHEDRA) + "Corners 2\n1 12\n" +
+          "Tetrahedra 10\n" + lines((*one_up(c), 1) for c in TETS) + "End\n")
+
+
+def vega():
+    write("box.veg", "# two cubes\n*VERTICES\n12 3 0 0\n" + lines(numbered(POINTS, 1)) +
+          "*ELEMENTS\nTET\n10 4 0\n" + lines(numbered([one_up(c) for c in TETS], 1)) +
+          "*MATERIAL rubber\nENU, 1000, 1e6, 0.45\n*REGION\nallElements, rubber\n")
+
+
+# ---- VTK ----
+
+def vtk():
+    size = sum(1 + len(c) for _, _, c in MIXED)
+    head = "# vtk DataFile Version 3.0\ntwo cubes\n%s\nDATASET UNSTRUCTURED_GRID\n"
+    write("box_30.vtk", head % "ASCII" + "FIELD FieldData 1\ntime 1 1 double\n0.5\nPOINTS 12 double\n" + lines(POINTS) +
+          "CELLS 13 %d\n" % size + lines((len(c), *c) for _, _, c in MIXED) + "CELL_TYPES 13\n" +
+          lines((v,) for _, v, _ in MIXED) + "POINT_DATA 12\nSCALARS s float\nLOOKUP_TABLE default\n" +
+          lines((0.5,) for _ in POINTS))
+    out = (head % "BINARY" + "POINTS 12 float\n").encode()
+    for p in POINTS:
+        out += struct.pack(">3f", *p)
+    out += b"\nMETADATA\nINFORMATION 0\n\nCELLS 13 %d\n" % size
+    for _, _, c in MIXED:
+        out += struct.pack(">%di" % (1 + len(c)), len(c), *c)
+    out += b"\nCELL_TYPES 13\n" + struct.pack(">13i", *(v for _, v, _ in MIXED)) + b"\n"
+    write("box_30_binary.vtk", out)
+
+    ends = [0]
+    for _, _, c in MIXED:
+        ends.append(ends[-1] + len(c))
+    flat = [p for _, _, c in MIXED for p in c]
+    head = head.replace("3.0", "5.1")
+    write("box_51.vtk", head % "ASCII" + "POINTS 12 double\n" + lines(POINTS) + "METADATA\nINFORMATION 0\n\n" +
+          "CELLS 14 %d\nOFFSETS vtktypeint64\n" % len(flat) + lines([ends]) + "CONNECTIVITY vtktypeint64\n" +
+          lines([flat]) + "CELL_TYPES 13\n" + lines((v,) for _, v, _ in MIXED))
+    out = (head % "BINARY" + "POINTS 12 double\n").encode()
+    for p in POINTS:
+        out += struct.pack(">3d", *p)
+    out += b"\nCELLS 14 %d\nOFFSETS vtktypeint64\n" % len(flat) + struct.pack(">14q", *ends)
+    out += b"\nCONNECTIVITY vtktypeint64\n" + struct.pack(">%dq" % len(flat), *flat)
+    out += b"\nCELL_TYPES 13\n" + struct.pack(">13i", *(v for _, v, _ in MIXED)) + b"\n"
+    write("box_51_binary.vtk", out)
+
+
+def vtu():
+    ends, end = [], 0
+    for _, _, c in MIXED:
+        end += len(c)
+        ends.append(end)
+    arrays = (("Points", "Float64", "d", 3, [x for p in POINTS for x in p]),
+              ("connectivity", "Int64", "q", 1, [p for _, _, c in MIXED for p in c]),
+              ("offsets", "Int32", "i", 1, ends),
+              ("types", "UInt8", "B", 1, [v for _, v, _ in MIXED]))
+
+    def packed(letter, values, order, header, zip_blocks):
+        data = struct.pack(order + "%d%s" % (len(values), letter), *values)
+        if not zip_blocks:
+            return [struct.pack(order + header, len(data)) + data]
+        size = 64
+        blocks = [data[i:i + size] for i in range(0, len(data), size)]
+        small = [zlib.compress(b) for b in blocks]
+        last = len(blocks[-1]) if len(blocks[-1]) < size else 0
+        return [struct.pack(order + "%d%s" % (3 + len(small), header), len(small), size, last,
+                            *(len(b) for b in small)), b"".join(small)]
+
+    def file(name, kind, order="<", header="I", zip_blocks=False, encoding="base64"):
+        attributes = 'type="UnstructuredGrid" version="1.0" byte_order="%s" header_type="%s"' % (
+            "LittleEndian" if order == "<" else "BigEndian", "UInt32" if header == "I" else "UInt64")
+        if zip_blocks:
+            attributes += ' compressor="vtkZLibDataCompressor"'
+        xml, appended = [], b""
+        for array, type_name, letter, components, values in arrays:
+            start = '<DataArray type="%s" Name="%s" NumberOfComponents="%d" format="%s"' % (
+                type_name, array, components, kind)
+            if kind == "ascii":
+                xml.append(start + ">\n" + " ".join(map(repr, values)) + "\n</DataArray>\n")
+                continue
+            groups = packed(letter, values, order, header, zip_blocks)
+            if kind == "binary" or encoding == "base64":
+                groups = [base64.b64encode(g) for g in groups]
+            if kind == "binary":
+                xml.append(start + ">\n" + b"".join(groups).decode() + "\n</DataArray>\n")
+            else:
+                xml.append(start + ' offset="%d"/>\n' % len(appended))
+                appended += b"".join(groups)
+        out = ('<?xml version="1.0"?>\n<VTKFile %s>\n<UnstructuredGrid>\n<Piece NumberOfPoints="12" '
+               'NumberOfCells="13">\n<Points>\n%s</Points>\n<Cells>\n%s</Cells>\n</Piece>\n</UnstructuredGrid>\n' %
+               (attributes, xml[0], "".join(xml[1:]))).encode()
+        if kind == "appended":
+            out += b'<AppendedData encoding="%s">\n_' % encoding.encode() + appended + b"\n</AppendedData>\n"
+        write(name, out + b"</VTKFile>\n")
+
+    file("box_ascii.vtu", "ascii")
+    file("box_base64.vtu", "binary")
+    file("box_base64_zlib.vtu", "binary", header="Q", zip_blocks=True)
+    file("box_appended.vtu", "appended", encoding="raw")
+    file("box_appended_zlib_big.vtu", "appended", order=">", zip_blocks=True, encoding="raw")
+    file("box_appended_base64.vtu", "appended", header="Q")
+    file("box_appended_base64_zlib.vtu", "appended", zip_blocks=True)
+
+
+# ---- surfaces ----
+
+def surfaces():
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    write("cube.obj", "# a unit cube of six quads, a material each, with texture coordinates\n" +
+          lines(("v", *map(float, p)) for p in corners) + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" +
+          "".join("usemtl side%d\nf %s\n" % (i, " ".join("%d/%d" % (c + 1, k + 1) for k, c in enumerate(q)))
+                  for i, q in enumerate(quads)))
+    write("cube.off", "OFF\n8 6 0\n" + lines(corners) + lines((4, *q) for q in quads))
+    write("cube.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+          "property float z\nelement face 6\nproperty list uchar int vertex_index\nend_header\n" +
+          lines(corners) + lines((4, *q) for q in quads))
+    out = b"a unit cube".ljust(80) + struct.pack("<I", 12)
+    for q in quads:
+        for t in ((q[0], q[1], q[2]), (q[0], q[2], q[3])):
+            out += struct.pack("<12fH", 0, 0, 0, *(float(x) for c in t for x in corners[c]), 0)
+    write("cube.stl", out)
+    # A scene: the same tetrahedron twice, moved by its nodes, once mirrored.
+    data = struct.pack("<12f12H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
+    write("two_tetrahedra.gltf", """{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+ "nodes": [{"mesh": 0, "translation": [10, 0, 0]}, {"mesh": 0, "scale": [-2, 2, 2]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "accessors": [
+  {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+ "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,%s"}]}
+""" % base64.b64encode(data).decode())
+
+
+for make in (gmsh_1, gmsh_22, gmsh_4, tetgen, medit, vega, vtk, vtu, surfaces):
+    make()
