@@ -5,7 +5,9 @@
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
 #include "fast/stream.hpp"
+#include "fast/surface.hpp"
 #include "fast/tiles.hpp"
+#include "fast/winding.hpp"
 #include "fast/window.hpp"
 #include "scene.hpp"
 
@@ -17,12 +19,20 @@
 
 namespace vox {
 
-// What the engine prepares of a mesh's topology, once: fast::make_tiles(body.tets, body.vertex_count,
-// body.positions, tiles).
-using FastMesh = fast::Tiles;
+// What the engine prepares of a mesh's topology, once. An empty one is prepared for an empty mesh.
+struct FastMesh : fast::Tiles {
+    explicit FastMesh(std::pmr::memory_resource* memory) : Tiles(memory), surface(memory) {}
+
+    fast::Surface surface; // of bodies with self-collision
+
+    // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
+    // (or what the memory throws) and leaves this as it was then.
+    void prepare(const Body& body);
+};
 
 struct FastSettings {
     double cell_size = 0; // 0: chosen for each window of cells from the tiles that query it
+    bool winding = true;  // cull self-collision by winding numbers where it pays
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
@@ -50,7 +60,10 @@ private:
         std::uint32_t first_super;     // in super_boxes_
         std::uint32_t first_tile;      // in tile_boxes_ and tile_known_
         bool super_known;              // super_boxes_ are made
+        bool tiles_known;              // all of tile_boxes_ are
+        bool self;                     // some vertices of the window may be in tets of the same body
         double tile_sides, tile_count; // of the tiles that will query its window
+        fast::Box own;                 // where vertices of the window may be in tets of the same body
         fast::Window window;
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
@@ -65,7 +78,10 @@ private:
     void know_super_tiles(Step& step, std::uint32_t body);
     void reach(Step& step, Reach& reach);
     void make_window(Step& step, std::uint32_t body, std::span<const Reach> reaches);
-    double cell_size(const Step& step, std::uint32_t body, bool self);
+    bool cull_by_winding(Step& step, std::uint32_t body);
+    void activate_blocks(const Step& step, std::uint32_t body);
+    void sample_tiles(const Step& step, std::uint32_t body, double& sides, double& count);
+    double cell_size(const Step& step, std::uint32_t body);
     void query(Step& step, std::uint32_t body, std::span<const std::uint32_t> reaching);
 
     std::pmr::vector<float> packed_; // positions of bodies whose own are strided
@@ -77,7 +93,9 @@ private:
     std::pmr::vector<Reach> reaches_;          // sorted by a, then b
     std::pmr::vector<std::uint32_t> by_b_;     // their indices sorted by b, then a
     std::pmr::vector<std::uint32_t> first_of_; // buffer of that sort
-    fast::Points points_;                      // of one body, before they are binned
+    fast::Certificate certificate_;
+    std::pmr::vector<std::uint8_t> active_; // blocks with vertices that may be in tets of the same body
+    fast::Points points_;                   // of one body, before they are binned
     fast::Bins bins_;
     std::pmr::vector<fast::Source> sources_, near_; // all of a body, and those near a super-tile
     std::pmr::vector<std::uint32_t> stamps_;

@@ -32,6 +32,11 @@ constexpr std::size_t cells_per_vertex = 2;
 // A cell size asked for is kept up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
+// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
+// on; in cells of so many mean box sides of a tile.
+constexpr std::size_t min_winding_tets = 2000;
+constexpr std::size_t max_surface = 6;
+constexpr double winding_cells_per_tile = 0.8;
 
 std::uint64_t nanoseconds() {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -92,11 +97,24 @@ private:
 
 } // namespace
 
+void FastMesh::prepare(const Body& body) {
+    FastMesh made(surface.triangles.get_allocator().resource());
+    fast::make_tiles(body.tets, body.vertex_count, body.positions, made);
+    if (body.self_collision) {
+        fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
+        // A surface that is most of the body never pays.
+        if (made.surface.triangles.size() * max_surface > body.tets.size() ||
+            body.tets.size() < min_winding_tets)
+            made.surface = fast::Surface(surface.triangles.get_allocator().resource());
+    }
+    *this = std::move(made);
+}
+
 Fast::Fast(std::pmr::memory_resource* memory)
     : packed_(memory), states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory),
       tile_boxes_(memory), tile_known_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory),
-      by_b_(memory), first_of_(memory), points_(memory), bins_(memory), sources_(memory), near_(memory),
-      stamps_(memory), scratch_(memory), degenerate_(memory) {}
+      by_b_(memory), first_of_(memory), certificate_(memory), active_(memory), points_(memory), bins_(memory),
+      sources_(memory), near_(memory), stamps_(memory), scratch_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -216,12 +234,22 @@ void Fast::pack(const Body& body, std::size_t first) {
     }
 }
 
-// Boxes that hold the super-tiles: of the blocks their vertices are in.
+// Boxes that hold the super-tiles: of their tiles where those are known, else of the blocks their vertices
+// are in.
 void Fast::know_super_tiles(Step& step, std::uint32_t body) {
     BodyState& state = states_[body];
     if (state.super_known) return;
     state.super_known = true;
     const FastMesh& mesh = *step.prepared[body];
+    if (state.tiles_known) {
+        for (std::uint32_t s = 0; s < mesh.super_tile_count(); ++s) {
+            Box box = fast::empty_box;
+            for (std::uint32_t t = mesh.super_first[s]; t < mesh.super_first[s + 1]; ++t)
+                fast::add(box, tile_boxes_[state.first_tile + t]);
+            super_boxes_[state.first_super + s] = box;
+        }
+        return;
+    }
     const Box* blocks = block_boxes_.data() + state.first_block;
     for (std::uint32_t s = 0; s < mesh.super_tile_count(); ++s) {
         Box box = fast::empty_box;
@@ -268,44 +296,101 @@ void Fast::reach(Step& step, Reach& reach) {
     states_[reach.a].tile_count += number;
 }
 
-// From the mean side of the tiles that will query the window of a body.
-double Fast::cell_size(const Step& step, std::uint32_t body, bool self) {
-    BodyState& state = states_[body];
-    if (self) {
-        const FastMesh& mesh = *step.prepared[body];
-        const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
-        for (std::uint32_t i = 0; i < samples; ++i) {
-            const auto t = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / samples);
-            fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
-                             tile_known_.data() + state.first_tile);
-            const Box& box = tile_boxes_[state.first_tile + t];
-            for (int a = 0; a < 3; ++a) state.tile_sides += double{box.hi[a]} - double{box.lo[a]};
-        }
-        state.tile_count += 3.0 * samples;
+// Adds up the sides of some tiles of a body.
+void Fast::sample_tiles(const Step& step, std::uint32_t body, double& sides, double& count) {
+    const FastMesh& mesh = *step.prepared[body];
+    const BodyState& state = states_[body];
+    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto t = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / samples);
+        fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
+                         tile_known_.data() + state.first_tile);
+        const Box& box = tile_boxes_[state.first_tile + t];
+        for (int a = 0; a < 3; ++a) sides += double{box.hi[a]} - double{box.lo[a]};
     }
+    count += 3.0 * samples;
+}
+
+// From the mean side of the tiles that will query the window of a body.
+double Fast::cell_size(const Step& step, std::uint32_t body) {
+    BodyState& state = states_[body];
+    if (state.self) sample_tiles(step, body, state.tile_sides, state.tile_count);
     const double automatic = cells_per_tile * state.tile_sides / std::max(1.0, state.tile_count);
     const double wanted = step.settings.cell_size;
     return wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
 }
 
-// The window of the vertices of a body that reach another one, or of all where they may be in its own tets.
+// Whether winding numbers tell which vertices may be in the body's own tets; then they are in certificate_.
+bool Fast::cull_by_winding(Step& step, std::uint32_t b) {
+    const FastMesh& mesh = *step.prepared[b];
+    if (!step.settings.winding || !mesh.surface.is_closed) return false;
+    BodyState& state = states_[b];
+    double sides = 0, count = 0;
+    sample_tiles(step, b, sides, count);
+    const fast::WindingBody body{mesh,
+                                 mesh.surface,
+                                 state.positions,
+                                 body_boxes_[b],
+                                 winding_cells_per_tile * sides / std::max(1.0, count),
+                                 tile_boxes_.data() + state.first_tile,
+                                 tile_known_.data() + state.first_tile};
+    if (!fast::certify(body, certificate_, step.counters.exact_tests)) return false;
+    state.tiles_known = true;
+    return true;
+}
+
+// Marks the blocks with vertices that are not certified.
+void Fast::activate_blocks(const Step& step, std::uint32_t b) {
+    const FastMesh& mesh = *step.prepared[b];
+    const BodyState& state = states_[b];
+    const std::uint32_t count = mesh.block_count();
+    active_.assign(count, 0);
+    const std::pmr::vector<std::uint32_t>& first = mesh.block_first;
+    for (const std::uint32_t v : mesh.surface.loose)
+        active_[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
+                                         1)] = 1;
+    if (certificate_.complete) return;
+    const Box* blocks = block_boxes_.data() + state.first_block;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        bool near = true;
+        for (int a = 0; a < 3; ++a)
+            near = near && certificate_.lattice.cell(blocks[i].lo[a], a) <= certificate_.last[a] &&
+                   certificate_.lattice.cell(blocks[i].hi[a], a) >= certificate_.first[a];
+        for (std::uint32_t v = first[i]; near && v < first[i + 1] && !active_[i]; ++v)
+            active_[i] = !certificate_.holds(state.positions + std::size_t{v} * 3);
+    }
+}
+
+// The window of the vertices of a body that reach another one, or that may be in tets of the same body.
 void Fast::make_window(Step& step, std::uint32_t a, std::span<const Reach> reaches) {
     const Body& body = step.bodies[a];
+    BodyState& state = states_[a];
     const bool self = body.self_collision && !body.tets.empty();
     if (body.vertex_count == 0 || (reaches.empty() && !self)) return;
 
-    BodyState& state = states_[a];
-    Box region = self ? body_boxes_[a] : fast::empty_box;
-    for (const Reach& reach : reaches) fast::add(region, reach.region);
-    points_.count = 0;
-    points_.reserve(body.vertex_count);
+    const bool culled = self && cull_by_winding(step, a);
     const Box* blocks = block_boxes_.data() + state.first_block;
     const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
     const std::uint32_t count = step.prepared[a]->block_count();
+    Box own =
+        self && !culled ? body_boxes_[a] : fast::empty_box; // of the vertices that may be in the same body
+    if (culled) {
+        activate_blocks(step, a);
+        for (std::uint32_t b = 0; b < count; ++b)
+            if (active_[b]) fast::add(own, blocks[b]);
+    }
+    state.self = !fast::is_empty(own);
+    Box region = own;
+    for (const Reach& reach : reaches) fast::add(region, reach.region);
+    if (fast::is_empty(region)) return;
+
+    points_.count = 0;
+    points_.reserve(body.vertex_count);
     const auto is_wanted = [&](std::uint32_t b) {
+        if (culled ? active_[b] != 0 : self) return true;
         for (const Reach& reach : reaches)
             if (fast::overlap(blocks[b], reach.region)) return true;
-        return self;
+        return false;
     };
     for (std::uint32_t b = 0; b < count;) { // runs of wanted blocks
         const std::uint32_t begin = b;
@@ -316,20 +401,25 @@ void Fast::make_window(Step& step, std::uint32_t a, std::span<const Reach> reach
             ++b;
     }
     if (points_.count == 0) return;
-    cell_size_ = cell_size(step, a, self);
+    cell_size_ = cell_size(step, a);
     const Box box = fast::bounds(points_);
     const fast::Lattice lattice =
         fast::make_lattice(box, cell_size_, cells_per_vertex * std::size_t{points_.count} + 64);
     state.window = fast::bin(points_, lattice, box, bins_);
+    state.own = own;
+    fast::intersect(state.own, box);
 }
 
 // The tiles of a body against the windows of the bodies that reach it.
 void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> reaching) {
     const Body& body = step.bodies[b];
     const BodyState& state = states_[b];
-    const bool self = body.self_collision && !body.tets.empty();
+    const bool self = state.self && state.window.count;
     sources_.clear();
-    if (self) sources_.push_back({state.window, state.window.box, b});
+    if (self) {
+        know_super_tiles(step, b);
+        sources_.push_back({state.window, state.own, b});
+    }
     for (const std::uint32_t r : reaching) {
         const Reach& reach = reaches_[r];
         const fast::Window& window = states_[reach.a].window;
@@ -350,7 +440,6 @@ void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> rea
     fast::QueryScratch& scratch = scratch_[0];
     if (self) {
         if (stamps_.size() < body.vertex_count) stamps_.resize(body.vertex_count, 0);
-        query.stamps = stamps_.data();
         // The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
         if ((scratch.tag >> 6) + mesh.tiles.size() >= 1u << 26) {
             std::fill(stamps_.begin(), stamps_.end(), 0u);
@@ -361,9 +450,10 @@ void Fast::query(Step& step, std::uint32_t b, std::span<const std::uint32_t> rea
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
         near_.clear();
         for (std::size_t i = 0; i < sources_.size(); ++i)
-            if ((self && i == 0) || fast::overlap(super_boxes_[state.first_super + s], sources_[i].region))
+            if (fast::overlap(super_boxes_[state.first_super + s], sources_[i].region))
                 near_.push_back(sources_[i]);
         if (near_.empty()) continue;
+        query.stamps = near_[0].body == b ? stamps_.data() : nullptr;
         fast::query_tiles(query, near_, mesh.super_first[s], mesh.super_first[s + 1], scratch, decide);
     }
     fast::flush(scratch, decide);

@@ -27,6 +27,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "tile-inl.hpp"
+
 #ifndef VOX_FAST_QUERY_ONCE
 #define VOX_FAST_QUERY_ONCE
 namespace vox::fast {
@@ -41,41 +43,7 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Four = hn::FixedTag<float, 4>;
-using Floats = hn::CappedTag<float, 16>;
-using Words = hn::RebindToUnsigned<Floats>;
 using Bytes = hn::CappedTag<std::uint8_t, 64>;
-
-// x, y, z of a vertex and one float more, which is the next vertex's x: not for the mesh's last vertex.
-HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
-    return hn::LoadU(Four(), positions + std::size_t{v} * 3);
-}
-
-// The same for the last vertex, without reading past it.
-HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v) {
-    const float* p = positions + std::size_t{v} * 3;
-    alignas(16) const float copy[4] = {p[0], p[1], p[2], 0};
-    return hn::Load(Four(), copy);
-}
-
-template <class Load>
-HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std::uint32_t padded, Load load,
-                      Box& box) {
-    const Four d;
-    auto lo0 = load(positions, vertices[0]), lo1 = load(positions, vertices[1]);
-    auto hi0 = lo0, hi1 = lo1;
-    for (std::uint32_t i = 2; i < padded; i += 2) {
-        const auto p = load(positions, vertices[i]), q = load(positions, vertices[i + 1]);
-        lo0 = hn::Min(lo0, p);
-        hi0 = hn::Max(hi0, p);
-        lo1 = hn::Min(lo1, q);
-        hi1 = hn::Max(hi1, q);
-    }
-    hn::Store(hn::Min(lo0, lo1), d, box.lo);
-    hn::Store(hn::Max(hi0, hi1), d, box.hi);
-}
 
 void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions, std::uint32_t first,
                std::uint32_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known) {
@@ -90,41 +58,6 @@ void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions, std::uin
         else
             BoxOf(positions, vertices, padded, LoadVertex, boxes[t]);
     }
-}
-
-// The tile's vertices as a structure of arrays, and their box.
-template <class Load>
-HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
-                         Load load, QueryScratch& s, Box& box) {
-    const Four d;
-    auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
-    for (std::uint32_t i = 0; i < padded; i += 4) {
-        const auto p0 = load(positions, vertices[i]), p1 = load(positions, vertices[i + 1]);
-        const auto p2 = load(positions, vertices[i + 2]), p3 = load(positions, vertices[i + 3]);
-        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
-        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
-        const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
-        const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
-        hn::Store(hn::InterleaveLower(d, xy02, xy13), d, s.x + i);
-        hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, s.y + i);
-        hn::Store(hn::InterleaveLower(d, z02, z13), d, s.z + i);
-    }
-    for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
-        hn::Store(hn::Set(d, s.x[0]), d, s.x + i);
-        hn::Store(hn::Set(d, s.y[0]), d, s.y + i);
-        hn::Store(hn::Set(d, s.z[0]), d, s.z + i);
-    }
-    hn::Store(lo, d, box.lo);
-    hn::Store(hi, d, box.hi);
-}
-
-HWY_INLINE void LoadTile(const Query& query, const Tile& tile, QueryScratch& s, Box& box) {
-    const std::uint32_t* vertices = query.tiles->vertices.data() + tile.first_vertex;
-    const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
-    if (tile.holds_last_vertex)
-        LoadTile(query.positions, vertices, padded, LoadLastVertex, s, box);
-    else
-        LoadTile(query.positions, vertices, padded, LoadVertex, s, box);
 }
 
 // How coordinates of a box along one axis go to 0 .. 255: (c - origin) * scale, cut. Both 0 where that could
@@ -223,44 +156,6 @@ HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t va
     }
 }
 
-// A table of 64 floats, looked up by lane.
-#if HWY_TARGET == HWY_AVX3
-struct Table {
-    __m512 part[4];
-    explicit Table(const float* values) {
-        for (int i = 0; i < 4; ++i) part[i] = _mm512_load_ps(values + 16 * i);
-    }
-    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
-        const __m512 high = _mm512_permutex2var_ps(part[2], index.raw, part[3]);
-        const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
-        return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
-    }
-};
-#else
-struct Table {
-    const float* values;
-    explicit Table(const float* from) : values(from) {}
-    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
-    }
-};
-#endif
-
-using V = hn::Vec<Floats>;
-
-HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
-
-HWY_INLINE void Cross(const V* a, const V* b, V* out) {
-    out[0] = Difference(a[1], b[2], a[2], b[1]);
-    out[1] = Difference(a[2], b[0], a[0], b[2]);
-    out[2] = Difference(a[0], b[1], a[1], b[0]);
-}
-
-HWY_INLINE V Dot(const V* a, const V* b) {
-    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
-}
-
 // Decides `count` pairs. `underflow` is the tile's constant of the filter.
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
                          float underflow, Findings& out) {
@@ -326,14 +221,6 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
     }
 }
 
-// The constant of the filter for tets in `box`: see the top of this file.
-HWY_INLINE float Underflow(const Box& box) {
-    const float x = box.hi[0] - box.lo[0], y = box.hi[1] - box.lo[1], z = box.hi[2] - box.lo[2];
-    const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
-    const float largest = x * y * z * 64;
-    return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
-}
-
 // Index of the lowest bit that is set; some number when none is.
 HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
 #if defined(__GNUC__) && HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -362,7 +249,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     QueryScratch& s = w.s;
     const Tile& tile = w.tile;
     if (!w.ready) {
-        if (!w.loaded) LoadTile(w.query, tile, s, w.box);
+        if (!w.loaded) LoadTile(*w.query.tiles, w.query.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
@@ -487,7 +374,7 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
     for (std::uint32_t t = first; t < last; ++t) {
         TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, 0};
         if (!query.known[t]) {
-            LoadTile(query, w.tile, s, w.box);
+            LoadTile(*query.tiles, query.positions, w.tile, s, w.box);
             w.loaded = true;
             query.boxes[t] = w.box;
             query.known[t] = 1;

@@ -33,14 +33,18 @@ protected:
     ~Findings() = default;
 };
 
+// The vertices of a tile.
+struct TileVertices {
+    alignas(64) float x[tile_size], y[tile_size], z[tile_size];
+};
+
 // Buffers of one query at a time (one worker). About 80 KiB.
-struct alignas(64) QueryScratch {
+struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 1024; // handled at a time
     static constexpr std::uint32_t most_pairs = 4096;
     static constexpr std::uint32_t most_findings = 1024;
 
     // the tile
-    alignas(64) float x[tile_size], y[tile_size], z[tile_size];
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
     alignas(64) std::uint8_t quantised[3][tile_size];
     alignas(64) std::uint8_t lo[3][tile_size], hi[3][tile_size]; // boxes of the tets

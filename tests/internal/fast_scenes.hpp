@@ -134,7 +134,7 @@ public:
             body.self_collision = self_[i];
             bodies_.push_back(body);
             tiles_.emplace_back(memory_);
-            vox::fast::make_tiles(body.tets, body.vertex_count, body.positions, tiles_.back());
+            tiles_.back().prepare(body);
         }
         for (const vox::FastMesh& tiles : tiles_) prepared_.push_back(&tiles);
     }

@@ -1,0 +1,154 @@
+// Facets are matched within each tile first, by their local indices; the few that are left by their lowest
+// vertex.
+#include "surface.hpp"
+
+#include <algorithm>
+
+namespace vox::fast {
+
+namespace {
+
+// The facets of a positive tet, counter-clockwise from outside.
+constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+struct Facet {
+    std::uint32_t low, middle, high; // the vertices, sorted
+    bool even;                       // sorting took an even permutation
+};
+
+Facet sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    bool even = true;
+    const auto order = [&even](std::uint32_t& x, std::uint32_t& y) {
+        if (x <= y) return;
+        std::swap(x, y);
+        even = !even;
+    };
+    order(a, b);
+    order(b, c);
+    order(a, b);
+    return {a, b, c, even};
+}
+
+bool is_negative(const Tet& tet, Positions positions) {
+    const Vec3f a = positions[tet.v[0]];
+    double e[3][3];
+    for (int i = 0; i < 3; ++i) {
+        const Vec3f p = positions[tet.v[i + 1]];
+        e[i][0] = double{p.x} - double{a.x};
+        e[i][1] = double{p.y} - double{a.y};
+        e[i][2] = double{p.z} - double{a.z};
+    }
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+               e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+               e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) <
+           0;
+}
+
+// Facets without a partner in their tile.
+struct Open {
+    std::uint32_t low, middle, high;
+    bool even;
+};
+
+// Adds the facets of tile `index` that have no partner in it to `open`; false when some facet has two.
+bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& tiles, std::size_t index,
+                   Surface& made, std::pmr::vector<Open>& open, std::pmr::vector<std::uint8_t>& used) {
+    const Tile& tile = tiles.tiles[index];
+    const std::uint8_t* corners = tiles.corners.data() + index * 4 * tile_size;
+    const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+    // Sorted local vertices, 6 bits each, then the parity, above the number of tet and facet.
+    std::uint32_t keys[4 * tile_size], count = 0;
+    std::uint64_t mirrored = 0, ignored = 0;
+    for (std::uint32_t t = 0; t < tile.tet_count; ++t) {
+        std::uint32_t local[4];
+        for (std::uint32_t c = 0; c < 4; ++c) local[c] = corners[c * tile_size + t];
+        bool repeated = false;
+        for (int c = 0; c < 4; ++c)
+            for (int d = 0; d < c; ++d) repeated |= local[c] == local[d];
+        if (repeated) {
+            ignored |= std::uint64_t{1} << t;
+            continue;
+        }
+        const bool negative = is_negative(tets[tiles.tets[tile.first_tet + t]], positions);
+        if (negative) mirrored |= std::uint64_t{1} << t;
+        for (std::uint32_t c = 0; c < 4; ++c) used[vertices[local[c]]] = 1;
+        for (std::uint32_t f = 0; f < 4; ++f) {
+            const Facet facet = sorted(local[facets[f][0]], local[facets[f][1]], local[facets[f][2]]);
+            keys[count++] =
+                facet.low << 13 | facet.middle << 7 | facet.high << 1 | std::uint32_t{facet.even != negative};
+        }
+    }
+    made.mirrored.push_back(mirrored);
+    made.ignored.push_back(ignored);
+    std::sort(keys, keys + count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (i + 1 < count && keys[i] >> 1 == keys[i + 1] >> 1) {
+            if (keys[i] == keys[i + 1]) return false;                            // both on one side
+            if (i + 2 < count && keys[i] >> 1 == keys[i + 2] >> 1) return false; // three tets
+            ++i;
+            continue;
+        }
+        const Facet facet =
+            sorted(vertices[keys[i] >> 13], vertices[keys[i] >> 7 & 63], vertices[keys[i] >> 1 & 63]);
+        open.push_back({facet.low, facet.middle, facet.high, facet.even == (keys[i] & 1)});
+    }
+    return true;
+}
+
+} // namespace
+
+void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
+                  const Tiles& tiles, Surface& out) {
+    std::pmr::memory_resource* memory = out.triangles.get_allocator().resource();
+    Surface made(memory);
+    std::pmr::vector<Open> open(memory);
+    std::pmr::vector<std::uint8_t> used(vertex_count, 0, memory);
+    open.reserve(tets.size() + 64);
+    made.mirrored.reserve(tiles.tiles.size());
+    made.ignored.reserve(tiles.tiles.size());
+    for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
+        if (!match_in_tile(tets, positions, tiles, i, made, open, used)) {
+            out = Surface(memory);
+            return;
+        }
+    for (std::uint32_t v = 0; v < vertex_count; ++v)
+        if (!used[v]) made.loose.push_back(v);
+
+    // By the lowest vertex: counted, summed, placed; then by the others.
+    std::pmr::vector<std::uint32_t> begin(std::size_t{vertex_count} + 1, 0, memory),
+        placed(open.size(), memory);
+    for (const Open& facet : open) ++begin[facet.low + 1];
+    for (std::uint32_t v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
+    for (std::uint32_t i = 0; i < open.size(); ++i) placed[begin[open[i].low]++] = i;
+    const auto before = [&](std::uint32_t x, std::uint32_t y) {
+        const Open &f = open[x], &g = open[y];
+        return f.middle != g.middle ? f.middle < g.middle : f.high < g.high;
+    };
+    for (std::size_t first = 0; first < placed.size();) {
+        std::size_t last = first;
+        while (last < placed.size() && open[placed[last]].low == open[placed[first]].low) ++last;
+        std::sort(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), before);
+        for (std::size_t i = first; i < last;) {
+            std::size_t end = i + 1;
+            while (end < last && !before(placed[i], placed[end])) ++end;
+            const Open& facet = open[placed[i]];
+            if (end - i > 2 || (end - i == 2 && facet.even == open[placed[i + 1]].even)) {
+                out = Surface(memory);
+                return;
+            }
+            if (end - i == 1) {
+                if (facet.even)
+                    made.triangles.push_back({facet.low, facet.middle, facet.high});
+                else
+                    made.triangles.push_back({facet.low, facet.high, facet.middle});
+            }
+            i = end;
+        }
+        first = last;
+    }
+    made.triangles.shrink_to_fit();
+    made.is_closed = true;
+    out = std::move(made);
+}
+
+} // namespace vox::fast

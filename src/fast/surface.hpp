@@ -1,0 +1,33 @@
+// The boundary of a mesh, prepared once for winding.hpp: the facets that no two tetrahedra share.
+#pragma once
+
+#include "tiles.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox::fast {
+
+struct Surface {
+    explicit Surface(std::pmr::memory_resource* memory)
+        : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
+
+    // Every facet belongs to one tet, or to two that lie on different sides of it. False: there is no use for
+    // the rest, which is empty then.
+    bool is_closed = false;
+    // Facets of one tet, counter-clockwise from outside when that tet is positive.
+    std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
+    // For each tile, tets to be taken with the last two corners swapped (negative when they were prepared),
+    // and tets that name a corner twice and never hold anything.
+    std::pmr::vector<std::uint64_t> mirrored, ignored;
+    std::pmr::vector<std::uint32_t> loose; // vertices of no tet but ignored ones
+};
+
+// Throws std::bad_alloc and leaves `out` as it was then.
+void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
+                  const Tiles& tiles, Surface& out);
+
+} // namespace vox::fast

@@ -1,0 +1,139 @@
+// What the stages that work on whole tiles share: their vertices in registers, and determinants. Included
+// once per SIMD target, after hwy/highway.h.
+#if defined(VOX_FAST_TILE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOX_FAST_TILE_INL
+#undef VOX_FAST_TILE_INL
+#else
+#define VOX_FAST_TILE_INL
+#endif
+
+#include "query.hpp"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Four = hn::FixedTag<float, 4>;
+using Floats = hn::CappedTag<float, 16>;
+using Words = hn::RebindToUnsigned<Floats>;
+
+// x, y, z of a vertex and one float more, which is the next vertex's x: not for the mesh's last vertex.
+HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
+    return hn::LoadU(Four(), positions + std::size_t{v} * 3);
+}
+
+// The same for the last vertex, without reading past it.
+HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v) {
+    const float* p = positions + std::size_t{v} * 3;
+    alignas(16) const float copy[4] = {p[0], p[1], p[2], 0};
+    return hn::Load(Four(), copy);
+}
+
+template <class Load>
+HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std::uint32_t padded, Load load,
+                      Box& box) {
+    const Four d;
+    auto lo0 = load(positions, vertices[0]), lo1 = load(positions, vertices[1]);
+    auto hi0 = lo0, hi1 = lo1;
+    for (std::uint32_t i = 2; i < padded; i += 2) {
+        const auto p = load(positions, vertices[i]), q = load(positions, vertices[i + 1]);
+        lo0 = hn::Min(lo0, p);
+        hi0 = hn::Max(hi0, p);
+        lo1 = hn::Min(lo1, q);
+        hi1 = hn::Max(hi1, q);
+    }
+    hn::Store(hn::Min(lo0, lo1), d, box.lo);
+    hn::Store(hn::Max(hi0, hi1), d, box.hi);
+}
+
+// The tile's vertices as a structure of arrays, and their box.
+template <class Load>
+HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
+                         Load load, TileVertices& s, Box& box) {
+    const Four d;
+    auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
+    for (std::uint32_t i = 0; i < padded; i += 4) {
+        const auto p0 = load(positions, vertices[i]), p1 = load(positions, vertices[i + 1]);
+        const auto p2 = load(positions, vertices[i + 2]), p3 = load(positions, vertices[i + 3]);
+        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+        const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
+        const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
+        hn::Store(hn::InterleaveLower(d, xy02, xy13), d, s.x + i);
+        hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, s.y + i);
+        hn::Store(hn::InterleaveLower(d, z02, z13), d, s.z + i);
+    }
+    for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
+        hn::Store(hn::Set(d, s.x[0]), d, s.x + i);
+        hn::Store(hn::Set(d, s.y[0]), d, s.y + i);
+        hn::Store(hn::Set(d, s.z[0]), d, s.z + i);
+    }
+    hn::Store(lo, d, box.lo);
+    hn::Store(hi, d, box.hi);
+}
+
+HWY_INLINE void LoadTile(const Tiles& tiles, const float* positions, const Tile& tile, TileVertices& s,
+                         Box& box) {
+    const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+    const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
+    if (tile.holds_last_vertex)
+        LoadTile(positions, vertices, padded, LoadLastVertex, s, box);
+    else
+        LoadTile(positions, vertices, padded, LoadVertex, s, box);
+}
+
+// A table of 64 floats, looked up by lane.
+#if HWY_TARGET == HWY_AVX3
+struct Table {
+    __m512 part[4];
+    explicit Table(const float* values) {
+        for (int i = 0; i < 4; ++i) part[i] = _mm512_load_ps(values + 16 * i);
+    }
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
+        const __m512 high = _mm512_permutex2var_ps(part[2], index.raw, part[3]);
+        const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
+        return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
+    }
+};
+#else
+struct Table {
+    const float* values;
+    explicit Table(const float* from) : values(from) {}
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
+    }
+};
+#endif
+
+using V = hn::Vec<Floats>;
+
+HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
+
+HWY_INLINE void Cross(const V* a, const V* b, V* out) {
+    out[0] = Difference(a[1], b[2], a[2], b[1]);
+    out[1] = Difference(a[2], b[0], a[0], b[2]);
+    out[2] = Difference(a[0], b[1], a[1], b[0]);
+}
+
+HWY_INLINE V Dot(const V* a, const V* b) {
+    return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+}
+
+// The constant of the filter for tets in `box`: see the top of this file.
+HWY_INLINE float Underflow(const Box& box) {
+    const float x = box.hi[0] - box.lo[0], y = box.hi[1] - box.lo[1], z = box.hi[2] - box.lo[2];
+    const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
+    const float largest = x * y * z * 64;
+    return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#endif

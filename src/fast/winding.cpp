@@ -1,0 +1,401 @@
+// Where all tets are positive, the number of tets that cover a point off the facets is the winding number of
+// the boundary around it (the degree of the map; e.g. A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust
+// inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013). Say a vertex v lies in a tet
+// that does not own it. Then next to v are points that this tet covers and that v's own tets cover as well,
+// so some winding number next to v is above one, or else v and that tet meet at the boundary only (below). So
+// a region where no winding number exceeds one has no such vertex.
+//
+// Space is cut into cells. A cell that no boundary triangle touches has one winding number, shared by the
+// untouched cells next to it: 0 outside, else counted at one point. A cell that is touched is safe if there
+// is a direction d such that the normals of all triangles there have a positive product with d and the cells
+// one gets into going against d are safe: along d the winding number only falls, from one at most. Two pieces
+// of boundary that touch each other from outside face opposite ways, so no d suits both: exact contact
+// without overlap is not certified away. Neither is a vertex of two pieces that share a d: both have their
+// inside against d there, and overlap.
+//
+// Tets that are not positive, or not surely so, make every cell of their box unsafe; they count neither way
+// elsewhere.
+#include "winding.hpp"
+#include "../simd.hpp"
+
+#include "predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/winding.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "tile-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+// Makes the boxes of all tiles and, for each, the set of tets that the float filter (query.cpp) does not find
+// positive.
+void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+            Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    const Floats d;
+    const Words du;
+    const hn::Rebind<std::uint8_t, Floats> db;
+    TileVertices vertices;
+    const std::size_t count = tiles.tiles.size();
+    for (std::size_t t = 0; t < count; ++t) {
+        const Tile& tile = tiles.tiles.data()[t];
+        LoadTile(tiles, positions, tile, vertices, boxes[t]);
+        known[t] = 1;
+        const std::uint8_t* corners = tiles.corners.data() + t * 4 * tile_size;
+        const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
+        const V underflow = hn::Set(d, Underflow(boxes[t]));
+        std::uint64_t not_positive = 0, not_negative = 0;
+        for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
+            const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
+            const auto ib = hn::PromoteTo(du, hn::LoadU(db, corners + tile_size + i));
+            const auto ic = hn::PromoteTo(du, hn::LoadU(db, corners + 2 * tile_size + i));
+            const auto id = hn::PromoteTo(du, hn::LoadU(db, corners + 3 * tile_size + i));
+            V e1[3], e2[3], e3[3], bound = hn::Set(d, 256 * 0x1p-24f);
+            for (int a = 0; a < 3; ++a) {
+                const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
+                e1[a] = hn::Sub(vb, va);
+                e2[a] = hn::Sub(vc, va);
+                e3[a] = hn::Sub(vd, va);
+                // The filter's box: here it is enough that no edge at the first corner is longer.
+                bound = hn::Mul(bound, hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a])));
+            }
+            V n[3];
+            Cross(e2, e3, n);
+            const V volume = Dot(e1, n);
+            bound = hn::Add(bound, underflow);
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(d, hn::Not(hn::Gt(volume, bound)), bits);
+            not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+            hn::StoreMaskBits(d, hn::Not(hn::Lt(volume, hn::Neg(bound))), bits);
+            not_negative |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+        }
+        const std::uint64_t mirrored = surface.mirrored.data()[t];
+        bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & ~surface.ignored.data()[t] &
+                 (~std::uint64_t{0} >> (64u - tile.tet_count));
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::fast {
+
+namespace {
+
+// 13 directions and their opposites: bit 2 k and bit 2 k + 1 of a set.
+constexpr int direction_count = 13;
+constexpr int directions[direction_count][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},  {1, 1, 0},  {1, -1, 0},
+                                                {1, 0, 1},  {1, 0, -1}, {0, 1, 1},  {0, 1, -1}, {1, 1, 1},
+                                                {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
+constexpr std::uint32_t all_directions = (1u << 2 * direction_count) - 1; // and no triangle: bit 31
+constexpr std::uint32_t untouched = 0x80000000u | all_directions;
+
+Vec3f point(const float* positions, std::uint32_t v) {
+    const float* p = positions + std::size_t{v} * 3;
+    return {p[0], p[1], p[2]};
+}
+
+// The directions that the normal of abc surely has a positive product with. The components of the normal are
+// off by less than 9 u L^2, where L is the largest difference, and sums of three of them by less than 64 u
+// L^2.
+std::uint32_t facing(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const float vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+    const float longest =
+        std::max({std::abs(ux), std::abs(uy), std::abs(uz), std::abs(vx), std::abs(vy), std::abs(vz)});
+    if (!(longest < 0x1p60f)) return 0;
+    const float n[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+    const float bound = 64 * 0x1p-24f * (longest * longest) + 0x1p-120f * (1 + longest);
+    std::uint32_t set = 0;
+    for (int k = 0; k < direction_count; ++k) {
+        float sum = 0;
+        for (int i = 0; i < 3; ++i) sum += static_cast<float>(directions[k][i]) * n[i];
+        set |= std::uint32_t{sum > bound} << 2 * k | std::uint32_t{sum < -bound} << (2 * k + 1);
+    }
+    return set;
+}
+
+class Certifier {
+public:
+    Certifier(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests)
+        : body_(body), out_(out), exact_tests_(exact_tests) {}
+
+    bool run() {
+        const std::size_t most_cells =
+            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64;
+        Box around = body_.box;
+        for (int a = 0; a < 3; ++a) {
+            around.lo[a] -= static_cast<float>(1.5 * body_.cell_size);
+            around.hi[a] += static_cast<float>(1.5 * body_.cell_size);
+            if (!(around.lo[a] > -infinity && around.hi[a] < infinity)) return false;
+        }
+        out_.lattice = make_lattice(around, body_.cell_size, most_cells);
+        const Lattice& l = out_.lattice;
+        nx_ = l.cells[0];
+        nxy_ = nx_ * l.cells[1];
+        cells_ = l.count();
+        work_left_ = 8 * cells_ + 16 * body_.surface.triangles.size();
+        out_.directions.assign(cells_, untouched);
+        if (!mark_surface()) return false;
+        // The corner cell reaches out to infinity: nothing there, unless rounding ate the margin.
+        if (out_.directions[0] != untouched) return false;
+        // First as if all that is not outside were covered once: cheap, and tells whether it is worth more.
+        judge(false);
+        if (!worthwhile()) return false;
+        out_.bad.resize(body_.tiles.tiles.size());
+        VOX_SIMD_DISPATCH(Orient)
+        (body_.tiles, body_.surface, body_.positions, body_.tile_boxes, body_.tile_known, out_.bad.data());
+        bool any_bad = false;
+        if (!mark_bad_tets(any_bad)) return false;
+        bool as_assumed = !any_bad;
+        for (std::size_t i = 0; i < components_ && as_assumed; ++i)
+            as_assumed = covered_at_most_once(component_[i]);
+        if (!as_assumed || components_ == most_components) {
+            for (std::uint32_t& set : out_.directions)
+                if (set == seen) set = untouched;
+            if (out_.directions[0] != untouched) return false;
+            judge(true);
+        }
+        find_range();
+        return true;
+    }
+
+private:
+    // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
+    bool mark(const Box& box, std::uint32_t set) {
+        const Lattice& l = out_.lattice;
+        std::uint32_t lo[3], hi[3];
+        std::size_t work = 1;
+        for (int a = 0; a < 3; ++a) {
+            lo[a] = l.cell(box.lo[a], a);
+            hi[a] = l.cell(box.hi[a], a);
+            work *= hi[a] - lo[a] + 1;
+        }
+        if (work > work_left_) return false;
+        work_left_ -= work;
+        std::uint32_t* sets = out_.directions.data();
+        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+            for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
+                for (std::size_t c = std::size_t{z} * nxy_ + std::size_t{y} * nx_ + lo[0],
+                                 end = c + (hi[0] - lo[0]);
+                     c <= end; ++c)
+                    sets[c] &= set;
+        return true;
+    }
+
+    bool mark_surface() {
+        for (const std::array<std::uint32_t, 3>& triangle : body_.surface.triangles) {
+            const Vec3f a = point(body_.positions, triangle[0]), b = point(body_.positions, triangle[1]),
+                        c = point(body_.positions, triangle[2]);
+            const Box box{
+                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z}), 0},
+                {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z}), 0}};
+            if (!mark(box, facing(a, b, c))) return false;
+        }
+        return true;
+    }
+
+    void judge(bool count) {
+        out_.certified.assign(cells_, 0);
+        spread(0, true);
+        judge_components(count);
+        judge_touched();
+    }
+
+    // A thin body has surface everywhere, facing both ways; so has one that lies on itself.
+    bool worthwhile() const {
+        std::size_t inside = 0;
+        for (const std::uint32_t set : out_.directions) inside += set < seen;
+        for (std::size_t i = 0; i < components_; ++i) inside += component_size_[i];
+        return out_.touched.size() * 6 < inside;
+    }
+
+    bool mark_bad_tets(bool& any) {
+        std::size_t bad = 0;
+        for (std::size_t t = 0; t < out_.bad.size(); ++t) {
+            const Tile& tile = body_.tiles.tiles[t];
+            for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
+                const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+                Vec3f q[4];
+                for (std::uint32_t c = 0; c < 4; ++c)
+                    q[c] = point(body_.positions,
+                                 body_.tiles.vertices[tile.first_vertex +
+                                                      body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
+                int sign = orientation(q[0], q[1], q[2], q[3], exact_tests_);
+                if (body_.surface.mirrored[t] >> i & 1) sign = -sign;
+                if (sign > 0) continue;
+                any = true;
+                Box box = empty_box;
+                for (const Vec3f& p : q) add(box, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
+                if (++bad > body_.tiles.tets.size() / 16 || !mark(box, 0)) return false;
+            }
+        }
+        return true;
+    }
+
+    // From an untouched cell to all that can be reached through untouched ones; safe ones are certified.
+    // Returns how many.
+    std::size_t spread(std::size_t from, bool safe) {
+        std::pmr::vector<std::uint32_t>& queue = out_.queue;
+        const auto visit = [&](std::size_t c) {
+            if (out_.directions[c] != untouched) return;
+            out_.directions[c] = seen;
+            out_.certified[c] = safe;
+            queue.push_back(static_cast<std::uint32_t>(c));
+        };
+        std::size_t size = 0;
+        queue.clear();
+        visit(from);
+        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1], nz = out_.lattice.cells[2];
+        while (!queue.empty()) {
+            const std::uint32_t c = queue.back();
+            queue.pop_back();
+            ++size;
+            const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
+            if (x > 0) visit(c - 1);
+            if (x + 1 < nx) visit(c + 1);
+            if (y > 0) visit(c - nx);
+            if (y + 1 < ny) visit(c + nx);
+            if (z > 0) visit(c - nxy_);
+            if (z + 1 < nz) visit(c + nxy_);
+        }
+        return size;
+    }
+
+    // The untouched cells that are not outside: all safe, or by the winding number at one point of each
+    // component.
+    void judge_components(bool count) {
+        components_ = 0; // each count looks at all tiles: no more than a few
+        for (std::size_t c = 0; c < cells_ && components_ < most_components; ++c) {
+            if (out_.directions[c] != untouched) continue;
+            const std::size_t size = spread(c, !count || covered_at_most_once(c));
+            component_[components_] = c;
+            component_size_[components_++] = size;
+        }
+    }
+
+    bool covered_at_most_once(std::size_t cell) {
+        const Lattice& l = out_.lattice;
+        const std::uint32_t index[3] = {static_cast<std::uint32_t>(cell % nx_),
+                                        static_cast<std::uint32_t>(cell / nx_ % l.cells[1]),
+                                        static_cast<std::uint32_t>(cell / nxy_)};
+        float p[3];
+        for (int a = 0; a < 3; ++a) {
+            p[a] = l.origin[a] + (static_cast<float>(index[a]) + 0.5f) / l.inverse;
+            if (l.cell(p[a], a) != index[a]) return false;
+        }
+        const Vec3f at{p[0], p[1], p[2]};
+        const Box point_box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+        int covering = 0;
+        for (std::size_t t = 0; t < body_.tiles.tiles.size() && covering < 2; ++t) {
+            if (!overlap(body_.tile_boxes[t], point_box)) continue;
+            const Tile& tile = body_.tiles.tiles[t];
+            for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
+                Vec3f q[4];
+                for (std::uint32_t c = 0; c < 4; ++c)
+                    q[c] = point(body_.positions,
+                                 body_.tiles.vertices[tile.first_vertex +
+                                                      body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
+                const Containment where = locate(at, q[0], q[1], q[2], q[3], exact_tests_);
+                covering += where == Containment::interior || where == Containment::boundary;
+            }
+        }
+        return covering <= 1;
+    }
+
+    // Touched cells, again and again while there is one more that is safe.
+    void judge_touched() {
+        // enterable[n]: the directions that are open when the neighbours n (bits x-, x+, y-, y+, z-, z+) are
+        // safe.
+        std::uint32_t enterable[64];
+        for (std::uint32_t n = 0; n < 64; ++n) {
+            enterable[n] = 0;
+            for (int k = 0; k < 2 * direction_count; ++k) {
+                bool open = true;
+                for (int a = 0; a < 3; ++a) {
+                    const int step = directions[k / 2][a] * (k % 2 ? -1 : 1);
+                    if (step) open = open && (n >> (2 * a + (step > 0 ? 0 : 1)) & 1);
+                }
+                if (open) enterable[n] |= 1u << k;
+            }
+        }
+        std::pmr::vector<std::uint32_t>& touched = out_.touched;
+        touched.clear();
+        for (std::size_t c = 0; c < cells_; ++c)
+            if (!out_.certified[c]) touched.push_back(static_cast<std::uint32_t>(c));
+        const std::uint8_t* safe = out_.certified.data();
+        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1], nz = out_.lattice.cells[2];
+        for (bool changed = true; changed;) {
+            changed = false;
+            std::size_t kept = 0;
+            for (const std::uint32_t c : touched) {
+                const std::uint32_t set = out_.directions[c];
+                bool now_safe = false;
+                if (set != 0 && set < seen) {
+                    const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
+                    std::uint32_t n = 0;
+                    n |= std::uint32_t{x > 0 && safe[c - 1]} << 0 | std::uint32_t{x + 1 < nx && safe[c + 1]}
+                                                                        << 1;
+                    n |= std::uint32_t{y > 0 && safe[c - nx]} << 2 | std::uint32_t{y + 1 < ny && safe[c + nx]}
+                                                                         << 3;
+                    n |= std::uint32_t{z > 0 && safe[c - nxy_]} << 4 |
+                         std::uint32_t{z + 1 < nz && safe[c + nxy_]} << 5;
+                    now_safe = (set & enterable[n]) != 0;
+                }
+                if (now_safe) {
+                    out_.certified[c] = 1;
+                    changed = true;
+                } else {
+                    touched[kept++] = c;
+                }
+            }
+            touched.resize(kept);
+        }
+    }
+
+    void find_range() {
+        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1];
+        const std::pmr::vector<std::uint32_t>& touched = out_.touched;
+        out_.complete = touched.empty();
+        for (int a = 0; a < 3; ++a) {
+            out_.first[a] = ~0u;
+            out_.last[a] = 0;
+        }
+        for (const std::uint32_t c : touched) {
+            const std::uint32_t index[3] = {c % nx, c / nx % ny, c / nxy_};
+            for (int a = 0; a < 3; ++a) {
+                out_.first[a] = std::min(out_.first[a], index[a]);
+                out_.last[a] = std::max(out_.last[a], index[a]);
+            }
+        }
+    }
+
+    static constexpr std::uint32_t seen = 0x40000000u; // untouched, and its component is known
+    static constexpr std::size_t most_components = 64;
+
+    const WindingBody& body_;
+    Certificate& out_;
+    std::uint64_t& exact_tests_;
+    std::uint32_t nx_ = 0, nxy_ = 0;
+    std::size_t cells_ = 0, work_left_ = 0;
+    std::size_t components_ = 0;
+    std::size_t component_[most_components],
+        component_size_[most_components]; // a cell, and how many there are
+};
+
+} // namespace
+
+bool certify(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests) {
+    return Certifier(body, out, exact_tests).run();
+}
+
+} // namespace vox::fast
+#endif

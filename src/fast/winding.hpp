@@ -1,0 +1,51 @@
+// Stage 6: which vertices of a body can lie in its own tetrahedra at all, by winding numbers. In a compact
+// body that does not touch itself: none, and next to nothing but its surface was looked at to know.
+#pragma once
+
+#include "surface.hpp"
+#include "window.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox::fast {
+
+// Cells of a lattice around a body, and in which of them a point is covered by at most one tet.
+struct Certificate {
+    explicit Certificate(std::pmr::memory_resource* memory)
+        : directions(memory), queue(memory), touched(memory), bad(memory), certified(memory) {}
+
+    // Buffers.
+    std::pmr::vector<std::uint32_t> directions, queue, touched;
+    std::pmr::vector<std::uint64_t> bad;
+
+    Lattice lattice;
+    std::pmr::vector<std::uint8_t> certified;  // per cell
+    std::uint32_t first[3] = {}, last[3] = {}; // range of the cells that are not
+    bool complete = false;                     // there are none
+
+    bool holds(const float* p) const noexcept {
+        return certified[(std::size_t{lattice.cell(p[2], 2)} * lattice.cells[1] + lattice.cell(p[1], 1)) *
+                             lattice.cells[0] +
+                         lattice.cell(p[0], 0)] != 0;
+    }
+};
+
+struct WindingBody {
+    const Tiles& tiles;
+    const Surface& surface;
+    const float* positions; // packed
+    Box box;
+    double cell_size; // of the lattice
+    Box* tile_boxes;  // all known afterwards, unless certify() returned false
+    std::uint8_t* tile_known;
+};
+
+// Fills `out` so that no vertex in a certified cell lies in a tet that does not own it, vertices of no tet
+// (see Surface::loose) excepted. False: it would not pay, or cannot be told; use all vertices. `exact_tests`
+// as in predicates.hpp.
+bool certify(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests);
+
+} // namespace vox::fast
