@@ -23,7 +23,7 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
   if(NOT VOX_SANITIZE)
     add_test(NAME install
       COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/install/run.sh ${PROJECT_BINARY_DIR}
-        ${CMAKE_CURRENT_SOURCE_DIR}/install ${CMAKE_COMMAND} ${CMAKE_C_COMPILER}
+        ${CMAKE_CURRENT_SOURCE_DIR}/install ${CMAKE_COMMAND} ${CMAKE_GENERATOR} ${CMAKE_C_COMPILER}
         $<IF:$<BOOL:${VOX_TBB}>,tbb,lean>)
   endif()
 endif()

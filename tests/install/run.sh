@@ -1,13 +1,13 @@
 #!/bin/sh
-# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE CC lean|tbb: installs into a scratch prefix and builds the two consumers there.
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC lean|tbb: installs into a scratch prefix and builds the two consumers there.
 set -eu
-build=$1 source=$2 cmake=$3 cc=$4 threads=$5
+build=$1 source=$2 cmake=$3 generator=$4 cc=$5 threads=$6
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 cp "$source/consumer.c" "$source/CMakeLists.txt" "$scratch"
 
-"$cmake" -S "$scratch" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
+"$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$scratch/build/consumer"
 
