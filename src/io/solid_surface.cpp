@@ -13,7 +13,23 @@ namespace vox::io {
 namespace {
 
 using Point = std::array<std::int32_t, 3>;
-using Triangle = std::array<std::uint32_t, 3>;
+using Corners = std::array<std::uint32_t, 3>;
+
+// Corners in ascending order, so that no figure depends on the order they are given in.
+struct Triangle {
+    Corners corners;
+    int turn; // -1 when the order is not the given one (nor a rotation of it)
+};
+
+Triangle in_order(Corners corners) {
+    int turn = 1;
+    for (const std::size_t k : {0, 1, 0})
+        if (corners[k] > corners[k + 1]) {
+            std::swap(corners[k], corners[k + 1]);
+            turn = -turn;
+        }
+    return {corners, turn};
+}
 
 // Integer coordinates stay below 2^29, so that products of differences, and their differences, fit into 63
 // bits.
@@ -101,10 +117,10 @@ std::vector<std::uint32_t> weld(std::vector<Point>& points) {
     return number;
 }
 
-void check_edges(const std::vector<Triangle>& triangles, SurfaceCheck& check) {
+void check_edges(const std::vector<Corners>& triangles, SurfaceCheck& check) {
     std::vector<std::uint64_t> edges; // lower vertex, higher vertex, and in the last bit the direction
     edges.reserve(3 * triangles.size());
-    for (const Triangle& t : triangles)
+    for (const Corners& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint64_t a = t[k], b = t[(k + 1) % 3];
             edges.push_back(a < b ? a << 32 | b << 1 : b << 32 | a << 1 | 1);
@@ -121,45 +137,14 @@ void check_edges(const std::vector<Triangle>& triangles, SurfaceCheck& check) {
     }
 }
 
-} // namespace
-
-SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress) {
-    int shift = kCoordinateBits; // a lattice unit, half a cell, is 2^shift
-    const std::int32_t longest = 2 * *std::max_element(frame.cells.begin(), frame.cells.end());
-    while ((std::int64_t{longest} << shift) >= std::int64_t{1} << kCoordinateBits) --shift;
-
-    std::vector<Point> points(surface.vertex_count);
-    const double scale = std::ldexp(1.0, shift) / frame.half_cell;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            // Vertices that no triangle uses may lie outside of the lattice.
-            const double x = std::floor((surface.positions[3 * i + k] - frame.origin[k]) * scale + 0.5);
-            points[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, kCoordinateBits)));
-        }
-    const std::vector<std::uint32_t> number = weld(points);
-    std::vector<Triangle> triangles;
-    triangles.reserve(surface.triangle_count);
-    for (std::size_t t = 0; t < surface.triangle_count; ++t) {
-        const Triangle triangle = {number[surface.triangles[3 * t]], number[surface.triangles[3 * t + 1]],
-                                   number[surface.triangles[3 * t + 2]]};
-        if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
-            triangles.push_back(triangle);
-    }
-    check_.triangles = triangles.size();
-    check_edges(triangles, check_);
-    for (unsigned direction = 0; direction < 7; ++direction) {
-        lines_[direction] = cast(direction, points, triangles, shift);
-        progress.report((direction + 1) / 7.0);
-    }
-}
-
-SurfaceLines::Lines SurfaceLines::cast(unsigned direction, const std::vector<Point>& points,
-                                       const std::vector<Triangle>& triangles, int shift) const {
+// Crosses all lines of a direction with all triangles. `oriented`: by winding number, else by parity.
+LatticeLines cast(unsigned direction, const std::vector<Point>& points,
+                  const std::vector<Triangle>& triangles, int shift, bool oriented) {
     const Projection& projection = kProjections[direction];
     const bool diagonal = direction >= 3;
     const std::int64_t unit = std::int64_t{1} << shift;
     std::vector<Crossing> crossings;
-    for (const Triangle& triangle : triangles) {
+    for (const auto& [triangle, turn] : triangles) {
         std::array<Flat, 3> p{};
         std::array<double, 3> t{};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -195,13 +180,13 @@ SurfaceLines::Lines SurfaceLines::cast(unsigned direction, const std::vector<Poi
                 // does.
                 if (!after) at = std::nextafter(at, std::numeric_limits<double>::infinity());
                 crossings.push_back({static_cast<std::int32_t>(v >> shift),
-                                     static_cast<std::int32_t>(u >> shift), whole > 0 ? -1 : 1, at});
+                                     static_cast<std::int32_t>(u >> shift), whole > 0 ? -turn : turn, at});
             }
         }
     }
     std::sort(crossings.begin(), crossings.end());
 
-    Lines lines;
+    LatticeLines lines;
     if (crossings.size() >= std::numeric_limits<std::uint32_t>::max())
         throw Error(VOX_ERROR_LIMIT,
                     "the surface crosses more than 4294967294 lattice lines: choose larger cells");
@@ -220,7 +205,7 @@ SurfaceLines::Lines SurfaceLines::cast(unsigned direction, const std::vector<Poi
         std::int64_t winding = 0;
         for (; i < crossings.size() && crossings[i].v == first.v && crossings[i].u == first.u; ++i) {
             const bool was_inside = winding != 0;
-            winding = check_.oriented ? winding + crossings[i].turn : 1 - winding;
+            winding = oriented ? winding + crossings[i].turn : 1 - winding;
             if ((winding != 0) != was_inside) lines.toggles.push_back(crossings[i].t);
         }
     }
@@ -230,8 +215,42 @@ SurfaceLines::Lines SurfaceLines::cast(unsigned direction, const std::vector<Poi
     return lines;
 }
 
+} // namespace
+
+SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress) {
+    int shift = kCoordinateBits; // a lattice unit, half a cell, is 2^shift
+    const std::int32_t longest = 2 * *std::max_element(frame.cells.begin(), frame.cells.end());
+    while ((std::int64_t{longest} << shift) >= std::int64_t{1} << kCoordinateBits) --shift;
+
+    std::vector<Point> points(surface.vertex_count);
+    const double scale = std::ldexp(1.0, shift) / frame.half_cell;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            // Vertices that no triangle uses may lie outside of the lattice.
+            const double x = std::floor((surface.positions[3 * i + k] - frame.origin[k]) * scale + 0.5);
+            points[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, kCoordinateBits)));
+        }
+    const std::vector<std::uint32_t> number = weld(points);
+    std::vector<Corners> given;
+    given.reserve(surface.triangle_count);
+    for (std::size_t t = 0; t < surface.triangle_count; ++t) {
+        const Corners corners = {number[surface.triangles[3 * t]], number[surface.triangles[3 * t + 1]],
+                                 number[surface.triangles[3 * t + 2]]};
+        if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+            given.push_back(corners);
+    }
+    check_.triangles = given.size();
+    check_edges(given, check_);
+    std::vector<Triangle> triangles(given.size());
+    std::transform(given.begin(), given.end(), triangles.begin(), in_order);
+    for (unsigned direction = 0; direction < 7; ++direction) {
+        lines_[direction] = cast(direction, points, triangles, shift, check_.oriented);
+        progress.report((direction + 1) / 7.0);
+    }
+}
+
 SurfaceLines::Line SurfaceLines::find(unsigned direction, const Node& node) const {
-    const Lines& lines = lines_[direction];
+    const LatticeLines& lines = lines_[direction];
     const Point point = {node.x, node.y, node.z};
     const auto u = static_cast<std::int32_t>(apply(kProjections[direction].rows[1], point));
     const auto v = static_cast<std::int32_t>(apply(kProjections[direction].rows[2], point));
@@ -247,7 +266,7 @@ SurfaceLines::Line SurfaceLines::find(unsigned direction, const Node& node) cons
 
 // The nodes inside according to the lines along one axis. Lines that end inside are left out.
 std::vector<Run> SurfaceLines::runs_along(unsigned axis) const {
-    const Lines& lines = lines_[axis];
+    const LatticeLines& lines = lines_[axis];
     std::vector<Run> runs;
     for (std::size_t row = 0; row + 1 < lines.row_start.size(); ++row)
         for (std::uint32_t line = lines.row_start[row]; line < lines.row_start[row + 1]; ++line) {

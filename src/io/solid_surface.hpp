@@ -20,6 +20,16 @@ struct SurfaceCheck {
     bool oriented = false;        // every edge is used as often in one direction as in the other
 };
 
+// All lines of one direction. A line is named by two coordinates (u, v) that are the same for all its points;
+// its toggles are the places, ascending, where it enters or leaves the body.
+struct LatticeLines {
+    std::int32_t first_v = 0;
+    std::vector<std::uint32_t> row_start; // of each v, in line_u
+    std::vector<std::int32_t> line_u;
+    std::vector<std::uint32_t> start; // of each line, in toggles
+    std::vector<double> toggles;
+};
+
 // The lines along the lattice's seven edge directions and where they enter and leave the body.
 //
 // The surface is moved to a fine integer grid first, so that "does this line meet this triangle" is decided
@@ -45,27 +55,16 @@ public:
     double leaves(const Node& node, unsigned neighbour) const;
 
 private:
-    // All lines of one direction. A line is named by two coordinates (u, v) that are the same for all its
-    // points; its toggles are the places, ascending, where it enters or leaves the body.
-    struct Lines {
-        std::int32_t first_v = 0;
-        std::vector<std::uint32_t> row_start; // of each v, in line_u
-        std::vector<std::int32_t> line_u;
-        std::vector<std::uint32_t> start; // of each line, in toggles
-        std::vector<double> toggles;
-    };
     struct Line {
         const double* begin;
         const double* end;
     };
 
-    Lines cast(unsigned direction, const std::vector<std::array<std::int32_t, 3>>& points,
-               const std::vector<std::array<std::uint32_t, 3>>& triangles, int shift) const;
     Line find(unsigned direction, const Node& node) const;
     std::vector<Run> runs_along(unsigned axis) const;
 
     SurfaceCheck check_;
-    std::array<Lines, 7> lines_;
+    std::array<LatticeLines, 7> lines_;
 };
 
 } // namespace vox::io
