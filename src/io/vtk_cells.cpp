@@ -79,7 +79,7 @@ VtkCellType vtk_cell_type(std::uint64_t type) {
     default:
         break;
     }
-    for (const std::uint64_t volume : {25, 26, 27, 29, 32, 33, 37, 41, 72, 73, 74, 79, 80, 81})
+    for (const unsigned volume : {25u, 26u, 27u, 29u, 32u, 33u, 37u, 41u, 72u, 73u, 74u, 79u, 80u, 81u})
         if (type == volume) return {Cell::volume, 0, "cells of higher order"};
     return {Cell::other, 0, "other cells"};
 }
