@@ -21,6 +21,9 @@ public:
     // between steps.
     virtual void setup(const Scene& scene) = 0;
 
+    // Finds its best settings for the scene.
+    virtual void tune(const Scene&) {}
+
     // Finds every vertex in a closed tetrahedron for the positions as they are now. This is what is timed.
     virtual void step() = 0;
 

@@ -4,11 +4,11 @@
 #include "entrant.hpp"
 #include "results.hpp"
 #include "scenes.hpp"
+#include "stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -27,8 +27,13 @@ struct Options {
     double seconds = 2;
     std::size_t steps = 60;
     bool shuffle = false;
+    bool growth = false;
     bool list = false;
 };
+
+// How time grows with size: vox and the floors alone.
+constexpr double growth_sizes[] = {1e4, 3e4, 1e5, 3e5, 1e6, 2e6, 5e6};
+const std::vector<std::string> growth_scenes = {"overlap-1", "self", "overlap-50"};
 
 struct Running {
     EntrantMaker maker;
@@ -36,12 +41,6 @@ struct Running {
     Result result;
     double spent = 0;
 };
-
-double seconds_of_step(Entrant& entrant) {
-    const auto start = std::chrono::steady_clock::now();
-    entrant.step();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 bool same(const std::vector<vox_contact>& x, const std::vector<vox_contact>& y) {
     static_assert(sizeof(vox_contact) == 32, "no padding");
@@ -93,7 +92,7 @@ void time(Scene& scene, std::vector<Running>& running, const Options& options) {
                     (seconds.size() >= least_steps && r.spent > options.seconds))
                     break;
                 scene.pose((frame + i) % scene.frame_count());
-                seconds.push_back(seconds_of_step(*r.entrant));
+                seconds.push_back(seconds_of([&] { r.entrant->step(); }));
                 turn += seconds.back();
                 r.spent += seconds.back();
                 any = true;
@@ -108,8 +107,10 @@ bool run(const SceneMaker& maker, double tets, const std::vector<EntrantMaker>& 
     Scene scene = maker.make(tets, options.shuffle);
     std::vector<Running> running;
     for (const EntrantMaker& entrant : entrants) {
-        running.push_back({entrant, entrant.make(), {entrant.name, entrant.kind, {}, 0, 0, true}});
-        running.back().entrant->setup(scene);
+        running.push_back({entrant, entrant.make(), {entrant.name, entrant.kind, {}, 0, 0, 0, true}});
+        Running& r = running.back();
+        r.result.setup_seconds = seconds_of([&] { r.entrant->setup(scene); });
+        r.entrant->tune(scene);
     }
     SceneResult result{scene.name,          maker.title,           scene.tet_count(), scene.vertex_count(),
                        scene.bodies.size(), check(scene, running), scene.mean_edge,   {}};
@@ -169,6 +170,13 @@ int run_all(const Options& options, const std::string& command) {
             agree = run(maker, tets, all, options, csv.get()) && agree;
             if (!maker.sized) break;
         }
+    if (options.growth) {
+        std::erase_if(all,
+                      [](const EntrantMaker& e) { return e.kind != Kind::floor && e.name != subject_name; });
+        for (const SceneMaker& maker : makers)
+            if (std::ranges::find(growth_scenes, maker.name) != growth_scenes.end())
+                for (double tets : growth_sizes) agree = run(maker, tets, all, options, csv.get()) && agree;
+    }
     if (!agree) std::fputs("\nnot all entrants found the same contacts\n", stderr);
     return agree ? 0 : 1;
 }
@@ -185,7 +193,8 @@ int main(int argc, char** argv) {
                    "sizes of the scenes in tetrahedra, e.g. 42000,1000000 (default 84000)")
         ->delimiter(',')
         ->check(CLI::Range(1000.0, 5e7));
-    app.add_flag("--full", full, "the sizes that the documentation shows: 1000000");
+    app.add_flag("--full", full, "as the documentation shows: --tets 1000000 --growth");
+    app.add_flag("--growth", options.growth, "also vox alone in scenes from 10000 to 5000000 tetrahedra");
     app.add_option("--scenes", options.scenes, "names of the scenes to run (default: all)")->delimiter(',');
     app.add_option("--entrants", options.entrants, "names of the entrants to run (default: all)")
         ->delimiter(',');
@@ -201,8 +210,13 @@ int main(int argc, char** argv) {
     app.add_flag("--list", options.list, "name the scenes and entrants, then stop");
     CLI11_PARSE(app, argc, argv);
     if (full) options.tets = {1e6};
+    options.growth = options.growth || full;
     std::string command = "./dev bench";
-    for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+    for (int i = 1; i < argc; ++i)
+        if (std::strcmp(argv[i], "--csv") == 0)
+            ++i; // where the results go does not change them
+        else
+            command += std::string(" ") + argv[i];
     try {
         return bench::run_all(options, command);
     } catch (const std::exception& error) {

@@ -13,6 +13,7 @@ struct Result {
     std::string entrant;
     Kind kind;
     std::vector<double> seconds; // one per timed step
+    double setup_seconds;
     std::size_t bytes;
     double cell_size;
     bool agrees; // found the same contacts as all others, in every frame

@@ -53,6 +53,12 @@ Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0
     };
 }
 
+// The poses of two bodies side by side, `distance` apart and a little off the common axis.
+Pose beside(double radius, std::size_t body, double distance, double amplitude = 0.01) {
+    return body == 0 ? waves(radius, {0, 0, 0}, 0, amplitude)
+                     : waves(radius, {distance, 0.01 * radius, 0.02 * radius}, 0.9, amplitude);
+}
+
 double mean_edge(const Scene& scene) {
     double sum = 0;
     for (const Body& body : scene.bodies)
@@ -79,14 +85,15 @@ void must(vox_result result) {
     if (result != VOX_OK) throw std::runtime_error(vox_last_error());
 }
 
-// Share of the tetrahedra of two bodies that hold a vertex of the other one.
-double contact_share(const Solid (&solids)[2], const Pose (&poses)[2]) {
+// The distance, in [0, far], at which `share` of the tetrahedra of two bodies hold a vertex of the other one.
+double place_by_contacts(const Solid (&solids)[2], const std::function<Pose(std::size_t body, double)>& pose,
+                         double far, double share) {
     vox_grid* grid = nullptr;
     must(vox_grid_create(nullptr, &grid));
     std::vector<float> positions[2];
     vox_mesh meshes[2] = {};
     for (std::size_t b = 0; b < 2; ++b) {
-        positions[b] = frame_positions(solids[b], poses[b], 0);
+        positions[b] = frame_positions(solids[b], pose(b, far), 0);
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = positions[b].data();
         desc.vertex_count = solids[b].positions.size();
@@ -94,51 +101,49 @@ double contact_share(const Solid (&solids)[2], const Pose (&poses)[2]) {
         desc.tet_count = solids[b].tets.size() / 4;
         must(vox_mesh_insert(grid, &desc, &meshes[b]));
     }
-    must(vox_grid_step(grid));
-    vox_contact_view view;
-    must(vox_grid_contacts(grid, &view));
-    std::vector<bool> hit[2];
-    for (std::size_t b = 0; b < 2; ++b) hit[b].resize(solids[b].tets.size() / 4);
-    for (std::uint64_t c = 0; c < view.count; ++c)
-        hit[view.data[c].mesh_b == meshes[1]][view.data[c].tet] = true;
+    const double distance = bisect(0, far, share, [&](double d) {
+        for (std::size_t b = 0; b < 2; ++b)
+            std::ranges::copy(frame_positions(solids[b], pose(b, d), 0), positions[b].begin());
+        must(vox_grid_step(grid));
+        vox_contact_view view;
+        must(vox_grid_contacts(grid, &view));
+        std::vector<bool> hit[2];
+        for (std::size_t b = 0; b < 2; ++b) hit[b].resize(solids[b].tets.size() / 4);
+        for (std::uint64_t c = 0; c < view.count; ++c)
+            hit[view.data[c].mesh_b == meshes[1]][view.data[c].tet] = true;
+        const auto hits = std::ranges::count(hit[0], true) + std::ranges::count(hit[1], true);
+        return static_cast<double>(hits) / static_cast<double>(hit[0].size() + hit[1].size());
+    });
     vox_grid_destroy(grid);
-    double hits = 0;
-    for (const std::vector<bool>& of_body : hit)
-        hits += static_cast<double>(std::ranges::count(of_body, true));
-    return hits / static_cast<double>(hit[0].size() + hit[1].size());
+    return distance;
 }
 
 // ---- the scenes -----------------------------------------------------------------------------------
 
-// Two balls side by side at `distance` radii. The small offset keeps their lattices from lining up.
-constexpr double second_y = 0.123, second_z = 0.271;
-
-Scene two_balls(double tets, bool shuffled,
-                const std::function<double(const Solid (&)[2], double radius)>& place) {
+// Two balls side by side. The small offset keeps their lattices from lining up.
+Scene two_balls(double tets, bool shuffled, const std::function<double(const Solid (&)[2])>& place) {
     Solid solids[2] = {lattice_ball(tets / 2, 1), lattice_ball(tets / 2, 2)};
     if (shuffled)
         for (std::size_t b = 0; b < 2; ++b) shuffle(solids[b], b);
-    const double radius = ball_radius(tets / 2);
-    const double distance = place(solids, radius);
+    const double distance = place(solids);
     Scene scene;
-    add(scene, solids[0], waves(radius, {0, 0, 0}, 0));
-    add(scene, solids[1], waves(radius, {distance, second_y, second_z}, 0.9));
+    for (std::size_t b = 0; b < 2; ++b) add(scene, solids[b], beside(ball_radius(tets / 2), b, distance));
     return scene;
 }
 
 Scene two_balls_by_volume(double tets, bool shuffled, double share) {
-    return two_balls(tets, shuffled, [=](const Solid(&)[2], double radius) {
+    return two_balls(tets, shuffled, [=](const Solid(&)[2]) {
         // Two unit balls at distance d have pi (4 + d) (2 - d)^2 / 12 in common.
-        return radius * bisect(0, 2, share, [](double d) { return (4 + d) * (2 - d) * (2 - d) / 16; });
+        return ball_radius(tets / 2) *
+               bisect(0, 2, share, [](double d) { return (4 + d) * (2 - d) * (2 - d) / 16; });
     });
 }
 
 Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
-    return two_balls(tets, shuffled, [=](const Solid(&solids)[2], double radius) {
-        return bisect(radius, 2.2 * radius, share, [&](double d) {
-            return contact_share(solids,
-                                 {waves(radius, {0, 0, 0}, 0), waves(radius, {d, second_y, second_z}, 0.9)});
-        });
+    return two_balls(tets, shuffled, [=](const Solid(&solids)[2]) {
+        const double radius = ball_radius(tets / 2);
+        const auto pose = [=](std::size_t b, double d) { return beside(radius, b, d); };
+        return place_by_contacts(solids, pose, 2.2 * radius, share);
     });
 }
 
@@ -189,6 +194,8 @@ Scene coil(double tets, bool shuffled) {
     return scene;
 }
 
+constexpr double file_amplitude = 0.005; // less: they have thin parts
+
 double half_longest_side(const Solid& solid) {
     Vec3 low = solid.positions.front(), high = low;
     for (const Vec3& p : solid.positions) {
@@ -206,18 +213,10 @@ Scene file_pair(const std::string& path, bool shuffled, double share) {
     if (shuffled)
         for (std::size_t b = 0; b < 2; ++b) shuffle(solids[b], b);
     const double radius = half_longest_side(solids[0]);
-    const auto poses = [&](double d, Pose(&out)[2]) {
-        out[0] = waves(radius, {0, 0, 0}, 0, 0.005);
-        out[1] = waves(radius, {d, 0.013 * radius, 0.027 * radius}, 0.9, 0.005);
-    };
-    Pose placed[2];
-    const double distance = bisect(0, 2.2 * radius, share, [&](double d) {
-        poses(d, placed);
-        return contact_share(solids, placed);
-    });
-    poses(distance, placed);
+    const auto pose = [=](std::size_t b, double d) { return beside(radius, b, d, file_amplitude); };
+    const double distance = place_by_contacts(solids, pose, 2.2 * radius, share);
     Scene scene;
-    for (std::size_t b = 0; b < 2; ++b) add(scene, solids[b], placed[b]);
+    for (std::size_t b = 0; b < 2; ++b) add(scene, solids[b], pose(b, distance));
     return scene;
 }
 
@@ -225,7 +224,7 @@ Scene file_self(const std::string& path, bool shuffled) {
     Solid solid = read_solid(path);
     if (shuffled) shuffle(solid, 1);
     Scene scene;
-    add(scene, solid, waves(half_longest_side(solid), {0, 0, 0}, 0, 0.005), true);
+    add(scene, solid, waves(half_longest_side(solid), {0, 0, 0}, 0, file_amplitude), true);
     return scene;
 }
 

@@ -1,10 +1,10 @@
 // The engines of vox through its C interface, as a user would call them.
 #include "entrant.hpp"
+#include "stopwatch.hpp"
 
 #include <vox/vox.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <stdexcept>
 
@@ -22,7 +22,7 @@ void must(vox_result result) {
 struct Engine {
     std::string name;
     vox_engine engine;
-    bool sweep; // try cell sizes at setup and keep the fastest one
+    bool sweep; // try cell sizes and keep the fastest one
 };
 
 const Engine engines[] = {
@@ -56,7 +56,21 @@ public:
             meshes_.emplace_back();
             must(vox_mesh_insert(grid_, &desc, &meshes_.back()));
         }
-        if (sweep_) find_cell_size(scene.mean_edge);
+    }
+
+    void tune(const Scene& scene) override {
+        if (!sweep_) return;
+        double best_size = 0, best_seconds = std::numeric_limits<double>::infinity();
+        for (double factor : sweep_factors) {
+            must(vox_grid_set_cell_size(grid_, factor * scene.mean_edge));
+            for (int repeat = 0; repeat < 3; ++repeat) {
+                const double seconds = seconds_of([&] { step(); });
+                if (seconds >= best_seconds) continue;
+                best_seconds = seconds;
+                best_size = factor * scene.mean_edge;
+            }
+        }
+        must(vox_grid_set_cell_size(grid_, best_size));
     }
 
     void step() override { must(vox_grid_step(grid_)); }
@@ -89,23 +103,6 @@ public:
     }
 
 private:
-    void find_cell_size(double mean_edge) {
-        double best_size = 0, best_seconds = std::numeric_limits<double>::infinity();
-        for (double factor : sweep_factors) {
-            must(vox_grid_set_cell_size(grid_, factor * mean_edge));
-            for (int repeat = 0; repeat < 3; ++repeat) {
-                const auto start = std::chrono::steady_clock::now();
-                step();
-                const double seconds =
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-                if (seconds >= best_seconds) continue;
-                best_seconds = seconds;
-                best_size = factor * mean_edge;
-            }
-        }
-        must(vox_grid_set_cell_size(grid_, best_size));
-    }
-
     bool sweep_;
     vox_grid* grid_ = nullptr;
     std::vector<vox_mesh> meshes_;
