@@ -55,15 +55,15 @@ public:
 
 private:
     struct BodyState {
-        const float* positions;        // packed
-        std::uint32_t first_block;     // in block_boxes_
-        std::uint32_t first_super;     // in super_boxes_
-        std::uint32_t first_tile;      // in tile_boxes_ and tile_known_
-        bool super_known;              // super_boxes_ are made
-        bool tiles_known;              // all of tile_boxes_ are
-        bool self;                     // some vertices of the window may be in tets of the same body
-        double tile_sides, tile_count; // of the tiles that will query its window
-        fast::Box own;                 // where vertices of the window may be in tets of the same body
+        const float* positions;           // packed
+        std::uint32_t first_block;        // in block_boxes_
+        std::uint32_t first_super;        // in super_boxes_
+        std::uint32_t first_tile;         // in tile_boxes_ and tile_known_
+        bool super_known;                 // super_boxes_ are made
+        bool tiles_known;                 // all of tile_boxes_ are
+        bool self;                        // some vertices of the window may be in tets of the same body
+        double inverse_sides, tile_count; // of the tiles that will query its window
+        fast::Box own;                    // where vertices of the window may be in tets of the same body
         fast::Window window;
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
@@ -80,7 +80,7 @@ private:
     void make_window(Step& step, std::uint32_t body, std::span<const Reach> reaches);
     bool cull_by_winding(Step& step, std::uint32_t body);
     void activate_blocks(const Step& step, std::uint32_t body);
-    void sample_tiles(const Step& step, std::uint32_t body, double& sides, double& count);
+    void sample_tiles(const Step& step, std::uint32_t body, double& inverse_sides, double& count);
     double cell_size(const Step& step, std::uint32_t body);
     void query(Step& step, std::uint32_t body, std::span<const std::uint32_t> reaching);
 

@@ -35,13 +35,24 @@ constexpr double largest_factor = 16;
 // Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
 // on; in cells of so many mean box sides of a tile.
 constexpr std::size_t min_winding_tets = 2000;
-constexpr std::size_t max_surface = 6;
+constexpr std::size_t max_surface = 8;
 constexpr double winding_cells_per_tile = 0.8;
 
 std::uint64_t nanoseconds() {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
+
+// The harmonic mean of the sides of tiles: a few that reach across the world do not count.
+void add_tile(const Box& box, double& inverse_sides, double& count) {
+    const double sides = (double{box.hi[0]} - double{box.lo[0]}) + (double{box.hi[1]} - double{box.lo[1]}) +
+                         (double{box.hi[2]} - double{box.lo[2]});
+    if (!(sides > 0)) return;
+    inverse_sides += 3 / sides;
+    count += 1;
+}
+
+double mean_side(double inverse_sides, double count) { return count > 0 ? count / inverse_sides : 0; }
 
 [[noreturn]] void throw_non_finite(std::span<const Body> bodies) {
     for (const Body& body : bodies)
@@ -277,7 +288,7 @@ void Fast::reach(Step& step, Reach& reach) {
     Box* boxes = tile_boxes_.data() + state.first_tile;
     std::uint8_t* known = tile_known_.data() + state.first_tile;
     Box covered = fast::empty_box;
-    double sides = 0, number = 0;
+    double inverse_sides = 0, number = 0;
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
         if (!fast::overlap(super_boxes_[state.first_super + s], reach.region)) continue;
         const std::uint32_t first = mesh.super_first[s], last = mesh.super_first[s + 1];
@@ -285,19 +296,16 @@ void Fast::reach(Step& step, Reach& reach) {
         for (std::uint32_t t = first; t < last; ++t) {
             if (!fast::overlap(boxes[t], reach.region)) continue;
             fast::add(covered, boxes[t]);
-            sides += (double{boxes[t].hi[0]} - double{boxes[t].lo[0]}) +
-                     (double{boxes[t].hi[1]} - double{boxes[t].lo[1]}) +
-                     (double{boxes[t].hi[2]} - double{boxes[t].lo[2]});
-            number += 3;
+            add_tile(boxes[t], inverse_sides, number);
         }
     }
     fast::intersect(reach.region, covered);
-    states_[reach.a].tile_sides += sides;
+    states_[reach.a].inverse_sides += inverse_sides;
     states_[reach.a].tile_count += number;
 }
 
-// Adds up the sides of some tiles of a body.
-void Fast::sample_tiles(const Step& step, std::uint32_t body, double& sides, double& count) {
+// add_tile() for some tiles of a body.
+void Fast::sample_tiles(const Step& step, std::uint32_t body, double& inverse_sides, double& count) {
     const FastMesh& mesh = *step.prepared[body];
     const BodyState& state = states_[body];
     const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
@@ -306,16 +314,15 @@ void Fast::sample_tiles(const Step& step, std::uint32_t body, double& sides, dou
         fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
                          tile_known_.data() + state.first_tile);
         const Box& box = tile_boxes_[state.first_tile + t];
-        for (int a = 0; a < 3; ++a) sides += double{box.hi[a]} - double{box.lo[a]};
+        add_tile(box, inverse_sides, count);
     }
-    count += 3.0 * samples;
 }
 
 // From the mean side of the tiles that will query the window of a body.
 double Fast::cell_size(const Step& step, std::uint32_t body) {
     BodyState& state = states_[body];
-    if (state.self) sample_tiles(step, body, state.tile_sides, state.tile_count);
-    const double automatic = cells_per_tile * state.tile_sides / std::max(1.0, state.tile_count);
+    if (state.self) sample_tiles(step, body, state.inverse_sides, state.tile_count);
+    const double automatic = cells_per_tile * mean_side(state.inverse_sides, state.tile_count);
     const double wanted = step.settings.cell_size;
     return wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
 }
@@ -325,13 +332,13 @@ bool Fast::cull_by_winding(Step& step, std::uint32_t b) {
     const FastMesh& mesh = *step.prepared[b];
     if (!step.settings.winding || !mesh.surface.is_closed) return false;
     BodyState& state = states_[b];
-    double sides = 0, count = 0;
-    sample_tiles(step, b, sides, count);
+    double inverse_sides = 0, count = 0;
+    sample_tiles(step, b, inverse_sides, count);
     const fast::WindingBody body{mesh,
                                  mesh.surface,
                                  state.positions,
                                  body_boxes_[b],
-                                 winding_cells_per_tile * sides / std::max(1.0, count),
+                                 winding_cells_per_tile * mean_side(inverse_sides, count),
                                  tile_boxes_.data() + state.first_tile,
                                  tile_known_.data() + state.first_tile};
     if (!fast::certify(body, certificate_, step.counters.exact_tests)) return false;
@@ -404,7 +411,7 @@ void Fast::make_window(Step& step, std::uint32_t a, std::span<const Reach> reach
     cell_size_ = cell_size(step, a);
     const Box box = fast::bounds(points_);
     const fast::Lattice lattice =
-        fast::make_lattice(box, cell_size_, cells_per_vertex * std::size_t{points_.count} + 64);
+        fast::make_lattice(points_, box, cell_size_, cells_per_vertex * std::size_t{points_.count} + 64);
     state.window = fast::bin(points_, lattice, box, bins_);
     state.own = own;
     fast::intersect(state.own, box);

@@ -30,6 +30,21 @@
 
 #include "tile-inl.hpp"
 
+#ifndef VOX_FAST_WINDING_ONCE
+#define VOX_FAST_WINDING_ONCE
+namespace vox::fast {
+
+// Triangles as a structure of arrays: coordinates of corner a, b, c.
+struct TriangleBatch {
+    static constexpr std::size_t size = 64;
+    alignas(64) float corner[3][3][size]; // [corner][axis]
+    alignas(64) float lo[3][size], hi[3][size];
+    alignas(64) std::uint32_t facing[size];
+};
+
+} // namespace vox::fast
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
@@ -81,6 +96,56 @@ void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRIC
     }
 }
 
+// The directions that the normals of triangles surely have a positive product with. The components of a
+// normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
+// them by less than 64 u L^2. Writes those sets, and the boxes.
+void Facing(TriangleBatch& batch, std::size_t count) {
+    const Floats d;
+    const Words du;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        V e[2][3], longest = hn::Zero(d);
+        for (int axis = 0; axis < 3; ++axis) {
+            const V a = hn::Load(d, batch.corner[0][axis] + i), b = hn::Load(d, batch.corner[1][axis] + i);
+            const V c = hn::Load(d, batch.corner[2][axis] + i);
+            hn::Store(hn::Min(a, hn::Min(b, c)), d, batch.lo[axis] + i);
+            hn::Store(hn::Max(a, hn::Max(b, c)), d, batch.hi[axis] + i);
+            e[0][axis] = hn::Sub(b, a);
+            e[1][axis] = hn::Sub(c, a);
+            longest = hn::Max(longest, hn::Max(hn::Abs(e[0][axis]), hn::Abs(e[1][axis])));
+        }
+        V n[3];
+        Cross(e[0], e[1], n);
+        const V square = hn::Mul(longest, longest);
+        const V bound = hn::Add(hn::Mul(square, hn::Set(d, 64 * 0x1p-24f)),
+                                hn::Mul(hn::Add(longest, hn::Set(d, 1.0f)), hn::Set(d, 0x1p-120f)));
+        const V minus_bound = hn::Neg(bound);
+        const V xpy = hn::Add(n[0], n[1]), xmy = hn::Sub(n[0], n[1]);
+        // In the order of `directions`.
+        const V sums[13] = {n[0],
+                            n[1],
+                            n[2],
+                            xpy,
+                            xmy,
+                            hn::Add(n[0], n[2]),
+                            hn::Sub(n[0], n[2]),
+                            hn::Add(n[1], n[2]),
+                            hn::Sub(n[1], n[2]),
+                            hn::Add(xpy, n[2]),
+                            hn::Sub(xpy, n[2]),
+                            hn::Add(xmy, n[2]),
+                            hn::Sub(xmy, n[2])};
+        auto set = hn::Zero(du);
+        for (std::uint32_t k = 0; k < 13; ++k) {
+            set = hn::Or(set, hn::IfThenElseZero(hn::RebindMask(du, hn::Gt(sums[k], bound)),
+                                                 hn::Set(du, 1u << 2 * k)));
+            set = hn::Or(set, hn::IfThenElseZero(hn::RebindMask(du, hn::Lt(sums[k], minus_bound)),
+                                                 hn::Set(du, 2u << 2 * k)));
+        }
+        const auto ordinary = hn::RebindMask(du, hn::Lt(longest, hn::Set(d, 0x1p60f)));
+        hn::Store(hn::IfThenElseZero(ordinary, set), du, batch.facing + i);
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox::fast
 HWY_AFTER_NAMESPACE();
@@ -101,26 +166,6 @@ constexpr std::uint32_t untouched = 0x80000000u | all_directions;
 Vec3f point(const float* positions, std::uint32_t v) {
     const float* p = positions + std::size_t{v} * 3;
     return {p[0], p[1], p[2]};
-}
-
-// The directions that the normal of abc surely has a positive product with. The components of the normal are
-// off by less than 9 u L^2, where L is the largest difference, and sums of three of them by less than 64 u
-// L^2.
-std::uint32_t facing(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-    const float vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-    const float longest =
-        std::max({std::abs(ux), std::abs(uy), std::abs(uz), std::abs(vx), std::abs(vy), std::abs(vz)});
-    if (!(longest < 0x1p60f)) return 0;
-    const float n[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
-    const float bound = 64 * 0x1p-24f * (longest * longest) + 0x1p-120f * (1 + longest);
-    std::uint32_t set = 0;
-    for (int k = 0; k < direction_count; ++k) {
-        float sum = 0;
-        for (int i = 0; i < 3; ++i) sum += static_cast<float>(directions[k][i]) * n[i];
-        set |= std::uint32_t{sum > bound} << 2 * k | std::uint32_t{sum < -bound} << (2 * k + 1);
-    }
-    return set;
 }
 
 class Certifier {
@@ -192,13 +237,22 @@ private:
     }
 
     bool mark_surface() {
-        for (const std::array<std::uint32_t, 3>& triangle : body_.surface.triangles) {
-            const Vec3f a = point(body_.positions, triangle[0]), b = point(body_.positions, triangle[1]),
-                        c = point(body_.positions, triangle[2]);
-            const Box box{
-                {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z}), 0},
-                {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z}), 0}};
-            if (!mark(box, facing(a, b, c))) return false;
+        const auto facing = VOX_SIMD_DISPATCH(Facing);
+        const std::span<const std::array<std::uint32_t, 3>> triangles = body_.surface.triangles;
+        TriangleBatch batch{};
+        for (std::size_t first = 0; first < triangles.size(); first += TriangleBatch::size) {
+            const std::size_t count = std::min(TriangleBatch::size, triangles.size() - first);
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const float* p = body_.positions + std::size_t{triangles[first + i][c]} * 3;
+                    for (std::size_t axis = 0; axis < 3; ++axis) batch.corner[c][axis][i] = p[axis];
+                }
+            facing(batch, count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const Box box{{batch.lo[0][i], batch.lo[1][i], batch.lo[2][i], 0},
+                              {batch.hi[0][i], batch.hi[1][i], batch.hi[2][i], 0}};
+                if (!mark(box, batch.facing[i])) return false;
+            }
         }
         return true;
     }

@@ -3,6 +3,7 @@
 #include "../simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -136,6 +137,28 @@ Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells) {
         lattice.cells[a] = static_cast<std::uint32_t>(cells[a]);
     }
     return lattice;
+}
+
+Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells) {
+    Lattice lattice = make_lattice(box, cell_size, most_cells);
+    constexpr std::uint32_t most_samples = 1024,
+                            tail = 16; // samples on either side that are no bulk, at most
+    if (points.count < most_samples || !(double{lattice.inverse} * cell_size < 0.5)) return lattice;
+    // The bulk: what is left of some samples without the outermost on either side, and half of that again.
+    const float* coordinates[3] = {points.x.data(), points.y.data(), points.z.data()};
+    Box bulk = box;
+    for (int a = 0; a < 3; ++a) {
+        std::array<float, most_samples> sample;
+        for (std::uint32_t i = 0; i < most_samples; ++i)
+            sample[i] = coordinates[a][std::uint64_t{points.count} * i / most_samples];
+        std::nth_element(sample.begin(), sample.begin() + tail, sample.end());
+        std::nth_element(sample.begin() + tail, sample.end() - 1 - tail, sample.end());
+        const double lo = sample[tail], hi = sample[most_samples - 1 - tail],
+                     margin = 0.25 * (hi - lo) + 2 * cell_size;
+        bulk.lo[a] = std::max(box.lo[a], static_cast<float>(lo - margin));
+        bulk.hi[a] = std::min(box.hi[a], static_cast<float>(hi + margin));
+    }
+    return make_lattice(bulk, cell_size, most_cells);
 }
 
 void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,

@@ -46,6 +46,10 @@ struct Lattice {
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
 Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 
+// The same for points in `box`. Where a few of them that lie far away would make the cells large, the lattice
+// covers the bulk alone.
+Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
+
 // The binned vertices of one body, in buffers that the windows of a step share.
 struct Window {
     Lattice lattice;

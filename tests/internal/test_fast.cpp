@@ -372,7 +372,7 @@ Mesh ring(Random& r, double turn) {
 
 START_TEST(winding_culls_compact_bodies) {
     Random r{20};
-    Mesh mesh = block(18, 18, 18);
+    Mesh mesh = block(21, 21, 21);
     jitter(mesh, 0.1, r);
     Scene scene = one_block(mesh);
     ck_assert_uint_eq(check_winding(scene, "a block"), 0);
@@ -385,7 +385,7 @@ START_TEST(winding_culls_compact_bodies) {
     scene = one_block(mesh);
     ck_assert_uint_eq(check_winding(scene, "a block far away, renumbered"), 0);
     double radius = 0;
-    mesh = ball(30000, &radius);
+    mesh = ball(90000, &radius);
     jitter(mesh, 0.1, r);
     scene = one_block(mesh);
     const std::size_t vertices = mesh.positions.size();
@@ -395,7 +395,7 @@ END_TEST
 
 START_TEST(winding_turned_inside_out) {
     Random r{21};
-    Mesh mesh = block(18, 18, 18);
+    Mesh mesh = block(21, 21, 21);
     jitter(mesh, 0.1, r);
     Scene scene = one_block(mesh);
     scene.prepare();
@@ -413,7 +413,7 @@ START_TEST(winding_finds_every_contact) {
         check_winding(scene, "a ring");
     }
     for (int part = 0; part < 6; ++part) {
-        Mesh mesh = block(18, 18, 18);
+        Mesh mesh = block(21, 21, 21);
         if (part != 1) jitter(mesh, 0.1, r);
         const auto vertices = std::uint32_t(mesh.positions.size());
         if (part == 0) // some inverted
@@ -425,7 +425,7 @@ START_TEST(winding_finds_every_contact) {
             }
         if (part == 2) // loose vertices, inside and out
             for (int i = 0; i < 20; ++i)
-                mesh.positions.push_back({r.uniform(-1, 19), r.uniform(-1, 19), r.uniform(-1, 19)});
+                mesh.positions.push_back({r.uniform(-1, 22), r.uniform(-1, 22), r.uniform(-1, 22)});
         if (part == 3) { // cut in two along the lattice, the halves touching
             for (std::uint32_t v = 0; v < vertices; ++v) mesh.positions.push_back(mesh.positions[v]);
             for (std::size_t t = mesh.tets.size() / 2; t < mesh.tets.size(); ++t)
@@ -456,13 +456,13 @@ END_TEST
 // other.
 START_TEST(winding_sees_exact_contact) {
     for (int kind = 0; kind < 6; ++kind) {
-        Mesh mesh = block(17, 17, 17), other = block(17, 17, 17);
-        const float x = 17,
+        Mesh mesh = block(20, 20, 20), other = block(20, 20, 20);
+        const float x = 20,
                     y = kind == 0   ? 17.0f
                         : kind == 5 ? 0.5f
                                     : 0,
                     z = kind <= 1   ? 17.0f
-                        : kind == 4 ? 16.5f
+                        : kind == 4 ? 19.5f
                                     : 0;
         for (Vec3f& p : other.positions) {
             p = {p.x + x, p.y + y, p.z + z};
@@ -590,6 +590,22 @@ START_TEST(memory_is_bounded) {
 }
 END_TEST
 
+// Vertices at the end of the world must not put all others into one cell.
+START_TEST(outliers_do_not_fill_a_cell) {
+    Random r{14};
+    Scene scene = two_blocks(r, 14, 14, true);
+    for (Mesh& mesh : scene.meshes())
+        for (int i = 0; i < 20; ++i)
+            mesh.positions[r.below(std::uint32_t(mesh.positions.size()))] = {r.uniform(-1e20, 1e20), 1e12f,
+                                                                             -1e30f};
+    scene.prepare();
+    Fast engine(std::pmr::get_default_resource());
+    vox_counters counters{};
+    ck_assert(run_fast(engine, scene, 0, &counters) == run_reference(scene, 1.3));
+    ck_assert_uint_lt(counters.fullest_cell, 200); // of 6750 vertices
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -615,6 +631,7 @@ int main() {
     tcase_add_test(tests, non_finite_positions);
     tcase_add_test(tests, steady_state_allocates_nothing);
     tcase_add_test(tests, memory_is_bounded);
+    tcase_add_test(tests, outliers_do_not_fill_a_cell);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
