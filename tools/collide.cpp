@@ -89,9 +89,9 @@ void add_collide(CLI::App& app) {
     CLI::Option* b = command->add_option("B", options->b, "Second mesh file");
     command->add_flag("--self", options->self, "Also the contacts of a mesh with itself");
     command->add_option("--scale", options->scale, "Scales B, before the offset")->check(finite())->needs(b);
-    command->add_option("--offset", options->offset, "Moves B")
+    command->add_option("--offset", options->offset, "Moves B by X Y Z, after the scale")
         ->expected(3)
-        ->type_name("X Y Z")
+        ->type_name("FLOAT")
         ->check(finite())
         ->needs(b);
     add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");

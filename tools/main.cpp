@@ -37,7 +37,8 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
 
 int run(int argc, char** argv) {
     CLI::App app("Exact collision detection for deformable tetrahedral meshes on a voxel grid", "vox");
-    app.set_version_flag("--version", std::string("vox ") + vox_version_string() + "\n" + vox_build_info());
+    app.set_version_flag("--version",
+                         std::string("vox ") + vox_version_string() + "\nlibrary: " + vox_build_info());
     app.require_subcommand(1);
     tool::add_demo(app);
     tool::add_info(app);
