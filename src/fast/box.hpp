@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <limits>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace vox::fast {
 
 struct alignas(16) Box {
@@ -29,8 +33,15 @@ inline bool is_empty(const Box& a) noexcept {
 }
 
 inline bool overlap(const Box& a, const Box& b) noexcept {
+#if defined(__SSE2__)
+    // What compilers do not make of the comparisons below.
+    const __m128 apart = _mm_or_ps(_mm_cmpgt_ps(_mm_load_ps(a.lo), _mm_load_ps(b.hi)),
+                                   _mm_cmpgt_ps(_mm_load_ps(b.lo), _mm_load_ps(a.hi)));
+    return (_mm_movemask_ps(apart) & 7) == 0;
+#else
     return !((a.lo[0] > b.hi[0]) | (a.lo[1] > b.hi[1]) | (a.lo[2] > b.hi[2]) | (b.lo[0] > a.hi[0]) |
              (b.lo[1] > a.hi[1]) | (b.lo[2] > a.hi[2]));
+#endif
 }
 
 } // namespace vox::fast

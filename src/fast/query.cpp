@@ -381,11 +381,8 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
         }
         std::uint32_t n = 0, own_count = 0;
         for (std::size_t i = 0; i < source_count; ++i) {
-            const Box& region = sources[i].region;
-            const bool apart = (w.box.lo[0] > region.hi[0]) | (w.box.lo[1] > region.hi[1]) |
-                               (w.box.lo[2] > region.hi[2]) | (region.lo[0] > w.box.hi[0]) |
-                               (region.lo[1] > w.box.hi[1]) | (region.lo[2] > w.box.hi[2]);
-            if (!apart) n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
+            if (overlap(w.box, sources[i].region))
+                n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
         }
         if (n) Process(w, n, own_count);
     }
