@@ -274,14 +274,19 @@ private:
 
 } // namespace
 
-MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {
-    // Uniform tets outnumber the nodes inside; this keeps memory within bounds before anything is laid out.
-    if (body.inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
+void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t coarsen,
+                     std::uint64_t max_tets) {
+    // Uniform tets outnumber the nodes inside; merging takes at most eight into one each time.
+    if (inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
         throw Error(
             VOX_ERROR_LIMIT,
             format(
                 "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
-                body.inside.size(), static_cast<unsigned long long>(max_tets), 2 * body.frame.half_cell));
+                inside.size(), static_cast<unsigned long long>(max_tets), 2 * frame.half_cell));
+}
+
+MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {
+    check_tet_count(body.inside, body.frame, coarsen, max_tets);
     MeshData mesh = Stuffing(body, max_tets, progress).run(coarsen);
     progress.report(1);
     return mesh;

@@ -18,6 +18,11 @@ struct Body {
     std::function<double(const Node& inside, unsigned neighbour)> leaves;
 };
 
+// Throws LIMIT when so many nodes inside are sure to make more than max_tets: keeps memory within bounds
+// before anything is laid out.
+void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t coarsen,
+                     std::uint64_t max_tets);
+
 // The body's tetrahedra, positively oriented. `coarsen`: number of times cells far from the boundary may be
 // merged 2 x 2 x 2. Throws LIMIT when there would be more than max_tets.
 MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress);

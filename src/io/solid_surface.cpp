@@ -15,11 +15,7 @@ namespace {
 using Point = std::array<std::int32_t, 3>;
 using Corners = std::array<std::uint32_t, 3>;
 
-// Corners in ascending order, so that no figure depends on the order they are given in.
-struct Triangle {
-    Corners corners;
-    int turn; // -1 when the order is not the given one (nor a rotation of it)
-};
+using Triangle = OrderedTriangle;
 
 Triangle in_order(Corners corners) {
     int turn = 1;
@@ -217,20 +213,19 @@ LatticeLines cast(unsigned direction, const std::vector<Point>& points,
 
 } // namespace
 
-SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress) {
-    int shift = kCoordinateBits; // a lattice unit, half a cell, is 2^shift
+SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) : shift_(kCoordinateBits) {
     const std::int32_t longest = 2 * *std::max_element(frame.cells.begin(), frame.cells.end());
-    while ((std::int64_t{longest} << shift) >= std::int64_t{1} << kCoordinateBits) --shift;
+    while ((std::int64_t{longest} << shift_) >= std::int64_t{1} << kCoordinateBits) --shift_;
 
-    std::vector<Point> points(surface.vertex_count);
-    const double scale = std::ldexp(1.0, shift) / frame.half_cell;
-    for (std::size_t i = 0; i < points.size(); ++i)
+    points_.resize(surface.vertex_count);
+    const double scale = std::ldexp(1.0, shift_) / frame.half_cell;
+    for (std::size_t i = 0; i < points_.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             // Vertices that no triangle uses may lie outside of the lattice.
             const double x = std::floor((surface.positions[3 * i + k] - frame.origin[k]) * scale + 0.5);
-            points[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, kCoordinateBits)));
+            points_[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, kCoordinateBits)));
         }
-    const std::vector<std::uint32_t> number = weld(points);
+    const std::vector<std::uint32_t> number = weld(points_);
     std::vector<Corners> given;
     given.reserve(surface.triangle_count);
     for (std::size_t t = 0; t < surface.triangle_count; ++t) {
@@ -241,11 +236,20 @@ SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, 
     }
     check_.triangles = given.size();
     check_edges(given, check_);
-    std::vector<Triangle> triangles(given.size());
-    std::transform(given.begin(), given.end(), triangles.begin(), in_order);
-    for (unsigned direction = 0; direction < 7; ++direction) {
-        lines_[direction] = cast(direction, points, triangles, shift, check_.oriented);
-        progress.report((direction + 1) / 7.0);
+    triangles_.resize(given.size());
+    std::transform(given.begin(), given.end(), triangles_.begin(), in_order);
+    cast_up_to(check_.open_edges == 0 ? 1 : 3);
+}
+
+void SurfaceLines::cast_up_to(unsigned directions) {
+    for (; cast_ < directions; ++cast_)
+        lines_[cast_] = cast(cast_, points_, triangles_, shift_, check_.oriented);
+}
+
+void SurfaceLines::cast_rest(const Progress& progress) {
+    while (cast_ < lines_.size()) {
+        cast_up_to(cast_ + 1);
+        progress.report(cast_ / 7.0);
     }
 }
 

@@ -30,6 +30,12 @@ struct LatticeLines {
     std::vector<double> toggles;
 };
 
+// Corners in ascending order, so that no figure depends on the order they are given in.
+struct OrderedTriangle {
+    std::array<std::uint32_t, 3> corners;
+    int turn; // -1 when the order is not the given one (nor a rotation of it)
+};
+
 // The lines along the lattice's seven edge directions and where they enter and leave the body.
 //
 // The surface is moved to a fine integer grid first, so that "does this line meet this triangle" is decided
@@ -41,8 +47,9 @@ struct LatticeLines {
 // where it is odd when it is not.
 class SurfaceLines {
 public:
-    // Welds vertices of equal position (on the integer grid) and drops triangles that have collapsed.
-    SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame, const Progress& progress);
+    // Welds vertices of equal position (on the integer grid), drops triangles that have collapsed, and casts
+    // the lines that `inside` asks.
+    SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame);
 
     const SurfaceCheck& check() const { return check_; }
 
@@ -50,6 +57,9 @@ public:
     // vote, lines that end inside do not count, and `doubtful` is the share of the nodes (or lines) without
     // agreement.
     NodeSet inside(const Frame& frame, double& doubtful) const;
+
+    // Casts the lines along the other directions, for `leaves`.
+    void cast_rest(const Progress& progress);
 
     // Where the edge from `node`, inside, to its neighbour, outside, leaves the body: a fraction of the edge.
     double leaves(const Node& node, unsigned neighbour) const;
@@ -63,6 +73,12 @@ private:
     Line find(unsigned direction, const Node& node) const;
     std::vector<Run> runs_along(unsigned axis) const;
 
+    void cast_up_to(unsigned directions);
+
+    std::vector<std::array<std::int32_t, 3>> points_;
+    std::vector<OrderedTriangle> triangles_;
+    int shift_ = 0; // a lattice unit, half a cell, is 2^shift_
+    unsigned cast_ = 0;
     SurfaceCheck check_;
     std::array<LatticeLines, 7> lines_;
 };

@@ -53,7 +53,7 @@ struct Attempt {
 MeshData run(const Attempt& attempt, const Progress& progress) {
     const auto& [surface, desc, box, cell, coarsen] = attempt;
     const Frame frame = make_frame(box.min, box.max, cell);
-    const SurfaceLines lines(surface, frame, progress.part(0, 0.3));
+    SurfaceLines lines(surface, frame);
     double doubtful = 0;
     NodeSet inside = lines.inside(frame, doubtful);
     const bool open = lines.check().open_edges > 0;
@@ -64,6 +64,8 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
     } else {
         if (open && inside.size() == 0) refuse_open(lines, 1);
         if (doubtful > kMostDoubtful) refuse_open(lines, doubtful);
+        check_tet_count(inside, frame, coarsen, desc.max_tets);
+        lines.cast_rest(progress.part(0, 0.3));
         const Body body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
                                return lines.leaves(node, neighbour);
                            }};
