@@ -15,7 +15,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, std::pmr::memory_resourc
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    fast::make_tiles(tets_, vertex_count_, positions_, tiles_);
+    tiles_.prepare(body(VOX_NULL_MESH));
     has_tiles_ = true;
 }
 
