@@ -19,7 +19,7 @@ using Triangle = OrderedTriangle;
 
 Triangle in_order(Corners corners) {
     int turn = 1;
-    for (const std::size_t k : {0, 1, 0})
+    for (const std::size_t k : std::array<std::size_t, 3>{0, 1, 0})
         if (corners[k] > corners[k + 1]) {
             std::swap(corners[k], corners[k + 1]);
             turn = -turn;
