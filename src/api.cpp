@@ -103,6 +103,13 @@ vox_result vox_grid_clear(vox_grid* grid) {
     });
 }
 
+vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count) {
+    return border([&] {
+        require(grid, "grid");
+        grid->reserve(mesh_count, contact_count);
+    });
+}
+
 vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size) {
     return border([&] {
         require(grid, "grid");

@@ -21,7 +21,7 @@ namespace vox {
 
 // What the engine prepares of a mesh's topology, once. An empty one is prepared for an empty mesh.
 struct FastMesh : fast::Tiles {
-    explicit FastMesh(std::pmr::memory_resource* memory) : Tiles(memory), surface(memory) {}
+    explicit FastMesh(std::pmr::memory_resource* memory) noexcept : Tiles(memory), surface(memory) {}
 
     fast::Surface surface; // of bodies with self-collision
 

@@ -135,6 +135,24 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
 }
 
+void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
+    if (mesh_count > VOX_MAX_MESHES)
+        throw Error(VOX_ERROR_LIMIT,
+                    format("mesh_count is %u, the limit is %u", mesh_count, VOX_MAX_MESHES));
+    const auto room_for = [](auto& vector, std::uint64_t count) {
+        if (count > vector.max_size()) throw std::bad_alloc();
+        if (count > vector.capacity()) vector.reserve(static_cast<std::size_t>(count));
+    };
+    room_for(slots_, mesh_count);
+    room_for(free_slots_, mesh_count);
+    room_for(bodies_, mesh_count);
+    room_for(tiles_, mesh_count);
+    room_for(hits_, contact_count);
+    room_for(scratch_, contact_count);
+    room_for(contacts_, contact_count);
+    ++epoch_; // views of the contacts were left behind if they moved
+}
+
 const Mesh* vox_grid::find(vox_mesh id) const noexcept {
     const std::uint32_t slot = slot_of(id);
     if (slot >= slots_.size() || !slots_[slot].live || slots_[slot].generation != generation_of(id))

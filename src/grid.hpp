@@ -30,6 +30,7 @@ public:
     vox_grid& operator=(const vox_grid&) = delete;
 
     void clear();
+    void reserve(std::uint32_t mesh_count, std::uint64_t contact_count);
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }

@@ -209,6 +209,46 @@ START_TEST(budget_is_kept) {
 }
 END_TEST
 
+START_TEST(reserved_room) {
+    ledger l = {0, 0, 0, 0};
+    vox_grid_desc desc = counted_desc(&l);
+    body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
+    const vox_mesh_desc a = body_desc(&box), b = body_desc(&other), empty = vox_default_mesh_desc();
+    vox_grid* grid = NULL;
+    vox_mesh mesh = 0;
+    vox_contact_view view = {NULL, 0, 0, 0};
+    uint64_t before = 0, after = 0, epoch = 0, count = 0;
+    ck_ok(vox_grid_create(&desc, &grid));
+    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    ck_ok(vox_mesh_insert(grid, &b, &mesh));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_ok(vox_grid_hash(grid, &before));
+    epoch = view.epoch, count = view.count;
+    ck_ok(vox_grid_reserve(grid, 100, 10000));
+    ck_ok(vox_grid_contacts(grid, &view)); /* the same contacts, a new view */
+    ck_ok(vox_grid_hash(grid, &after));
+    ck_assert_uint_eq(view.count, count);
+    ck_assert_uint_eq(before, after);
+    ck_assert_uint_gt(view.epoch, epoch);
+    ck_assert_uint_ge(l.bytes, 3 * 10000 * 16);
+
+    const uint64_t calls = l.calls, bytes = l.bytes;
+    for (int i = 0; i < 98; ++i) ck_ok(vox_mesh_insert(grid, &empty, &mesh));
+    ck_assert_uint_eq(l.calls, calls); /* empty meshes need nothing but their slots */
+    ck_ok(vox_grid_reserve(grid, 1, 1));
+    ck_assert_uint_eq(l.bytes, bytes);
+    ck_fails(vox_grid_reserve(grid, VOX_MAX_MESHES + 1, 0), VOX_ERROR_LIMIT, "mesh_count is 1048577");
+    ck_fails(vox_grid_reserve(grid, 0, 1ull << 40), VOX_ERROR_BUDGET, "budget");
+    ck_fails(vox_grid_reserve(grid, 0, UINT64_MAX), VOX_ERROR_OUT_OF_MEMORY, "memory");
+    ck_fails(vox_grid_reserve(NULL, 0, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    vox_grid_destroy(grid);
+    ck_assert_uint_eq(l.bytes, 0);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
 START_TEST(many_meshes) {
     /* Insertion stays cheap and ids stay unique when meshes come by the thousand. */
     vox_grid* grid = NULL;
@@ -230,6 +270,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, steady_state_allocates_nothing);
     tcase_add_test(tests, allocation_n_fails);
     tcase_add_test(tests, budget_is_kept);
+    tcase_add_test(tests, reserved_room);
     tcase_add_test(tests, many_meshes);
 }
 

@@ -211,6 +211,10 @@ VOX_API void vox_grid_destroy(vox_grid* grid);
 /* Removes all meshes and contacts; settings stay. Old mesh ids become stale. */
 VOX_API vox_result vox_grid_clear(vox_grid* grid);
 
+/* Makes room for that many meshes and contacts, so that reaching them does not allocate for them; never takes
+ * room away. Contacts stay, views of them end. Errors: LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count);
+
 /* Sets the cell size for the steps to come; 0: the library chooses. Never changes the contacts.
  * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
@@ -312,7 +316,7 @@ typedef struct vox_contact {
 } vox_contact;
 
 /* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the
- * next step, clear or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
+ * next step, clear, reserve or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
 typedef struct vox_contact_view {
     const vox_contact* data;
     size_t byte_stride;
@@ -323,7 +327,7 @@ typedef struct vox_contact_view {
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
 VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
 
-/* Number of steps and clears so far, failed steps included. A view is valid while its epoch is this. */
+/* Number of steps, clears and reserves so far, failed steps included. A view is valid while its epoch is this. */
 VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
 
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */

@@ -12,7 +12,7 @@
 namespace vox::fast {
 
 struct Surface {
-    explicit Surface(std::pmr::memory_resource* memory)
+    explicit Surface(std::pmr::memory_resource* memory) noexcept
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
     // Every facet belongs to one tet, or to two that lie on different sides of it. False: there is no use for

@@ -114,7 +114,6 @@ private:
 // lattice to the start of the next, say), so that the box of a block is no larger than it must be.
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     out.block_first.assign(1, 0);
-    if (vertex_count == 0) return;
     const auto distance = [&](std::uint32_t v) { // squared, from the vertex before
         const Vec3f p = positions[v - 1], q = positions[v];
         const float x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
@@ -166,6 +165,11 @@ void list_blocks(std::uint32_t vertex_count, Tiles& out) {
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out) {
     std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
     Tiles made(memory);
+    if (vertex_count == 0) { // and so no tets: nothing to allocate for
+        out = std::move(made);
+        return;
+    }
+    made.super_first.push_back(0);
     if (!tets.empty()) {
         std::pmr::vector<Item> items(tets.size(), memory);
         for (std::size_t t = 0; t < tets.size(); ++t) {

@@ -25,12 +25,9 @@ struct Tile {
 };
 
 struct Tiles {
-    explicit Tiles(std::pmr::memory_resource* memory)
+    explicit Tiles(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_first(memory),
-          block_begin(memory), blocks(memory) {
-        super_first.push_back(0);
-        block_first.push_back(0);
-    }
+          super_first(memory), block_begin(memory), blocks(memory) {}
 
     std::pmr::vector<Tile> tiles;
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
@@ -46,9 +43,13 @@ struct Tiles {
     std::pmr::vector<std::uint32_t> block_begin;
     std::pmr::vector<std::uint32_t> blocks;
 
-    std::uint32_t block_count() const noexcept { return static_cast<std::uint32_t>(block_first.size()) - 1; }
-    std::uint32_t super_tile_count() const noexcept {
-        return static_cast<std::uint32_t>(super_first.size()) - 1;
+    std::uint32_t block_count() const noexcept { return intervals(block_first); }
+    std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
+
+private:
+    // Between the ends of a list; none before make_tiles().
+    static std::uint32_t intervals(const std::pmr::vector<std::uint32_t>& ends) noexcept {
+        return ends.empty() ? 0 : static_cast<std::uint32_t>(ends.size() - 1);
     }
 };
 
