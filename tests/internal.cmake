@@ -7,3 +7,5 @@ vox_target(vox_oracle)
 foreach(name predicates reference canonical_contacts)
   vox_test(${name} internal/test_${name}.cpp LIBS vox_internal vox_oracle)
 endforeach()
+
+vox_test(grid_memory internal/test_grid_memory.cpp LIBS vox_internal)

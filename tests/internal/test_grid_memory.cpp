@@ -1,0 +1,48 @@
+// A grid takes all its memory from its own allocator: with no other memory resource at hand it still works.
+#include "../bodies.h"
+#include "../suite.h"
+
+#include <cstring>
+#include <memory_resource>
+
+namespace {
+
+void add_mesh(vox_grid* grid, const body& b) {
+    vox_mesh_desc desc = body_desc(&b);
+    desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    vox_mesh mesh = 0;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+}
+
+START_TEST(nothing_from_the_default_resource) {
+    body box = make_box(14, 0.125f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
+    std::pmr::memory_resource* const usual = std::pmr::set_default_resource(std::pmr::null_memory_resource());
+    for (const vox_storage storage : {VOX_STORAGE_HASHED, VOX_STORAGE_DENSE}) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.engine = suite_engine;
+        desc.storage = storage;
+        vox_grid* grid = nullptr;
+        ck_ok(vox_grid_create(&desc, &grid));
+        add_mesh(grid, box);
+        add_mesh(grid, other);
+        for (int step = 0; step < 2; ++step) ck_ok(vox_grid_step(grid)); // the cell size is chosen, too
+        vox_contact_view view{};
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_gt(view.count, 0);
+        vox_grid_destroy(grid);
+    }
+    std::pmr::set_default_resource(usual);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+void add_tests(TCase* tests) { tcase_add_test(tests, nothing_from_the_default_resource); }
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("grid memory");
+    add_for_each_engine(suite, add_tests);
+    return run_suite(suite);
+}
