@@ -119,9 +119,10 @@ START_TEST(bent_bytes) {
             case 2:
                 bent.data[at] = (unsigned char)"0159-+.eE \n#$<>\"'"[next_random(&random) % 17];
                 break;
-            default: /* move a piece over another */
-                memmove(bent.data + at, bent.data + next_random(&random) % (file.size - at),
-                        (file.size - at) / 8);
+            default: { /* move a piece over another */
+                const size_t from = next_random(&random) % file.size, last = at > from ? at : from;
+                memmove(bent.data + at, bent.data + from, (file.size - last) / 4);
+            }
             }
         }
         attack(name, bent.data, bent.size);

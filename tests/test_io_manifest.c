@@ -1,7 +1,8 @@
 /* Every malformed, hostile or merely odd file of the test meshes gives what their manifest says. */
 #include "io_files.h"
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__has_feature)
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                 \
+    !defined(__has_feature)
 #include <sys/resource.h>
 #define LIMIT_MEMORY 1
 #endif
