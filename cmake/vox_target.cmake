@@ -11,6 +11,8 @@ function(vox_target name)
     target_compile_options(${name} PRIVATE -fsanitize=${VOX_SANITIZE} -fno-sanitize-recover=all
       -fno-omit-frame-pointer)
     target_link_options(${name} PRIVATE -fsanitize=${VOX_SANITIZE})
+    # C programs too get the C++ part of the sanitizers' runtimes, which the libraries need.
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
   endif()
 endfunction()
 

@@ -2,10 +2,6 @@
 foreach(name solid_bodies solid_models solid_surfaces)
   vox_test(${name} test_${name}.c LIBS vox::io)
   target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)
-  if(VOX_SANITIZE)
-    # The library is C++; clang links the sanitizer's part for that into C++ programs only.
-    set_target_properties(test_${name} PROPERTIES LINKER_LANGUAGE CXX)
-  endif()
   if(UNIX)
     target_link_libraries(test_${name} PRIVATE m)
   endif()
