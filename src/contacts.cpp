@@ -1,9 +1,8 @@
 // Canonical order by least-significant-digit radix sort (Knuth, The Art of Computer Programming 3,
-// Sect. 5.2.5): hits may be millions, their keys are four integers, and most digits are the same in all of
-// them and cost nothing.
+// Sect. 5.2.5) of body_a and vertex alone: few hits share a vertex, and those are put in order by themselves.
 #include "contacts.hpp"
 
-#include "predicates.hpp"
+#include "barycentric.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,96 +12,100 @@
 namespace vox {
 namespace {
 
-constexpr std::size_t field_count = 4;
-constexpr std::size_t digits_per_field = 4; // of 8 bits
-constexpr std::size_t digit_values = 256;
-
-// The sort key, from its least to its most significant field.
-std::array<std::uint32_t, field_count> key(const Hit& hit) {
-    return {hit.tet, hit.body_b, hit.vertex, hit.body_a};
-}
-
 bool before(const Hit& x, const Hit& y) {
     return std::tuple(x.body_a, x.vertex, x.body_b, std::uint32_t(x.tet)) <
            std::tuple(y.body_a, y.vertex, y.body_b, std::uint32_t(y.tet));
 }
 
-bool tets_ascend(const std::pmr::vector<Hit>& hits) {
-    return std::is_sorted(hits.begin(), hits.end(), [](const Hit& x, const Hit& y) {
-        return std::tuple(x.body_b, std::uint32_t(x.tet)) < std::tuple(y.body_b, std::uint32_t(y.tet));
-    });
-}
+bool same_vertex(const Hit& x, const Hit& y) { return x.vertex == y.vertex && x.body_a == y.body_a; }
 
+// By body_a and vertex: one number of as few bits as these hits need, cut into equal digits.
 void radix_sort(std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch) {
-    // The sort is stable: hits that come in the order of (body_b, tet) need only the two other fields.
-    const std::size_t first_field = tets_ascend(hits) ? 2 : 0;
-
-    std::uint32_t counts[field_count][digits_per_field][digit_values] = {};
+    constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
+    std::uint32_t vertices = 0, bodies = 0;
     for (const Hit& hit : hits) {
-        const auto fields = key(hit);
-        for (std::size_t f = first_field; f < field_count; ++f)
-            for (std::size_t d = 0; d < digits_per_field; ++d) ++counts[f][d][fields[f] >> (8 * d) & 255];
+        vertices |= hit.vertex;
+        bodies |= hit.body_a;
     }
+    const int vertex_bits = static_cast<int>(std::bit_width(vertices));
+    const int bits = vertex_bits + static_cast<int>(std::bit_width(bodies));
+    if (bits == 0) return; // all the same, or none
+    // Not many more counts than hits.
+    const int wanted_bits = std::min(most_digit_bits, static_cast<int>(std::bit_width(hits.size())));
+    const int digits = (bits + wanted_bits - 1) / wanted_bits;
+    const int digit_bits = (bits + digits - 1) / digits;
+    const std::size_t digit_values = std::size_t{1} << digit_bits;
 
     scratch.resize(hits.size());
-    for (std::size_t f = first_field; f < field_count; ++f) {
-        for (std::size_t d = 0; d < digits_per_field; ++d) {
-            std::uint32_t(&position)[digit_values] = counts[f][d];
-            if (position[key(hits.front())[f] >> (8 * d) & 255] == hits.size()) continue; // all the same
-            std::uint32_t sum = 0;
-            for (std::uint32_t& p : position) sum += std::exchange(p, sum);
-            for (const Hit& hit : hits) scratch[position[key(hit)[f] >> (8 * d) & 255]++] = hit;
-            hits.swap(scratch);
-        }
+    std::array<std::uint32_t, std::size_t{1} << most_digit_bits> place; // first counts
+    for (int d = 0; d < digits; ++d) {
+        const auto digit = [shift = d * digit_bits, vertex_bits, digit_values](const Hit& hit) {
+            const std::uint64_t key = std::uint64_t{hit.body_a} << vertex_bits | hit.vertex;
+            return static_cast<std::size_t>(key >> shift) & (digit_values - 1);
+        };
+        std::fill_n(place.begin(), digit_values, 0u);
+        for (const Hit& hit : hits) ++place[digit(hit)];
+        std::uint32_t sum = 0;
+        for (std::size_t v = 0; v < digit_values; ++v) sum += std::exchange(place[v], sum);
+        for (const Hit& hit : hits) scratch[place[digit(hit)]++] = hit;
+        hits.swap(scratch);
     }
 }
 
-// Leaves, per (body_a, vertex, body_b), the hits in the interior of a tetrahedron, or else the first of those
-// on a boundary. `hits` is sorted.
-void drop_shared_boundaries(std::pmr::vector<Hit>& hits) {
-    std::size_t kept = 0;
-    for (std::size_t begin = 0, end; begin < hits.size(); begin = end) {
+// Moves to `kept` what becomes contacts of [begin, end), all with the same body_a and vertex, in canonical
+// order: per body_b the hits in the interior of a tetrahedron, or else the first of those on a boundary.
+Hit* keep(Hit* begin, Hit* end, Hit* kept) {
+    std::sort(begin, end, before);
+    for (Hit* next; begin != end; begin = next) {
         bool any_interior = false;
-        for (end = begin; end < hits.size() && hits[end].body_a == hits[begin].body_a &&
-                          hits[end].vertex == hits[begin].vertex && hits[end].body_b == hits[begin].body_b;
-             ++end)
-            any_interior |= hits[end].interior != 0;
-        if (!any_interior) {
-            hits[kept++] = hits[begin];
-            continue;
-        }
-        for (std::size_t h = begin; h < end; ++h)
-            if (hits[h].interior) hits[kept++] = hits[h];
+        for (next = begin; next != end && next->body_b == begin->body_b; ++next)
+            any_interior |= next->interior != 0;
+        if (!any_interior)
+            *kept++ = *begin;
+        else
+            kept = std::copy_if(begin, next, kept, [](const Hit& hit) { return hit.interior != 0; });
     }
-    hits.resize(kept);
+    return kept;
 }
 
 } // namespace
 
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
                    std::pmr::vector<vox_contact>& contacts) {
-    constexpr std::size_t few = 256; // where clearing the counts costs more than sorting; any number will do
-    // A 32-bit count per digit is enough for 2^32 - 1 hits.
-    if (hits.size() < few || hits.size() > UINT32_MAX)
-        std::sort(hits.begin(), hits.end(), before);
-    else
+    if (hits.size() <= UINT32_MAX) // what 32-bit counts are enough for
         radix_sort(hits, scratch);
-    drop_shared_boundaries(hits);
+    else
+        std::sort(hits.begin(), hits.end(), before);
 
-    contacts.resize(hits.size());
-    for (std::size_t h = 0; h < hits.size(); ++h) {
-        const Hit& hit = hits[h];
-        const Body& body_b = bodies[hit.body_b];
-        const std::uint32_t tet = hit.tet;
-        const std::uint32_t* corner = body_b.tets[tet].v;
-        const std::array<float, 4> weights = barycentric(
-            bodies[hit.body_a].positions[hit.vertex], body_b.positions[corner[0]],
-            body_b.positions[corner[1]], body_b.positions[corner[2]], body_b.positions[corner[3]]);
-        contacts[h] = {bodies[hit.body_a].mesh_id,
-                       hit.vertex,
-                       body_b.mesh_id,
-                       tet,
-                       {weights[0], weights[1], weights[2], weights[3]}};
+    Hit* kept = hits.data();
+    Hit* const last = hits.data() + hits.size();
+    for (Hit *begin = hits.data(), *end; begin != last; begin = end) {
+        end = begin + 1;
+        while (end != last && same_vertex(*begin, *end)) ++end;
+        if (end - begin == 1)
+            *kept++ = *begin;
+        else
+            kept = keep(begin, end, kept);
+    }
+    hits.resize(static_cast<std::size_t>(kept - hits.data()));
+
+    contacts.clear();
+    contacts.reserve(hits.size());
+    BarycentricWeights weights;
+    std::array<vox_contact, barycentric_block> block;
+    for (std::size_t first = 0; first < hits.size(); first += barycentric_block) {
+        barycentric(bodies, hits, first, weights);
+        const std::size_t count = std::min(barycentric_block, hits.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Hit& hit = hits[first + i];
+            const std::array<float, 4>& w = weights[i];
+            block[i] = {bodies[hit.body_a].mesh_id,
+                        hit.vertex,
+                        bodies[hit.body_b].mesh_id,
+                        std::uint32_t(hit.tet),
+                        {w[0], w[1], w[2], w[3]}};
+        }
+        contacts.insert(contacts.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
     }
 }
 

@@ -12,9 +12,8 @@
 
 namespace vox {
 
-// Sorts `hits` (any order in, duplicates not allowed; the order of (body_b, tet) is fastest) and writes the
-// contacts they amount to; `hits` is left with the ones that became contacts. `scratch` is a buffer kept from
-// step to step.
+// Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to; `hits` is left
+// with the ones that became contacts. `scratch` is a buffer kept from step to step.
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
                    std::pmr::vector<vox_contact>& contacts);
 

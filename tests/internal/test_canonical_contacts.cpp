@@ -1,6 +1,8 @@
 // Hits to contacts: the order, the rule for shared boundaries, the hash.
 #include "contacts.hpp"
+#include "predicates.hpp"
 #include "scenes.hpp"
+#include "simd.hpp"
 #include "suite.h"
 
 #include <set>
@@ -105,6 +107,65 @@ START_TEST(interior_hits_hide_boundary_ones) {
 }
 END_TEST
 
+// Strided positions, slivers that need exact arithmetic, coordinates of all magnitudes, and vertices on
+// faces, edges and corners: the bits of barycentric(), from every instruction set.
+START_TEST(weights_have_the_bits_of_the_scalar_function) {
+    struct Record {
+        float x, y, z, other;
+    };
+    Random random{4};
+    std::vector<Record> records;
+    Mesh mesh; // tets 5 t to 5 t + 3, and 5 t + 4 for the point
+    constexpr std::uint32_t count = 3000;
+    const auto add = [&records](const double* p) {
+        records.push_back({float(p[0]), float(p[1]), float(p[2]), 1e30f});
+    };
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const double size = std::ldexp(1.0, int(random.below(3) == 0 ? random.below(200) : 100) - 100);
+        double corners[4][3], p[3] = {0, 0, 0}, weights[4], sum = 0;
+        for (auto& corner : corners)
+            for (double& c : corner) c = size * random.uniform(-1, 1);
+        if (t % 3 == 0) // flat but for rounding
+            for (int a = 0; a < 3; ++a)
+                corners[3][a] = double(float(corners[0][a])) + double(float(corners[1][a])) -
+                                double(float(corners[2][a])) + size * std::ldexp(1.0, -int(random.below(40)));
+        for (double& w : weights) sum += w = random.below(4) == 0 ? 0 : random.uniform(0, 1);
+        for (int a = 0; a < 3; ++a)
+            for (int c = 0; c < 4; ++c)
+                p[a] += sum > 0 ? weights[c] / sum * corners[c][a] : corners[c][a] / 4;
+        for (const auto& corner : corners) add(corner);
+        add(p);
+        mesh.tets.push_back({{5 * t, 5 * t + 1, 5 * t + 2, 5 * t + 3}});
+    }
+    const Positions positions{reinterpret_cast<const std::byte*>(records.data()), sizeof(Record)};
+    const Body body{7, std::uint32_t(records.size()), positions, mesh.tets, true};
+    std::pmr::vector<Hit> hits, scratch;
+    std::uint64_t exact_tests = 0;
+    for (std::uint32_t t = 0; t < count; ++t)
+        if (orientation(positions[5 * t], positions[5 * t + 1], positions[5 * t + 2], positions[5 * t + 3],
+                        exact_tests) != 0)
+            hits.push_back(hit(0, 5 * t + 4, 0, t, true));
+    ck_assert(exact_tests > 0 && hits.size() > count / 2);
+    for (int level = 0; level <= int(simd::best_level()); ++level) {
+        simd::force_level(simd::Level(level));
+        for (const std::size_t length : {hits.size(), std::size_t{67}, std::size_t{64}, std::size_t{1}}) {
+            std::pmr::vector<Hit> some(hits.begin(), hits.begin() + std::ptrdiff_t(length));
+            std::pmr::vector<vox_contact> contacts;
+            make_contacts({&body, 1}, some, scratch, contacts);
+            ck_assert_uint_eq(contacts.size(), length);
+            for (const vox_contact& contact : contacts) {
+                const Tet& tet = mesh.tets[contact.tet];
+                const std::array<float, 4> expected =
+                    barycentric(positions[contact.vertex], positions[tet.v[0]], positions[tet.v[1]],
+                                positions[tet.v[2]], positions[tet.v[3]]);
+                ck_assert_mem_eq(expected.data(), contact.barycentric, sizeof expected);
+            }
+        }
+    }
+    simd::force_level(simd::best_level());
+}
+END_TEST
+
 vox_contact contact(std::uint32_t a, std::uint32_t vertex, std::uint32_t b, std::uint32_t tet, float w0,
                     float w1, float w2, float w3) {
     return {a, vertex, b, tet, {w0, w1, w2, w3}};
@@ -152,6 +213,7 @@ int main() {
     tcase_set_timeout(tests, 0); // a slow machine is no failure
     tcase_add_test(tests, any_order_of_hits_becomes_canonical);
     tcase_add_test(tests, interior_hits_hide_boundary_ones);
+    tcase_add_test(tests, weights_have_the_bits_of_the_scalar_function);
     tcase_add_test(tests, hash_is_as_documented);
     tcase_add_test(tests, hash_tells_every_field_and_the_order);
     suite_add_tcase(suite, tests);

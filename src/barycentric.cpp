@@ -1,0 +1,174 @@
+// The arithmetic of barycentric() and corner_volumes() (predicates.hpp), operation by operation, so that the
+// bits are the same; hits that need exact arithmetic go to barycentric() itself.
+//
+// The tetrahedra and positions of hits lie anywhere in memory, and waiting for them takes longer than the
+// arithmetic: each is prefetched some hits before it is needed.
+#include "barycentric.hpp"
+
+#include "predicates.hpp"
+#include "simd.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "barycentric.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#ifndef VOX_BARYCENTRIC_ONCE
+#define VOX_BARYCENTRIC_ONCE
+namespace vox {
+
+// Points and the four corners of their tetrahedra, as a structure of arrays.
+struct BarycentricBlock {
+    alignas(64) float point[3][barycentric_block];
+    alignas(64) float corner[4][3][barycentric_block];
+};
+
+} // namespace vox
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace vox {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, 8>;
+using HalfFloats = hn::Rebind<float, Doubles>;
+using D = hn::Vec<Doubles>;
+
+struct MinorOf {
+    D value, magnitude;
+};
+
+HWY_INLINE MinorOf Minor(const D* u, const D* v) {
+    const D left = hn::Mul(u[0], v[1]), right = hn::Mul(v[0], u[1]);
+    return {hn::Sub(left, right), hn::Add(hn::Abs(left), hn::Abs(right))};
+}
+
+HWY_INLINE void Determinant(D uz, const MinorOf& vw, D vz, const MinorOf& uw, D wz, const MinorOf& uv,
+                            D& volume, D& error) {
+    constexpr double epsilon = 0x1p-53;
+    constexpr double bound = (7.0 + 56.0 * epsilon) * epsilon;
+    const D permanent =
+        hn::Add(hn::Add(hn::Mul(hn::Abs(uz), vw.magnitude), hn::Mul(hn::Abs(vz), uw.magnitude)),
+                hn::Mul(hn::Abs(wz), uv.magnitude));
+    volume = hn::Add(hn::Sub(hn::Mul(uz, vw.value), hn::Mul(vz, uw.value)), hn::Mul(wz, uv.value));
+    error = hn::Mul(hn::Set(Doubles(), bound), permanent);
+}
+
+// Bit i of the result: the weights of point i are not certain, and unspecified. Computes whole registers.
+std::uint64_t BlockWeights(const BarycentricBlock& block, std::size_t count, float* HWY_RESTRICT weights) {
+    const Doubles d;
+    const HalfFloats df;
+    std::uint64_t uncertain = 0;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        D e[4][3];
+        for (int a = 0; a < 3; ++a) {
+            const D p = hn::PromoteTo(d, hn::LoadU(df, block.point[a] + i));
+            for (int c = 0; c < 4; ++c)
+                e[c][a] = hn::Sub(hn::PromoteTo(d, hn::LoadU(df, block.corner[c][a] + i)), p);
+        }
+        const D *u = e[0], *v = e[1], *w = e[2], *x = e[3];
+        const MinorOf uv = Minor(u, v), uw = Minor(u, w), ux = Minor(u, x);
+        const MinorOf vw = Minor(v, w), vx = Minor(v, x), wx = Minor(w, x);
+        D v0, v1, v2, v3, e0, e1, e2, e3;
+        Determinant(v[2], wx, w[2], vx, x[2], vw, v0, e0);
+        Determinant(u[2], wx, w[2], ux, x[2], uw, v1, e1);
+        Determinant(u[2], vx, v[2], ux, x[2], uv, v2, e2);
+        Determinant(u[2], vw, v[2], uw, w[2], uv, v3, e3);
+        v1 = hn::Neg(v1);
+        v3 = hn::Neg(v3);
+        const D total = hn::Add(hn::Add(hn::Add(v0, v1), v2), v3);
+        const D error = hn::Max(hn::Max(e0, e1), hn::Max(e2, e3));
+        const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, 0x1p-24), hn::Abs(total)));
+        if (!hn::AllTrue(d, certain)) {
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(d, hn::Not(certain), bits);
+            uncertain |= std::uint64_t{bits[0]} << i;
+        }
+        const D zero = hn::Zero(d), one = hn::Set(d, 1.0);
+        const auto weight = [&](D volume) HWY_ATTR {
+            const D t = hn::Div(volume, total);
+            // Zero where t is not positive: never -0.
+            return hn::DemoteTo(df, hn::IfThenElse(hn::Gt(t, zero), hn::Min(t, one), zero));
+        };
+        hn::StoreInterleaved4(weight(v0), weight(v1), weight(v2), weight(v3), df, weights + 4 * i);
+    }
+    return uncertain;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox {
+namespace {
+
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    static_cast<void>(address);
+#endif
+}
+
+} // namespace
+
+void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t first,
+                 BarycentricWeights& weights) {
+    // Far enough to hide the way to memory, near enough that nothing is evicted again.
+    constexpr std::size_t tets_ahead = 48, positions_ahead = 24;
+    BarycentricBlock block;
+    const std::size_t count = std::min(barycentric_block, hits.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t h = first + i;
+        if (h + tets_ahead < hits.size()) {
+            const Hit& later = hits[h + tets_ahead];
+            prefetch(bodies[later.body_b].tets.data() + later.tet);
+        }
+        if (h + positions_ahead < hits.size()) {
+            const Hit& later = hits[h + positions_ahead];
+            const Body &a = bodies[later.body_a], &b = bodies[later.body_b];
+            prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
+            for (const std::uint32_t v : b.tets[later.tet].v)
+                prefetch(b.positions.data + v * b.positions.byte_stride);
+        }
+        const Hit& hit = hits[h];
+        const Body& b = bodies[hit.body_b];
+        const Vec3f p = bodies[hit.body_a].positions[hit.vertex];
+        block.point[0][i] = p.x;
+        block.point[1][i] = p.y;
+        block.point[2][i] = p.z;
+        const Tet& tet = b.tets[hit.tet];
+        for (std::size_t c = 0; c < 4; ++c) {
+            const Vec3f q = b.positions[tet.v[c]];
+            block.corner[c][0][i] = q.x;
+            block.corner[c][1][i] = q.y;
+            block.corner[c][2][i] = q.z;
+        }
+    }
+    // Whole registers: what is left of the last one must be something.
+    for (std::size_t i = count; i % 8; ++i) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            block.point[a][i] = block.point[a][0];
+            for (std::size_t c = 0; c < 4; ++c) block.corner[c][a][i] = block.corner[c][a][0];
+        }
+    }
+    std::uint64_t uncertain =
+        VOX_SIMD_DISPATCH(BlockWeights)(block, count, &weights[0][0]) & ~std::uint64_t{0} >> (64 - count);
+    for (; uncertain; uncertain &= uncertain - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
+        const Hit& hit = hits[first + i];
+        const Body& b = bodies[hit.body_b];
+        const Tet& tet = b.tets[hit.tet];
+        weights[i] = barycentric(bodies[hit.body_a].positions[hit.vertex], b.positions[tet.v[0]],
+                                 b.positions[tet.v[1]], b.positions[tet.v[2]], b.positions[tet.v[3]]);
+    }
+}
+
+} // namespace vox
+#endif
