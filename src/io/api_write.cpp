@@ -82,8 +82,8 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
     bool done = false;
     {
         const auto close = [&](std::FILE* file) {
-            std::fclose(file);
-            if (!direct && !done) std::remove(target.c_str());
+            (void)std::fclose(file);
+            if (!direct && !done) (void)std::remove(target.c_str());
         };
         std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(target.c_str(), "wb"), close);
         if (!file) fail(target, errno);
@@ -96,7 +96,7 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
     if (direct) return;
     std::filesystem::rename(target, path, error);
     if (error) {
-        std::remove(target.c_str());
+        (void)std::remove(target.c_str());
         throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), error.message().c_str()));
     }
 }

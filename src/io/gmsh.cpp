@@ -107,7 +107,7 @@ private:
 
     void read_format() {
         const double version = in_.real("a version");
-        version_ = version > 0 && version < 100 ? static_cast<int>(version * 10 + 0.5) : 0;
+        version_ = version > 0 && version < 100 ? static_cast<int>(std::lround(version * 10)) : 0;
         if (version_ != 10 && (version_ < 20 || version_ > 22) && version_ != 40 && version_ != 41)
             in_.fail(format("version %g: the versions read are 1, 2.0 to 2.2, 4.0 and 4.1", version),
                      VOX_ERROR_UNSUPPORTED);
@@ -204,7 +204,7 @@ private:
     void binary_position(std::size_t extra) {
         const std::size_t start = in_.offset();
         const char* bytes = in_.take(24 + extra, "a position");
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             const double x = load<double>(bytes + 8 * k, swap_);
             if (!std::isfinite(x)) {
                 in_.seek(start);

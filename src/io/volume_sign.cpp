@@ -23,6 +23,7 @@ struct Integer {
     Integer() = default; // limbs above size stay uninitialised on purpose
     Integer(const Integer& other) { *this = other; }
     Integer& operator=(const Integer& other) {
+        if (this == &other) return *this;
         size = other.size;
         negative = other.negative;
         std::memcpy(limbs, other.limbs, static_cast<std::size_t>(size) * sizeof *limbs);
