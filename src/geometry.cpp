@@ -3,55 +3,28 @@
 #include "error.hpp"
 #include "predicates.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <memory_resource>
 #include <vector>
 
 namespace vox {
 
 namespace {
 
-// ---- small vectors --------------------------------------------------------------------------------
-
 // Differences of floats in double do not overflow, nor do products of up to six of them: areas and volumes of
 // the largest finite coordinates are finite, those of the smallest are not flushed to zero.
-Vec3d between(const Vec3f& from, const Vec3f& to) {
-    return {double{to.x} - from.x, double{to.y} - from.y, double{to.z} - from.z};
+using Eigen::Vector3d;
+using Box3d = Eigen::AlignedBox3d;
+
+Vector3d point(const Vec3f& p) { return {p.x, p.y, p.z}; }
+
+double facet_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    return (b - a).cross(c - a).norm() / 2;
 }
-
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
-
-double edge_length(const Vec3f& a, const Vec3f& b) { return length(between(a, b)); }
-
-double facet_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    return length(cross(between(a, b), between(a, c))) / 2;
-}
-
-struct Box3d {
-    Vec3d min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-    Vec3d max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-              -std::numeric_limits<double>::infinity()};
-
-    void add(const Vec3f& p) {
-        min = {std::min<double>(min.x, p.x), std::min<double>(min.y, p.y), std::min<double>(min.z, p.z)};
-        max = {std::max<double>(max.x, p.x), std::max<double>(max.y, p.y), std::max<double>(max.z, p.z)};
-    }
-    void add(const Box3d& box) {
-        min = {std::min(min.x, box.min.x), std::min(min.y, box.min.y), std::min(min.z, box.min.z)};
-        max = {std::max(max.x, box.max.x), std::max(max.y, box.max.y), std::max(max.z, box.max.z)};
-    }
-    bool empty() const { return min.x > max.x; }
-    double longest_side() const { return std::max({max.x - min.x, max.y - min.y, max.z - min.z}); }
-};
 
 // A mean whose rounding error does not grow with the number of terms (Kahan 1965).
 class Mean {
@@ -151,23 +124,24 @@ void check_finite(const Body& body) {
 Box3d measure_tets(const Body& body, Sums& sums) {
     Box3d bounds;
     for (const Tet& tet : body.tets) {
-        Vec3f p[4];
+        const Vec3f corner[4] = {body.positions[tet.v[0]], body.positions[tet.v[1]], body.positions[tet.v[2]],
+                                 body.positions[tet.v[3]]};
+        Vector3d p[4];
         Box3d box;
-        for (int i = 0; i < 4; ++i) box.add(p[i] = body.positions[tet.v[i]]);
-        bounds.add(box);
-        sums.box_side.add(box.longest_side());
-        sums.box_sides.push_back(box.longest_side());
+        for (int i = 0; i < 4; ++i) box.extend(p[i] = point(corner[i]));
+        bounds.extend(box);
+        const double box_side = box.sizes().maxCoeff();
+        sums.box_side.add(box_side);
+        sums.box_sides.push_back(box_side);
 
         double longest = 0;
-        for (const auto& edge : edge_corners)
-            longest = std::max(longest, edge_length(p[edge[0]], p[edge[1]]));
+        for (const auto& edge : edge_corners) longest = std::max(longest, (p[edge[1]] - p[edge[0]]).norm());
         sums.longest_edge.add(longest);
         for (const auto& facet : facet_corners)
             sums.tet_facet.add(facet_area(p[facet[0]], p[facet[1]], p[facet[2]]));
-        sums.volume.add(std::abs(dot(cross(between(p[0], p[1]), between(p[0], p[2])), between(p[0], p[3]))) /
-                        6);
+        sums.volume.add(std::abs((p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0])) / 6);
         std::uint64_t exact_tests = 0;
-        if (orientation(p[0], p[1], p[2], p[3], exact_tests) == 0) ++sums.degenerate;
+        if (orientation(corner[0], corner[1], corner[2], corner[3], exact_tests) == 0) ++sums.degenerate;
     }
     return bounds;
 }
@@ -180,10 +154,10 @@ void measure_edges(const Body& body, Sums& sums) {
             for (const auto& edge : edge_corners) emit(t.v[edge[0]], t.v[edge[1]]);
         }
     };
-    for_each_unique<std::uint32_t>(body.vertex_count, sums.memory(), generate,
-                                   [&](std::uint32_t a, std::uint32_t b, std::size_t) {
-                                       sums.edge.add(edge_length(body.positions[a], body.positions[b]));
-                                   });
+    for_each_unique<std::uint32_t>(
+        body.vertex_count, sums.memory(), generate, [&](std::uint32_t a, std::uint32_t b, std::size_t) {
+            sums.edge.add((point(body.positions[b]) - point(body.positions[a])).norm());
+        });
 }
 
 void measure_facets(const Body& body, Sums& sums) {
@@ -197,9 +171,9 @@ void measure_facets(const Body& body, Sums& sums) {
     };
     for_each_unique<std::uint64_t>(body.vertex_count, sums.memory(), generate,
                                    [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
-                                       const double area =
-                                           facet_area(body.positions[a], body.positions[rest >> 32],
-                                                      body.positions[rest & 0xffffffffu]);
+                                       const double area = facet_area(
+                                           point(body.positions[a]), point(body.positions[rest >> 32]),
+                                           point(body.positions[rest & 0xffffffffu]));
                                        sums.facet.add(area);
                                        if (multiplicity == 1) sums.boundary_facet.add(area);
                                    });
@@ -225,11 +199,10 @@ Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory
         measure_edges(body, sums);
         measure_facets(body, sums);
         if (body.tets.empty())
-            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.add(body.positions[v]);
-        if (box.empty()) continue;
-        bounds.add(box);
-        const Vec3d side{box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z};
-        const double volume = side.x * side.y * side.z;
+            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.extend(point(body.positions[v]));
+        if (box.isEmpty()) continue;
+        bounds.extend(box);
+        const double volume = box.volume();
         if (volume > 0) object_side.add(std::cbrt(volume));
     }
 
@@ -245,12 +218,11 @@ Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory
     stats.mean_tet_facet_area = sums.tet_facet.value();
     stats.mean_boundary_facet_area = sums.boundary_facet.value();
     stats.mean_volume = sums.volume.value();
-    if (!bounds.empty()) {
-        const double low[3] = {bounds.min.x, bounds.min.y, bounds.min.z};
-        const double high[3] = {bounds.max.x, bounds.max.y, bounds.max.z};
-        std::copy(low, low + 3, stats.bounds_min);
-        std::copy(high, high + 3, stats.bounds_max);
-    }
+    if (!bounds.isEmpty())
+        for (int axis = 0; axis < 3; ++axis) {
+            stats.bounds_min[axis] = bounds.min()[axis];
+            stats.bounds_max[axis] = bounds.max()[axis];
+        }
     result.mean_object_side = object_side.value();
     return result;
 }
