@@ -1,6 +1,6 @@
 #include "geometry.hpp"
 
-#include "error.hpp"
+#include "mesh_check.hpp"
 #include "predicates.hpp"
 
 #include <Eigen/Geometry>
@@ -110,16 +110,6 @@ struct Sums {
 
     std::pmr::memory_resource* memory() const { return box_sides.get_allocator().resource(); }
 };
-
-void check_finite(const Body& body) {
-    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-        const Vec3f p = body.positions[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw Error(VOX_ERROR_NON_FINITE,
-                        format("mesh %u, vertex %u: position (%g, %g, %g) is not finite", body.mesh_id, v,
-                               double{p.x}, double{p.y}, double{p.z}));
-    }
-}
 
 Box3d measure_tets(const Body& body, Sums& sums) {
     Box3d bounds;

@@ -3,6 +3,7 @@
 #include "error.hpp"
 
 #include <cinttypes>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -74,6 +75,16 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
                 throw Error(VOX_ERROR_INVALID_MESH, format("%stet %zu names vertex %" PRIu32 " of %" PRIu32,
                                                            where, tet, vertex, body.vertex_count));
     return body;
+}
+
+void check_finite(const Body& body) {
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+        const Vec3f p = body.positions[v];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw Error(VOX_ERROR_NON_FINITE,
+                        format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is not finite",
+                               body.mesh_id, v, double{p.x}, double{p.y}, double{p.z}));
+    }
 }
 
 } // namespace vox

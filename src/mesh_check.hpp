@@ -21,4 +21,7 @@ std::size_t check_stride(std::uint64_t byte_stride, std::uint64_t vertex_count, 
 // Throws INVALID_ARGUMENT for a format that this version does not know.
 void check_format(const vox_format& format, const char* where);
 
+// Throws NON_FINITE naming the mesh and the first vertex whose position is not finite.
+void check_finite(const Body& body);
+
 } // namespace vox

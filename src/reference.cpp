@@ -4,6 +4,7 @@
 
 #include "clock.hpp"
 #include "error.hpp"
+#include "mesh_check.hpp"
 #include "predicates.hpp"
 
 #include <algorithm>
@@ -112,14 +113,9 @@ void Reference::load_particles(std::span<const Body> bodies) {
     particles_.resize(count);
     Particle* particle = particles_.data();
     for (const Body& body : bodies) {
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-            const Vec3f p = body.positions[v];
-            if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-                throw Error(VOX_ERROR_NON_FINITE,
-                            format("mesh %u, vertex %u: position (%g, %g, %g) is not finite", body.mesh_id, v,
-                                   double(p.x), double(p.y), double(p.z)));
-            *particle++ = {p, CellLists::none};
-        }
+        check_finite(body);
+        for (std::uint32_t v = 0; v < body.vertex_count; ++v)
+            *particle++ = {body.positions[v], CellLists::none};
     }
 }
 
