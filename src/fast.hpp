@@ -6,6 +6,7 @@
 #include "fast/query.hpp"
 #include "fast/stream.hpp"
 #include "fast/surface.hpp"
+#include "fast/tile_sides.hpp"
 #include "fast/tiles.hpp"
 #include "fast/winding.hpp"
 #include "fast/window.hpp"
@@ -13,11 +14,14 @@
 
 #include <vox/vox.h>
 
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
 namespace vox {
+
+class Workers;
 
 // What the engine prepares of a mesh's topology, once. An empty one is prepared for an empty mesh.
 struct FastMesh : fast::Tiles {
@@ -31,8 +35,9 @@ struct FastMesh : fast::Tiles {
 };
 
 struct FastSettings {
-    double cell_size = 0; // 0: chosen for each window of cells from the tiles that query it
-    bool winding = true;  // cull self-collision by winding numbers where it pays
+    double cell_size = 0;       // 0: chosen for each window of cells from the tiles that query it
+    bool winding = true;        // cull self-collision by winding numbers where it pays
+    Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
@@ -45,7 +50,9 @@ public:
     // As Reference::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
     // any order. `prepared` are the tiles of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
     // the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in their box)
-    // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone).
+    // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone, of the worker that took
+    // longest over them). Nothing but times and the order of hits depends on the workers. With more than one,
+    // the memory given to the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
@@ -55,51 +62,82 @@ public:
 
 private:
     struct BodyState {
-        const float* positions;           // packed
-        std::uint32_t first_block;        // in block_boxes_
-        std::uint32_t first_super;        // in super_boxes_
-        std::uint32_t first_tile;         // in tile_boxes_ and tile_known_
-        bool super_known;                 // super_boxes_ are made
-        bool tiles_known;                 // all of tile_boxes_ are
-        bool self;                        // some vertices of the window may be in tets of the same body
-        double inverse_sides, tile_count; // of the tiles that will query its window
-        fast::Box own;                    // where vertices of the window may be in tets of the same body
+        const float* positions;    // packed
+        std::uint32_t first_super; // in super_boxes_
+        std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
+        std::uint32_t first_block; // in block_boxes_
+        bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
+        bool tiles_known;          // all of tile_boxes_ are
+        bool self;                 // some vertices of the window may be in tets of the same body
+        fast::Box own;             // where vertices of the window may be in tets of the same body
         fast::Window window;
+        double cell_size; // of the window
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
     struct Reach {
         std::uint32_t a, b;
         fast::Box region;
+        fast::TileSides sides; // of the tiles that will query the window of a for b
+    };
+    // Blocks or super-tiles [first, last) of a body.
+    struct Piece {
+        std::uint32_t body, first, last;
+    };
+    // Bodies [first, last), whose windows share buffers: always the same ones, so that the buffers find their
+    // size.
+    struct Group {
+        std::uint32_t first, last;
+    };
+    static constexpr std::size_t group_vertices = 2048; // that make up a group
+    // The buffers of a worker.
+    struct alignas(64) Worker {
+        explicit Worker(std::pmr::memory_resource* memory);
+
+        fast::Certificate certificate;
+        std::pmr::vector<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
+        fast::Points points;                   // of one body, before they are binned
+        std::pmr::vector<std::uint32_t> cell_of;
+        std::pmr::vector<fast::Source> sources, near; // of a piece of a body, and of a super-tile
+        std::pmr::vector<std::uint32_t> stamps;
+        std::pmr::vector<fast::QueryScratch> scratch;   // one, once it is needed
+        std::uint64_t exact_tests = 0, decision_ns = 0; // of the step
     };
     struct Step;
+    class Decide;
 
+    void prepare(Step& step);
     void stream(Step& step);
-    void pack(const Body& body, std::size_t first);
-    void know_super_tiles(Step& step, std::uint32_t body);
-    void reach(Step& step, Reach& reach);
-    void make_window(Step& step, std::uint32_t body, std::span<const Reach> reaches);
-    bool cull_by_winding(Step& step, std::uint32_t body);
-    void activate_blocks(const Step& step, std::uint32_t body);
-    void sample_tiles(const Step& step, std::uint32_t body, double& inverse_sides, double& count);
-    double cell_size(const Step& step, std::uint32_t body);
-    void query(Step& step, std::uint32_t body, std::span<const std::uint32_t> reaching);
+    bool stream(const Step& step, const Piece& piece, fast::Box& box);
+    void find_reaches(Step& step);
+    void shrink_to_blocks(const Step& step, Reach& reach) const;
+    void shrink_to_tiles(const Step& step, Reach& reach) const;
+    void sort_reaches(const Step& step);
+    std::span<const std::uint32_t> reaching(std::uint32_t b) const noexcept; // in reaches_
+    void know_super_tiles(const Step& step, const Piece& piece);
+    void know_tiles(const Step& step, const Piece& piece);
+    void make_windows(Step& step);
+    void make_window(const Step& step, std::uint32_t body, fast::Bins& bins, Worker& worker,
+                     Workers* helpers);
+    bool cull_by_winding(const Step& step, std::uint32_t body, Worker& worker, Workers* helpers);
+    void activate_blocks(const Step& step, std::uint32_t body, Worker& worker) const;
+    void sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides);
+    void query(Step& step, const Piece& piece, Worker& worker);
 
     std::pmr::vector<float> packed_; // positions of bodies whose own are strided
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
     std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
+    std::pmr::vector<Piece> block_pieces_, super_pieces_;
+    std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
     fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_;
-    std::pmr::vector<Reach> reaches_;          // sorted by a, then b
-    std::pmr::vector<std::uint32_t> by_b_;     // their indices sorted by b, then a
-    std::pmr::vector<std::uint32_t> first_of_; // buffer of that sort
-    fast::Certificate certificate_;
-    std::pmr::vector<std::uint8_t> active_; // blocks with vertices that may be in tets of the same body
-    fast::Points points_;                   // of one body, before they are binned
-    fast::Bins bins_;
-    std::pmr::vector<fast::Source> sources_, near_; // all of a body, and those near a super-tile
-    std::pmr::vector<std::uint32_t> stamps_;
-    std::pmr::vector<fast::QueryScratch> scratch_;
+    std::pmr::vector<Reach> reaches_;            // sorted by a, then b
+    std::pmr::vector<std::uint32_t> by_b_;       // their indices sorted by b, then a
+    std::pmr::vector<std::uint32_t> first_of_b_; // of each body in by_b_, and the end
+    std::pmr::vector<std::uint32_t> first_of_a_; // of each body in reaches_, and the end
+    std::pmr::vector<Group> groups_;
+    std::pmr::vector<fast::Bins> bins_; // of the windows of each group
+    std::pmr::vector<Worker> workers_;
     std::pmr::vector<std::uint64_t> degenerate_; // body << 32 | tet
     double cell_size_ = 0;
 };

@@ -242,7 +242,8 @@ void vox_grid::gather_bodies() {
 
 void vox_grid::detect_fast(vox_counters& counters, vox_profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
-    fast_engine_.detect(bodies_, tiles_, {choose_cell_size_ ? 0 : cell_size_}, hits_, counters, profile);
+    const FastSettings settings{.cell_size = choose_cell_size_ ? 0 : cell_size_, .workers = &workers_};
+    fast_engine_.detect(bodies_, tiles_, settings, hits_, counters, profile);
     if (choose_cell_size_) cell_size_ = fast_engine_.cell_size();
 }
 

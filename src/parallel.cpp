@@ -45,10 +45,13 @@ struct Workers::Scheduler {
 };
 
 namespace {
+// oneTBB has no more threads than there are cores, and warns on the terminal when it is asked for more.
 std::uint32_t most_workers(std::uint32_t asked) {
-    if (asked != 0) return asked;
-    const int cores = tbb::task_arena(tbb::task_arena::automatic).max_concurrency();
-    return std::clamp<std::uint32_t>(static_cast<std::uint32_t>(cores), 1, VOX_MAX_WORKERS);
+    if (asked == 1) return 1;
+    const auto cores =
+        static_cast<std::uint32_t>(tbb::task_arena(tbb::task_arena::automatic).max_concurrency());
+    const std::uint32_t most = std::clamp<std::uint32_t>(cores, 1, VOX_MAX_WORKERS);
+    return asked == 0 ? most : std::min(asked, most);
 }
 } // namespace
 

@@ -5,3 +5,10 @@ foreach(name grid contacts memory)
   target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)
   target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)
 endforeach()
+
+# Threads; under the thread sanitizer by ./dev tsan.
+find_package(Threads REQUIRED)
+vox_test(threads test_threads.c LIBS vox::vox Threads::Threads)
+set_tests_properties(threads PROPERTIES LABELS threads)
+target_compile_definitions(test_threads PRIVATE _POSIX_C_SOURCE=200809L)
+target_compile_options(test_threads PRIVATE -Wno-conversion -Wno-float-conversion)

@@ -328,12 +328,12 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
     s.counters.visited_cells += std::uint64_t{x1 - x0 + 1} * (y1 - y0 + 1) * (z1 - z0 + 1);
     const auto lx = hn::Set(d, box.lo[0]), ly = hn::Set(d, box.lo[1]), lz = hn::Set(d, box.lo[2]);
     const auto hx = hn::Set(d, box.hi[0]), hy = hn::Set(d, box.hi[1]), hz = hn::Set(d, box.hi[2]);
-    const Points& points = w.query.bins->points;
+    const Points& points = window.bins->points;
     const float* HWY_RESTRICT px = points.x.data() + window.first_point;
     const float* HWY_RESTRICT py = points.y.data() + window.first_point;
     const float* HWY_RESTRICT pz = points.z.data() + window.first_point;
     const std::uint32_t* HWY_RESTRICT ids = points.id.data() + window.first_point;
-    const std::uint32_t* HWY_RESTRICT begin = w.query.bins->begin.data() + window.first_cell;
+    const std::uint32_t* HWY_RESTRICT begin = window.bins->begin.data() + window.first_cell;
     std::uint32_t labelled = n;
     std::uint64_t visited = 0;
     for (std::uint32_t z = z0; z <= z1; ++z)

@@ -76,7 +76,6 @@ struct Source {
 struct Query {
     const Tiles* tiles;
     const float* positions; // packed, of the body of the tiles
-    const Bins* bins;       // of the windows
     // Boxes of the tiles of the body; one that is not known is made when it is needed.
     Box* boxes;
     std::uint8_t* known;

@@ -28,12 +28,12 @@ HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     return finite;
 }
 
-bool StreamBoxes(const float* HWY_RESTRICT positions, std::uint32_t count,
-                 const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
-                 Box& body) {
+bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
+                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
     const hn::FixedTag<float, 4> d;
     bool finite = true;
-    std::uint32_t checked = 0;
+    const std::uint32_t count = first[blocks];
+    std::uint32_t checked = first[0];
     auto all_lo = hn::Set(d, infinity), all_hi = hn::Set(d, -infinity);
     for (std::size_t b = 0; b < blocks; ++b) {
         const std::uint32_t end = first[b + 1];
@@ -45,7 +45,7 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, std::uint32_t count,
         const float* p = positions + std::size_t{first[b]} * 3;
         std::uint32_t left = end - first[b];
         auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
-        if (end == count) { // the fourth lane of a load is the next position's x, and there is none
+        if (end == count) { // the fourth lane of a load is the next position's x, which is not ours
             alignas(16) const float last[4] = {p[3 * left - 3], p[3 * left - 2], p[3 * left - 1], 0};
             lo = hi = hn::Load(d, last);
             --left;
@@ -65,8 +65,8 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, std::uint32_t count,
         all_lo = hn::Min(all_lo, lo);
         all_hi = hn::Max(all_hi, hi);
     }
-    hn::Store(all_lo, d, body.lo);
-    hn::Store(all_hi, d, body.hi);
+    hn::Store(all_lo, d, all.lo);
+    hn::Store(all_hi, d, all.hi);
     return finite;
 }
 
@@ -77,9 +77,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-bool stream_boxes(const float* positions, std::uint32_t count, std::span<const std::uint32_t> first,
-                  Box* boxes, Box& body) {
-    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, count, first.data(), first.size() - 1, boxes, body);
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
+    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
 }
 
 } // namespace vox::fast

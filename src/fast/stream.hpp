@@ -9,9 +9,9 @@
 
 namespace vox::fast {
 
-// Writes the box of each of the blocks [first[i], first[i + 1]) of `count` packed positions to `boxes`, and
-// the box of all to `body`. Returns false when a position is not finite; the boxes mean nothing then.
-bool stream_boxes(const float* positions, std::uint32_t count, std::span<const std::uint32_t> first,
-                  Box* boxes, Box& body);
+// Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
+// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes mean
+// nothing then.
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
 
 } // namespace vox::fast

@@ -18,6 +18,7 @@
 #include "winding.hpp"
 #include "../simd.hpp"
 
+#include "parallel.hpp"
 #include "predicates.hpp"
 
 #include <algorithm>
@@ -49,16 +50,16 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Makes the boxes of all tiles and, for each, the set of tets that the float filter (query.cpp) does not find
-// positive.
+// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
+// does not find positive.
 void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
-            Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+            std::size_t first, std::size_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known,
+            std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
     const Words du;
     const hn::Rebind<std::uint8_t, Floats> db;
     TileVertices vertices;
-    const std::size_t count = tiles.tiles.size();
-    for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t t = first; t < last; ++t) {
         const Tile& tile = tiles.tiles.data()[t];
         LoadTile(tiles, positions, tile, vertices, boxes[t]);
         known[t] = 1;
@@ -196,8 +197,7 @@ public:
         judge(false);
         if (!worthwhile()) return false;
         out_.bad.resize(body_.tiles.tiles.size());
-        VOX_SIMD_DISPATCH(Orient)
-        (body_.tiles, body_.surface, body_.positions, body_.tile_boxes, body_.tile_known, out_.bad.data());
+        orient();
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
         bool as_assumed = !any_bad;
@@ -214,6 +214,18 @@ public:
     }
 
 private:
+    void orient() {
+        const auto part = [&, function = VOX_SIMD_DISPATCH(Orient)](std::size_t first, std::size_t last,
+                                                                    std::uint32_t) {
+            function(body_.tiles, body_.surface, body_.positions, first, last, body_.tile_boxes,
+                     body_.tile_known, out_.bad.data());
+        };
+        if (body_.workers)
+            body_.workers->for_ranges(body_.tiles.tiles.size(), 256, part);
+        else
+            part(0, body_.tiles.tiles.size(), 0);
+    }
+
     // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
     bool mark(const Box& box, std::uint32_t set) {
         const Lattice& l = out_.lattice;

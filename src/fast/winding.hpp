@@ -10,6 +10,10 @@
 #include <span>
 #include <vector>
 
+namespace vox {
+class Workers;
+}
+
 namespace vox::fast {
 
 // Cells of a lattice around a body, and in which of them a point is covered by at most one tet.
@@ -41,6 +45,7 @@ struct WindingBody {
     double cell_size; // of the lattice
     Box* tile_boxes;  // all known afterwards, unless certify() returned false
     std::uint8_t* tile_known;
+    Workers* workers; // not null: share the pass over all tiles, as one task
 };
 
 // Fills `out` so that no vertex in a certified cell lies in a tet that does not own it, vertices of no tet

@@ -178,15 +178,16 @@ Box bounds(const Points& points) {
     return box;
 }
 
-Window bin(const Points& points, const Lattice& lattice, const Box& box, Bins& bins) {
+Window bin(const Points& points, const Lattice& lattice, const Box& box,
+           std::pmr::vector<std::uint32_t>& buffer, Bins& bins) {
     const std::uint32_t n = points.count;
     const std::size_t cells = lattice.count();
-    const Window window{lattice, box, bins.points.count, bins.cells, n};
+    const Window window{&bins, lattice, box, bins.points.count, bins.cells, n};
     bins.points.reserve(bins.points.count + std::size_t{n});
-    if (bins.cell_of.size() < n + Points::padding) bins.cell_of.resize(n + n / 8 + Points::padding);
+    if (buffer.size() < n + Points::padding) buffer.resize(n + n / 8 + Points::padding);
     const std::size_t used = bins.cells + cells + 2;
     if (bins.begin.size() < used) bins.begin.resize(used + used / 8);
-    std::uint32_t* cell_of = bins.cell_of.data();
+    std::uint32_t* cell_of = buffer.data();
     VOX_SIMD_DISPATCH(Cells)(lattice, points.x.data(), points.y.data(), points.z.data(), n, cell_of);
 
     // begin[c + 1] is first the number of points in c, then where c begins, and in the end where it ends.

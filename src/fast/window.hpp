@@ -50,8 +50,11 @@ Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 // covers the bulk alone.
 Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
 
-// The binned vertices of one body, in buffers that the windows of a step share.
+struct Bins;
+
+// The binned vertices of one body.
 struct Window {
+    const Bins* bins; // where they are
     Lattice lattice;
     Box box;                 // of its points
     std::size_t first_point; // in Bins::points
@@ -61,12 +64,11 @@ struct Window {
 };
 
 struct Bins {
-    explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory), cell_of(memory) {}
+    explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory) {}
 
     Points points; // window after window, sorted by cell
     std::pmr::vector<std::uint32_t> begin;
-    std::size_t cells = 0;                   // of `begin` that are in use
-    std::pmr::vector<std::uint32_t> cell_of; // buffer: cell of each unsorted point
+    std::size_t cells = 0; // of `begin` that are in use
     std::uint64_t occupied_cells = 0, fullest_cell = 0;
 
     void clear() noexcept {
@@ -83,7 +85,9 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, co
 // The box of points.
 Box bounds(const Points& points);
 
-// Adds the window of `points`, sorted stably into the cells of `lattice`.
-Window bin(const Points& points, const Lattice& lattice, const Box& box, Bins& bins);
+// Adds the window of `points`, sorted stably into the cells of `lattice`. `buffer` is kept from call to
+// call: the cell of each unsorted point.
+Window bin(const Points& points, const Lattice& lattice, const Box& box,
+           std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
 
 } // namespace vox::fast

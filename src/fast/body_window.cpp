@@ -1,0 +1,170 @@
+// Which vertices of a body are binned, and in cells of what size.
+#include "error.hpp"
+#include "step.hpp"
+
+#include <algorithm>
+
+namespace vox {
+
+using fast::Box;
+
+namespace {
+
+// Edge length of a cell in mean box sides of a tile: the optimum is flat from 0.4 to 0.9.
+constexpr double cells_per_tile = 0.6;
+// Most cells of a window, by vertices in it.
+constexpr std::size_t cells_per_vertex = 2;
+// A cell size asked for is kept up to this many times the automatic one: beyond it, every tile would meet
+// every vertex.
+constexpr double largest_factor = 16;
+// The same as cells_per_tile for the winding numbers of self-collision.
+constexpr double winding_cells_per_tile = 0.8;
+// A body with self-collision of so many tets is worth sharing among the workers; so many such bodies are at
+// most, to stay below VOX_MAX_TASKS.
+constexpr std::size_t many_tets = 1u << 17;
+constexpr std::size_t most_shared = 16;
+
+bool is_large(const Body& body) { return body.self_collision && body.tets.size() >= many_tets; }
+
+} // namespace
+
+// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, these share
+// the first part of each.
+void Fast::make_windows(Step& step) {
+    std::size_t vertices = 0, large = 0;
+    for (const Body& body : step.bodies) {
+        vertices += body.vertex_count;
+        large += is_large(body);
+    }
+    const bool share = large < step.worker_count() && large <= most_shared;
+    for (std::uint32_t g = 0; large && share && g < groups_.size(); ++g)
+        for (std::uint32_t a = groups_[g].first; a < groups_[g].last; ++a)
+            if (is_large(step.bodies[a])) make_window(step, a, bins_[g], workers_[0], step.settings.workers);
+    step.for_ranges(groups_.size(), vertices, 2 * group_vertices,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+                        for (std::size_t g = begin; g < end; ++g)
+                            for (std::uint32_t a = groups_[g].first; a < groups_[g].last; ++a)
+                                if (!share || !is_large(step.bodies[a]))
+                                    make_window(step, a, bins_[g], workers_[worker], nullptr);
+                    });
+    for (const BodyState& state : states_)
+        if (state.window.count) cell_size_ = state.cell_size;
+}
+
+// The sides of some tiles of a body.
+void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides) {
+    const FastMesh& mesh = *step.prepared[body];
+    const BodyState& state = states_[body];
+    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto t = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / samples);
+        fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
+                         tile_known_.data() + state.first_tile);
+        sides.add(tile_boxes_[state.first_tile + t]);
+    }
+}
+
+// Whether winding numbers tell which vertices may be in the body's own tets; then they are in
+// worker.certificate.
+bool Fast::cull_by_winding(const Step& step, std::uint32_t b, Worker& worker, Workers* helpers) {
+    const FastMesh& mesh = *step.prepared[b];
+    if (!step.settings.winding || !mesh.surface.is_closed) return false;
+    const BodyState& state = states_[b];
+    fast::TileSides sides;
+    sample_tiles(step, b, sides);
+    const fast::WindingBody body{mesh,
+                                 mesh.surface,
+                                 state.positions,
+                                 body_boxes_[b],
+                                 winding_cells_per_tile * sides.mean(),
+                                 tile_boxes_.data() + state.first_tile,
+                                 tile_known_.data() + state.first_tile,
+                                 helpers};
+    return fast::certify(body, worker.certificate, worker.exact_tests);
+}
+
+// Marks the blocks with vertices that are not certified.
+void Fast::activate_blocks(const Step& step, std::uint32_t b, Worker& worker) const {
+    const FastMesh& mesh = *step.prepared[b];
+    const BodyState& state = states_[b];
+    const fast::Certificate& certificate = worker.certificate;
+    std::pmr::vector<std::uint8_t>& active = worker.active;
+    const std::uint32_t count = mesh.block_count();
+    active.assign(count, 0);
+    const std::pmr::vector<std::uint32_t>& first = mesh.block_first;
+    for (const std::uint32_t v : mesh.surface.loose)
+        active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
+                                        1)] = 1;
+    if (certificate.complete) return;
+    const Box* blocks = block_boxes_.data() + state.first_block;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        bool near = true;
+        for (int a = 0; a < 3; ++a)
+            near = near && certificate.lattice.cell(blocks[i].lo[a], a) <= certificate.last[a] &&
+                   certificate.lattice.cell(blocks[i].hi[a], a) >= certificate.first[a];
+        for (std::uint32_t v = first[i]; near && v < first[i + 1] && !active[i]; ++v)
+            active[i] = !certificate.holds(state.positions + std::size_t{v} * 3);
+    }
+}
+
+// The window of the vertices of a body that reach another one, or that may be in tets of the same body.
+void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Worker& worker,
+                       Workers* helpers) {
+    const Body& body = step.bodies[a];
+    BodyState& state = states_[a];
+    const bool self = body.self_collision && !body.tets.empty();
+    const std::span<const Reach> reaches =
+        std::span(reaches_).subspan(first_of_a_[a], first_of_a_[a + 1] - first_of_a_[a]);
+    if (body.vertex_count == 0 || (reaches.empty() && !self)) return;
+
+    const bool culled = self && cull_by_winding(step, a, worker, helpers);
+    const Box* blocks = block_boxes_.data() + state.first_block;
+    const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
+    const std::uint32_t count = step.prepared[a]->block_count();
+    Box own =
+        self && !culled ? body_boxes_[a] : fast::empty_box; // of the vertices that may be in the same body
+    if (culled) {
+        activate_blocks(step, a, worker);
+        for (std::uint32_t b = 0; b < count; ++b)
+            if (worker.active[b]) fast::add(own, blocks[b]);
+    }
+    state.self = !fast::is_empty(own);
+    Box region = own;
+    for (const Reach& reach : reaches) fast::add(region, reach.region);
+    if (fast::is_empty(region)) return;
+
+    fast::Points& points = worker.points;
+    points.count = 0;
+    points.reserve(body.vertex_count);
+    const auto is_wanted = [&](std::uint32_t b) {
+        if (culled ? worker.active[b] != 0 : self) return true;
+        for (const Reach& reach : reaches)
+            if (fast::overlap(blocks[b], reach.region)) return true;
+        return false;
+    };
+    for (std::uint32_t b = 0; b < count;) { // runs of wanted blocks
+        const std::uint32_t begin = b;
+        while (b < count && is_wanted(b)) ++b;
+        if (b > begin)
+            fast::collect(state.positions, first[begin], first[b], region, points);
+        else
+            ++b;
+    }
+    if (points.count == 0) return;
+
+    // From the mean side of the tiles that will query the window.
+    fast::TileSides sides;
+    for (const Reach& reach : reaches) sides.add(reach.sides);
+    if (state.self) sample_tiles(step, a, sides);
+    const double automatic = cells_per_tile * sides.mean(), wanted = step.settings.cell_size;
+    state.cell_size = wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
+
+    const Box box = fast::bounds(points);
+    const fast::Lattice lattice =
+        fast::make_lattice(points, box, state.cell_size, cells_per_vertex * std::size_t{points.count} + 64);
+    state.window = fast::bin(points, lattice, box, worker.cell_of, bins);
+    state.own = own;
+    fast::intersect(state.own, box);
+}
+
+} // namespace vox

@@ -1,0 +1,27 @@
+// How large tiles are.
+#pragma once
+
+#include "box.hpp"
+
+namespace vox::fast {
+
+// The harmonic mean of the sides of tiles: a few that reach across the world do not count.
+struct TileSides {
+    double inverse_sum = 0, count = 0;
+
+    void add(const Box& box) noexcept {
+        const double sides = (double{box.hi[0]} - double{box.lo[0]}) +
+                             (double{box.hi[1]} - double{box.lo[1]}) +
+                             (double{box.hi[2]} - double{box.lo[2]});
+        if (!(sides > 0)) return;
+        inverse_sum += 3 / sides;
+        count += 1;
+    }
+    void add(const TileSides& other) noexcept {
+        inverse_sum += other.inverse_sum;
+        count += other.count;
+    }
+    double mean() const noexcept { return count > 0 ? count / inverse_sum : 0; }
+};
+
+} // namespace vox::fast

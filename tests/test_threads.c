@@ -1,0 +1,278 @@
+/* Task systems of the caller and worker counts: the same contacts, and the promises of vox_task_system. */
+#include <pthread.h>
+#include <string.h>
+
+#include "bodies.h"
+#include "suite.h"
+
+/* ---- schedulers ---- */
+
+enum { max_ranges = 64 };
+
+typedef struct queued {
+    vox_task* task;
+    void* context;
+    uint64_t begin[max_ranges], end[max_ranges];
+    uint32_t count;
+} queued;
+
+typedef struct scheduler {
+    uint32_t worker_count;
+    uint32_t enqueued; /* since it was last set to 0 */
+    uint64_t items;
+    uint32_t defect; /* what it does wrong on purpose */
+    queued waiting;
+} scheduler;
+
+enum { loses_items = 1, wrong_worker = 2, wrong_range = 3 };
+
+static void split(scheduler* s, vox_task* task, uint64_t items, uint64_t min_range, void* context) {
+    queued* q = &s->waiting;
+    uint64_t size = (items + max_ranges - 1) / max_ranges;
+    if (size < min_range) size = min_range;
+    if (size == 0) size = 1;
+    q->task = task;
+    q->context = context;
+    q->count = 0;
+    s->enqueued += 1;
+    s->items += items;
+    for (uint64_t begin = 0; begin < items; begin += size, ++q->count) {
+        q->begin[q->count] = begin;
+        q->end[q->count] = begin + size < items ? begin + size : items;
+    }
+}
+
+/* Runs everything before enqueue returns. */
+static void* inline_enqueue(vox_task* task, uint64_t items, uint64_t min_range, void* context, void* user) {
+    scheduler* s = (scheduler*)user;
+    split(s, task, items, min_range, context);
+    for (uint32_t i = s->defect == loses_items; i < s->waiting.count; ++i) {
+        const uint32_t worker = s->defect == wrong_worker ? s->worker_count : i % s->worker_count;
+        task(s->waiting.begin[i], s->waiting.end[i] + (s->defect == wrong_range), worker, context);
+    }
+    return NULL;
+}
+static void inline_finish(void* handle, void* user) {
+    (void)handle, (void)user;
+    ck_abort_msg("finish without a handle");
+}
+
+/* Runs everything when it is asked to finish, last range first. */
+static void* late_enqueue(vox_task* task, uint64_t items, uint64_t min_range, void* context, void* user) {
+    scheduler* s = (scheduler*)user;
+    split(s, task, items, min_range, context);
+    return &s->waiting;
+}
+static void late_finish(void* handle, void* user) {
+    const queued* q = (const queued*)handle;
+    const scheduler* s = (const scheduler*)user;
+    ck_assert_ptr_eq(handle, &s->waiting);
+    for (uint32_t i = q->count; i-- > 0;) q->task(q->begin[i], q->end[i], i % s->worker_count, q->context);
+}
+
+/* A thread a worker. */
+typedef struct worker {
+    const queued* q;
+    uint32_t index, step;
+} worker;
+static void* work(void* argument) {
+    const worker* w = (const worker*)argument;
+    for (uint32_t i = w->index; i < w->q->count; i += w->step)
+        w->q->task(w->q->begin[i], w->q->end[i], w->index, w->q->context);
+    return NULL;
+}
+static void threaded_finish(void* handle, void* user) {
+    const scheduler* s = (const scheduler*)user;
+    pthread_t threads[8];
+    worker workers[8];
+    ck_assert_uint_le(s->worker_count, 8);
+    for (uint32_t i = 0; i < s->worker_count; ++i) {
+        workers[i].q = (const queued*)handle;
+        workers[i].index = i;
+        workers[i].step = s->worker_count;
+        ck_assert_int_eq(pthread_create(&threads[i], NULL, work, &workers[i]), 0);
+    }
+    for (uint32_t i = 0; i < s->worker_count; ++i) pthread_join(threads[i], NULL);
+}
+
+/* ---- a scene with large and small bodies, self-collision and strided positions ---- */
+
+enum { small_bodies = 40 };
+static body large[2], small[small_bodies];
+
+static void make_bodies(void) {
+    large[0] = make_box(16, 0.125f, 0, 0, 0);
+    large[1] = make_box(16, 0.11f, 0.9f, 0.8f, 0.7f);
+    for (uint32_t v = 0; v < large[0].vertex_count; ++v) /* fold one half of a box into the other */
+        if (large[0].positions[3 * v] > 1.5f) large[0].positions[3 * v] = 2.6f - large[0].positions[3 * v];
+    for (uint32_t i = 0; i < small_bodies; ++i)
+        small[i] = make_box(3, 0.1f, 0.05f * (float)i, 0.03f * (float)(i % 7), 0.2f * (float)(i % 5));
+}
+
+static void free_bodies(void) {
+    for (int i = 0; i < 2; ++i) free_body(&large[i]);
+    for (int i = 0; i < small_bodies; ++i) free_body(&small[i]);
+}
+
+static vox_grid* new_scene(const vox_grid_desc* desc) {
+    vox_grid* grid = NULL;
+    vox_mesh mesh = 0;
+    ck_ok(vox_grid_create(desc, &grid));
+    for (int i = 0; i < 2 + small_bodies; ++i) {
+        vox_mesh_desc mesh_desc = body_desc(i < 2 ? &large[i] : &small[i - 2]);
+        mesh_desc.flags = i % 3 == 0 ? VOX_MESH_SELF_COLLISION : 0;
+        ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+    }
+    return grid;
+}
+
+static uint64_t stepped_hash(vox_grid* grid, vox_counters* counters) {
+    uint64_t hash = 0;
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_hash(grid, &hash));
+    counters->struct_size = sizeof *counters;
+    ck_ok(vox_grid_counters(grid, counters));
+    return hash;
+}
+
+/* ---- tests ---- */
+
+static const struct {
+    void* (*enqueue)(vox_task*, uint64_t, uint64_t, void*, void*);
+    void (*finish)(void*, void*);
+} systems[] = {{inline_enqueue, inline_finish}, {late_enqueue, late_finish}, {late_enqueue, threaded_finish}};
+
+START_TEST(same_for_any_task_system) {
+    scheduler s;
+    vox_counters serial, counters;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    make_bodies();
+    vox_grid* grid = new_scene(&desc);
+    const uint64_t expected = stepped_hash(grid, &serial);
+    ck_assert_uint_gt(serial.contacts, 1000);
+    vox_grid_destroy(grid);
+
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; ++k)
+        for (uint32_t workers = 1; workers <= 8; ++workers) {
+            memset(&s, 0, sizeof s);
+            s.worker_count = desc.worker_count = workers;
+            desc.tasks.enqueue = systems[k].enqueue;
+            desc.tasks.finish = systems[k].finish;
+            desc.tasks.user = &s;
+            grid = new_scene(&desc);
+            for (int step = 0; step < 2; ++step) {
+                s.enqueued = 0;
+                ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+                ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
+                if (workers > 1 && suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
+                ck_assert_uint_eq(counters.contacts, serial.contacts);
+                ck_assert_uint_eq(counters.candidates, serial.candidates);
+                ck_assert_uint_eq(counters.exact_tests, serial.exact_tests);
+                ck_assert_uint_eq(counters.visited_entries, serial.visited_entries);
+            }
+            vox_grid_destroy(grid);
+        }
+    free_bodies();
+}
+END_TEST
+
+START_TEST(same_for_any_worker_count) {
+    vox_counters counters;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    make_bodies();
+    vox_grid* grid = new_scene(&desc);
+    const uint64_t expected = stepped_hash(grid, &counters);
+    for (uint32_t workers = 0; workers <= 8; ++workers) {
+        ck_ok(vox_grid_set_worker_count(grid, workers));
+        for (int step = 0; step < 3; ++step) ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+    }
+    ck_ok(vox_grid_set_worker_count(grid, VOX_MAX_WORKERS));
+    ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+    vox_grid_destroy(grid);
+    free_bodies();
+}
+END_TEST
+
+START_TEST(non_finite_is_the_same_vertex) {
+    scheduler s;
+    vox_grid_desc desc = vox_default_grid_desc();
+    memset(&s, 0, sizeof s);
+    desc.engine = suite_engine;
+    s.worker_count = desc.worker_count = 4;
+    desc.tasks.enqueue = late_enqueue;
+    desc.tasks.finish = threaded_finish;
+    desc.tasks.user = &s;
+    make_bodies();
+    vox_grid* grid = new_scene(&desc);
+    const float zero = 0;
+    large[1].positions[3 * 4000] = 1 / zero;
+    large[1].positions[3 * 1234 + 2] = 1 / zero;
+    small[3].positions[0] = 1 / zero;
+    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097, vertex 1234");
+    vox_grid_destroy(grid);
+    free_bodies();
+}
+END_TEST
+
+START_TEST(defective_task_systems) {
+    /* A scheduler that loses work or lies is told so; nothing is silently missing. */
+    static const char* const words[] = {"items", "worker 4 of 4", "items"};
+    scheduler s;
+    vox_grid_desc desc = vox_default_grid_desc();
+    make_bodies();
+    for (uint32_t defect = loses_items; defect <= wrong_range; ++defect) {
+        memset(&s, 0, sizeof s);
+        s.worker_count = desc.worker_count = 4;
+        desc.engine = VOX_ENGINE_FAST;
+        desc.tasks.enqueue = inline_enqueue;
+        desc.tasks.finish = inline_finish;
+        desc.tasks.user = &s;
+        vox_grid* grid = new_scene(&desc);
+        vox_counters counters;
+        s.defect = defect;
+        ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, words[defect - 1]);
+        s.defect = 0;
+        (void)stepped_hash(grid, &counters);
+        ck_assert_uint_gt(counters.contacts, 1000);
+        vox_grid_destroy(grid);
+    }
+    free_bodies();
+}
+END_TEST
+
+START_TEST(bad_arguments) {
+    vox_grid* grid = NULL;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.worker_count = VOX_MAX_WORKERS + 1;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 257");
+    desc.worker_count = 2;
+    desc.tasks.enqueue = inline_enqueue;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "enqueue and finish");
+    desc.tasks.finish = inline_finish;
+    desc.worker_count = 0;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 0");
+    ck_assert_ptr_null(grid);
+    desc.worker_count = 1;
+    ck_ok(vox_grid_create(&desc, &grid));
+    ck_fails(vox_grid_set_worker_count(grid, 0), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 0");
+    ck_fails(vox_grid_set_worker_count(grid, 1000), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 1000");
+    ck_fails(vox_grid_set_worker_count(NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_test(tests, same_for_any_task_system);
+    tcase_add_test(tests, same_for_any_worker_count);
+    tcase_add_test(tests, non_finite_is_the_same_vertex);
+    tcase_add_test(tests, defective_task_systems);
+    tcase_add_test(tests, bad_arguments);
+}
+
+int main(void) {
+    Suite* suite = suite_create("threads");
+    add_for_each_engine(suite, add_tests);
+    return run_suite(suite);
+}
