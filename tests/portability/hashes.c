@@ -1,5 +1,5 @@
-/* Steps built-in scenes with both engines and prints the hash of the contacts of every frame: the same text on every
- * machine and instruction set. `./dev portability` compares them. */
+/* Steps built-in scenes with both engines and prints the hash of the contacts of every frame: the same text
+ * on every machine and instruction set. `./dev portability` compares them. */
 #include "scenes.h"
 
 #include <inttypes.h>

@@ -1,5 +1,6 @@
-/* Scenes that are the same bit for bit on every machine: no function of the C library takes part in their numbers, only
- * additions, products and divisions of doubles. For the portability check and the speed guard. */
+/* Scenes that are the same bit for bit on every machine: no function of the C library takes part in their
+ * numbers, only additions, products and divisions of doubles. For the portability check and the speed guard.
+ */
 #ifndef VOX_TESTS_PORTABILITY_SCENES_H
 #define VOX_TESTS_PORTABILITY_SCENES_H
 
@@ -32,7 +33,8 @@ static inline double symmetric_random(uint64_t* state) {
     return (double)(next_random(state) >> 11) / 4503599627370496.0 - 1;
 }
 
-/* Keeps the tets of a box whose cubes lie in a ball of `radius` cubes around its middle, and their vertices. */
+/* Keeps the tets of a box whose cubes lie in a ball of `radius` cubes around its middle, and their vertices.
+ */
 static inline body cut_ball(uint32_t radius) {
     const uint32_t n = 2 * radius, unused = UINT32_MAX;
     body box = make_box(n, 1, -(float)radius, -(float)radius, -(float)radius);
@@ -41,7 +43,8 @@ static inline body cut_ball(uint32_t radius) {
     for (uint32_t v = 0; v < box.vertex_count; ++v) number[v] = unused;
     for (uint32_t t = 0; t < box.tet_count; ++t) {
         const uint32_t cube = t / 5;
-        const double x = cube % n + 0.5 - radius, y = cube / n % n + 0.5 - radius, z = cube / (n * n) + 0.5 - radius;
+        const double x = cube % n + 0.5 - radius, y = cube / n % n + 0.5 - radius,
+                     z = cube / (n * n) + 0.5 - radius;
         if (x * x + y * y + z * z > (double)radius * radius) continue;
         memmove(box.tets + 4 * tets, box.tets + 4 * t, 4 * sizeof(uint32_t));
         for (uint32_t c = 0; c < 4; ++c) number[box.tets[4 * tets + c]] = 0;
@@ -109,14 +112,14 @@ static inline void make_many(scene* s, uint32_t side, uint32_t radius) {
         uint64_t seed = i + 10;
         body b = cut_ball(radius);
         jitter_body(&b, 0.1, seed);
-        move_body(&b, apart * (i % side) + 0.05 * radius * symmetric_random(&seed),
-                  apart * (i / side % side) + 0.05 * radius * symmetric_random(&seed), apart * (i / side / side));
+        const double x = 0.05 * radius * symmetric_random(&seed), y = 0.05 * radius * symmetric_random(&seed);
+        move_body(&b, apart * (i % side) + x, apart * (i / side % side) + y, apart * (i / side / side));
         add_body(s, b);
     }
 }
 
-/* A row of boxes bent around until its ends go through each other: the circle as a rational curve, squared as a
- * complex number so that one turn and more are covered. */
+/* A row of boxes bent around until its ends go through each other: the circle as a rational curve, squared as
+ * a complex number so that one turn and more are covered. */
 static inline void make_ring(scene* s, uint32_t n) {
     body b = make_box(n, 1, 0, 0, 0);
     jitter_body(&b, 0.1, 4);
@@ -134,7 +137,8 @@ static inline void make_ring(scene* s, uint32_t n) {
     add_body(s, b);
 }
 
-/* Tets over vertices at random, all on a coarse lattice: flat, inverted, coincident, touching in every way. */
+/* Tets over vertices at random, all on a coarse lattice: flat, inverted, coincident, touching in every way.
+ */
 static inline void make_soup(scene* s, uint32_t vertices, uint32_t tets) {
     uint64_t seed = 5;
     s->self_collision = 1;
@@ -175,8 +179,8 @@ static inline void pose_scene(scene* s, int frame) {
             for (int a = 0; a < 3; ++a) {
                 double moved = rest[a];
                 if (s->wave_length > 0)
-                    moved += s->amplitude *
-                             triangle_wave((double)rest[(a + 1) % 3] / s->wave_length + 0.017 * frame + 0.3 * a + 0.14 * i);
+                    moved += s->amplitude * triangle_wave((double)rest[(a + 1) % 3] / s->wave_length +
+                                                          0.017 * frame + 0.3 * a + 0.14 * i);
                 p[a] = (float)moved;
             }
         }

@@ -1,0 +1,547 @@
+// Each stage of the fast engine by itself, over plain arrays, against loops over everything: tiles, stream,
+// pairs, window, query. Surface and winding numbers are in test_winding.cpp.
+#include "stage_checks.hpp"
+
+#include <cfloat>
+#include <limits>
+#include <memory>
+
+#include <check.h> // last: it defines macros with common names
+
+using namespace vox;
+using namespace stages;
+using fast::Box;
+
+namespace {
+
+// ---- tiles ----------------------------------------------------------------------------------------
+
+void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) {
+    if (mesh.positions.empty()) {
+        ck_assert_uint_eq(tiles.block_count(), 0);
+        ck_assert_uint_eq(tiles.super_tile_count(), 0);
+        return;
+    }
+    const auto& first = tiles.block_first;
+    ck_assert_uint_eq(first.front(), 0);
+    ck_assert_uint_eq(first.back(), vertex_count(mesh));
+    std::vector<std::uint32_t> block_of(mesh.positions.size());
+    for (std::uint32_t b = 0; b < tiles.block_count(); ++b) {
+        ck_assert_msg(first[b] < first[b + 1] && first[b + 1] - first[b] <= fast::block_size,
+                      "%s: block %u is vertices %u to %u", name, b, first[b], first[b + 1]);
+        for (std::uint32_t v = first[b]; v < first[b + 1]; ++v) block_of[v] = b;
+    }
+    ck_assert_uint_eq(tiles.super_first.front(), 0);
+    ck_assert_uint_eq(tiles.super_first.back(), tiles.tiles.size());
+    ck_assert_uint_eq(tiles.block_begin.back(), tiles.blocks.size());
+    for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
+        ck_assert_uint_lt(tiles.super_first[s], tiles.super_first[s + 1]);
+        std::set<std::uint32_t> blocks;
+        for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
+            for (std::uint32_t i = 0; i < tiles.tiles[t].vertex_count; ++i)
+                blocks.insert(block_of[tiles.vertices[tiles.tiles[t].first_vertex + i]]);
+        const auto begin = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s]);
+        const auto end = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s + 1]);
+        ck_assert_msg(std::equal(begin, end, blocks.begin(), blocks.end()), "%s: blocks of super-tile %u",
+                      name, s);
+    }
+}
+
+void check_tiles(const Mesh& mesh, const char* name) {
+    const fast::Tiles tiles = tiles_of(mesh);
+    ck_assert_uint_eq(tiles.tets.size(), mesh.tets.size());
+    std::vector<int> seen(mesh.tets.size());
+    std::uint32_t next_tet = 0;
+    for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
+        const fast::Tile& tile = tiles.tiles[t];
+        ck_assert_msg(tile.tet_count >= 1 && tile.tet_count <= 64 && tile.vertex_count >= 1 &&
+                          tile.vertex_count <= 64,
+                      "%s: tile %zu has %u tets, %u vertices", name, t, tile.tet_count, tile.vertex_count);
+        ck_assert_uint_eq(tile.first_tet, next_tet);
+        next_tet += tile.tet_count;
+        ck_assert_uint_eq(tile.first_vertex % 4, 0);
+        const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+        const std::uint64_t* own = tiles.own.data() + tile.first_vertex;
+        const std::uint32_t count = tile.vertex_count;
+        const std::set<std::uint32_t> different(vertices, vertices + count);
+        ck_assert_msg(different.size() == count, "%s: tile %zu lists a vertex twice", name, t);
+        ck_assert_int_eq(tile.holds_last_vertex, different.count(vertex_count(mesh) - 1) != 0);
+        for (std::uint32_t i = count; i % 4; ++i) ck_assert_uint_eq(vertices[i], vertices[count - 1]);
+        std::vector<std::uint64_t> expected_own(count);
+        for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
+            const std::uint32_t tet = tiles.tets[tile.first_tet + i];
+            ck_assert_uint_lt(tet, mesh.tets.size());
+            ++seen[tet];
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint32_t local = tiles.corners[(t * 4 + c) * fast::tile_size + i];
+                ck_assert_uint_lt(local, count);
+                ck_assert_msg(vertices[local] == mesh.tets[tet].v[c], "%s: corner %u of tet %u is %u", name,
+                              c, tet, vertices[local]);
+                expected_own[local] |= std::uint64_t{1} << i;
+            }
+        }
+        ck_assert_msg(std::equal(expected_own.begin(), expected_own.end(), own), "%s: owners in tile %zu",
+                      name, t);
+    }
+    for (std::size_t t = 0; t < seen.size(); ++t)
+        ck_assert_msg(seen[t] == 1, "%s: tet %zu is in %d tiles", name, t, seen[t]);
+    check_blocks(mesh, tiles, name);
+}
+
+START_TEST(tiles_hold_every_tet_once) {
+    Random r{1};
+    for (const int n : {1, 2, 3, 5, 8, 14}) check_tiles(block(n, n, n), "a block");
+    Mesh mesh = ball(5000);
+    renumber(mesh, r);
+    check_tiles(mesh, "a renumbered ball");
+    for (int i = 0; i < 30; ++i)
+        check_tiles(soup(r, 1 + r.below(300), r.below(600), 3, i % 2 != 0), "a soup");
+    Mesh star; // more than 64 tets around one vertex, more than 64 vertices among 64 tets
+    star.positions.resize(301);
+    for (std::uint32_t i = 0; i < 100; ++i) star.tets.push_back({{0, 3 * i + 1, 3 * i + 2, 3 * i + 3}});
+    check_tiles(star, "a star");
+    Mesh twins; // all in one place
+    twins.positions.resize(4);
+    twins.tets.assign(1000, {{0, 1, 2, 3}});
+    check_tiles(twins, "a thousand times the same tet");
+    for (const float bad :
+         {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), FLT_MAX}) {
+        mesh = block(6, 6, 6);
+        for (int i = 0; i < 50; ++i) mesh.positions[r.below(vertex_count(mesh))].y = bad;
+        check_tiles(mesh, "positions that are none");
+    }
+    check_tiles(Mesh{}, "nothing");
+    Mesh points;
+    points.positions.resize(77);
+    check_tiles(points, "points");
+}
+END_TEST
+
+START_TEST(tiles_are_full_and_compact) {
+    double radius = 0;
+    const Mesh mesh = ball(20000, &radius);
+    const fast::Tiles tiles = tiles_of(mesh);
+    const double per_tile = double(mesh.tets.size()) / double(tiles.tiles.size());
+    ck_assert_msg(per_tile > 40, "%g tets a tile", per_tile);
+    double volume = 0; // of the tiles' boxes; five tets make up a cube of one
+    for (const fast::Tile& tile : tiles.tiles) {
+        Box box = fast::empty_box;
+        for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
+            fast::add(box, box_around(mesh.positions[tiles.vertices[tile.first_vertex + i]]));
+        volume +=
+            double(box.hi[0] - box.lo[0]) * double(box.hi[1] - box.lo[1]) * double(box.hi[2] - box.lo[2]);
+    }
+    ck_assert_msg(volume < 4 * double(mesh.tets.size()) / 5, "boxes of %g for a volume of %g", volume,
+                  double(mesh.tets.size()) / 5);
+}
+END_TEST
+
+// ---- stream ---------------------------------------------------------------------------------------
+
+START_TEST(stream_finds_the_boxes) {
+    Random r{2};
+    for (int round = 0; round < 200; ++round) {
+        const std::uint32_t count = round < 60 ? std::uint32_t(round) + 1 : 1 + r.below(1500);
+        std::vector<float> positions(3 * std::size_t{count}); // no longer than it has to be
+        for (float& c : positions) c = r.below(50) ? r.uniform(-9, 9) : r.any_finite();
+        std::vector<std::uint32_t> first{0};
+        while (first.back() < count)
+            first.push_back(std::min(count, first.back() + 1 + r.below(fast::block_size)));
+        const std::size_t blocks = first.size() - 1;
+        std::vector<Box> expected(blocks, fast::empty_box);
+        Box expected_all = fast::empty_box;
+        for (std::size_t b = 0; b < blocks; ++b) {
+            for (std::uint32_t v = first[b]; v < first[b + 1]; ++v)
+                fast::add(expected[b],
+                          box_around({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}));
+            fast::add(expected_all, expected[b]);
+        }
+        at_each_level([&](const char* level) {
+            std::vector<Box> boxes(blocks);
+            Box all{};
+            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), all));
+            ck_assert_msg(same(all, expected_all), "%s: box of %u positions", level, count);
+            for (std::size_t b = 0; b < blocks; ++b)
+                ck_assert_msg(same(boxes[b], expected[b]), "%s: block %zu of %zu", level, b, blocks);
+        });
+    }
+}
+END_TEST
+
+START_TEST(stream_sees_what_is_not_finite) {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    for (const std::uint32_t count : {1u, 3u, 8u, 9u, 37u, 300u}) {
+        std::vector<float> positions(3 * std::size_t{count});
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            positions[i] = i % 5 == 0 ? FLT_MAX : i % 5 == 1 ? -FLT_MAX : i % 5 == 2 ? 1e-45f : -0.0f;
+        std::vector<std::uint32_t> first{0};
+        while (first.back() < count) first.push_back(std::min(count, first.back() + fast::block_size));
+        at_each_level([&](const char* level) {
+            std::vector<Box> boxes(first.size());
+            Box all{};
+            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), all));
+            for (float& c : positions)
+                for (const float bad : {infinite, -infinite, std::numeric_limits<float>::quiet_NaN()}) {
+                    const float good = c;
+                    c = bad;
+                    ck_assert_msg(!fast::stream_boxes(positions.data(), first, boxes.data(), all),
+                                  "%s: coordinate %td of %u positions is %g", level, &c - positions.data(),
+                                  count, double(bad));
+                    c = good;
+                }
+        });
+    }
+}
+END_TEST
+
+// ---- pairs ----------------------------------------------------------------------------------------
+
+START_TEST(pairs_are_all_that_overlap) {
+    Random r{3};
+    fast::PairBuffers buffers(std::pmr::get_default_resource());
+    std::pmr::vector<fast::Pair> pairs;
+    std::size_t touching = 0;
+    for (int round = 0; round < 500; ++round) {
+        std::vector<Box> boxes(r.below(60));
+        for (Box& box : boxes) {
+            if (r.below(10) == 0) {
+                box = fast::empty_box;
+                continue;
+            }
+            for (int a = 0; a < 3; ++a) { // of whole numbers, so that many touch
+                box.lo[a] = float(r.below(round % 3 == a ? 30 : 6));
+                box.hi[a] = box.lo[a] + float(r.below(4));
+                if (r.below(50) == 0) box.lo[a] = -FLT_MAX;
+                if (r.below(50) == 0) box.hi[a] = FLT_MAX;
+            }
+            box.lo[3] = std::numeric_limits<float>::quiet_NaN(); // the fourth means nothing
+        }
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+        for (std::uint32_t a = 0; a < boxes.size(); ++a)
+            for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+                const Box &p = boxes[a], &q = boxes[b];
+                bool meet = a != b, touch = false;
+                for (int i = 0; i < 3; ++i) {
+                    meet = meet && p.lo[i] <= p.hi[i] && q.lo[i] <= q.hi[i] && p.lo[i] <= q.hi[i] &&
+                           q.lo[i] <= p.hi[i];
+                    touch = touch || p.hi[i] == q.lo[i];
+                }
+                if (meet) expected.emplace_back(a, b);
+                touching += meet && touch;
+            }
+        fast::find_pairs(boxes, buffers, pairs);
+        for (const fast::Pair& pair : pairs) found.emplace_back(pair.a, pair.b);
+        ck_assert_msg(found == expected, "%zu boxes: %zu pairs, expected %zu", boxes.size(), found.size(),
+                      expected.size());
+    }
+    ck_assert_uint_gt(touching, 1000);
+}
+END_TEST
+
+// ---- window ---------------------------------------------------------------------------------------
+
+// Points of `region`, collected range by range as the engine does.
+fast::Points collected(const Mesh& mesh, const Box& region) {
+    fast::Points points(std::pmr::get_default_resource());
+    points.reserve(mesh.positions.size());
+    for (std::uint32_t first = 0; first < mesh.positions.size();) {
+        const std::uint32_t last = std::min(vertex_count(mesh), first + 1 + first % 70);
+        fast::collect(packed(mesh), first, last, region, points);
+        first = last;
+    }
+    return points;
+}
+
+Box random_box(Random& r, double extent) {
+    Box box =
+        box_around({r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)});
+    fast::add(box, box_around(
+                       {r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)}));
+    return box;
+}
+
+bool inside(const Vec3f& p, const Box& box) { return fast::overlap(box_around(p), box); }
+
+START_TEST(window_collects_and_bins) {
+    Random r{4};
+    for (int round = 0; round < 60; ++round) {
+        Mesh mesh = soup(r, 1 + r.below(3000), 0, 5, round % 3 == 0);
+        for (int i = 0; i < round % 4; ++i) // far away, each somewhere else
+            mesh.positions[r.below(vertex_count(mesh))].x = r.any_finite();
+        const Box region = round % 2 ? random_box(r, 6) : box_of(mesh);
+        const double cell_size = r.uniform(0.05, 3);
+        const std::size_t most_cells = 1 + r.below(20000);
+        at_each_level([&](const char* level) {
+            const fast::Points points = collected(mesh, region);
+            std::vector<std::uint32_t> expected;
+            Box expected_box = fast::empty_box;
+            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+                if (inside(mesh.positions[v], region)) {
+                    expected.push_back(v);
+                    fast::add(expected_box, box_around(mesh.positions[v]));
+                }
+            ck_assert_msg(std::equal(expected.begin(), expected.end(), points.id.begin(),
+                                     points.id.begin() + std::ptrdiff_t(points.count)),
+                          "%s: %u points collected, expected %zu", level, points.count, expected.size());
+            if (expected.empty()) return;
+            const Box box = fast::bounds(points);
+            ck_assert_msg(same(box, expected_box), "%s: bounds", level);
+
+            // Two windows in the same buffers: the second must leave the first alone.
+            fast::Bins bins(std::pmr::get_default_resource());
+            std::pmr::vector<std::uint32_t> cell_of;
+            const fast::Lattice lattices[2] = {fast::make_lattice(box, cell_size, most_cells),
+                                               fast::make_lattice(points, box, cell_size / 3, most_cells)};
+            const fast::Window windows[2] = {fast::bin(points, lattices[0], box, cell_of, bins),
+                                             fast::bin(points, lattices[1], box, cell_of, bins)};
+            std::uint64_t occupied = 0, fullest = 0;
+            for (const fast::Window& window : windows) {
+                const fast::Lattice& l = window.lattice;
+                ck_assert_uint_le(l.count(), most_cells);
+                ck_assert_uint_eq(window.count, points.count);
+                const std::uint32_t* begin = bins.begin.data() + window.first_cell;
+                ck_assert_uint_eq(begin[0], 0);
+                ck_assert_uint_eq(begin[l.count()], points.count);
+                std::vector<int> met(mesh.positions.size());
+                for (std::size_t c = 0; c < l.count(); ++c) {
+                    ck_assert_uint_le(begin[c], begin[c + 1]);
+                    occupied += begin[c] < begin[c + 1];
+                    fullest = std::max<std::uint64_t>(fullest, begin[c + 1] - begin[c]);
+                    for (std::uint32_t i = begin[c]; i < begin[c + 1]; ++i) {
+                        const std::size_t at = window.first_point + i;
+                        const std::uint32_t v = bins.points.id[at];
+                        const Vec3f p = mesh.positions[v];
+                        ck_assert(bins.points.x[at] == p.x && bins.points.y[at] == p.y &&
+                                  bins.points.z[at] == p.z);
+                        const std::size_t cell =
+                            (std::size_t{l.cell(p.z, 2)} * l.cells[1] + l.cell(p.y, 1)) * l.cells[0] +
+                            l.cell(p.x, 0);
+                        ck_assert_msg(cell == c, "%s: vertex %u is in cell %zu, binned to %zu", level, v,
+                                      cell, c);
+                        ck_assert_msg(i == begin[c] || bins.points.id[at - 1] < v, "%s: order in cell %zu",
+                                      level, c);
+                        ++met[v];
+                    }
+                }
+                for (const std::uint32_t v : expected) ck_assert_int_eq(met[v], 1);
+            }
+            ck_assert_uint_eq(bins.occupied_cells, occupied);
+            ck_assert_uint_eq(bins.fullest_cell, fullest);
+        });
+    }
+}
+END_TEST
+
+// Whatever is asked for: cells are in range, and no point between two others gets a cell beyond theirs.
+START_TEST(lattice_is_monotone) {
+    Random r{5};
+    for (int round = 0; round < 3000; ++round) {
+        Box box = random_box(r, 10);
+        if (round % 4 == 0) {
+            box = box_around({r.any_finite(), r.any_finite(), r.any_finite()});
+            fast::add(box, box_around({r.any_finite(), r.any_finite(), r.any_finite()}));
+        }
+        const double sizes[] = {r.uniform(1e-3, 5), 1e-300, 1e300, std::abs(double(r.any_finite()))};
+        const std::size_t most_cells = 1 + r.below(5000);
+        const fast::Lattice l = fast::make_lattice(box, sizes[r.below(4)], most_cells);
+        ck_assert_uint_le(l.count(), most_cells);
+        ck_assert(l.inverse > 0 && std::isfinite(l.inverse));
+        for (int a = 0; a < 3; ++a) {
+            std::vector<float> values{-FLT_MAX, FLT_MAX, 0.0f, box.lo[a], box.hi[a]};
+            for (int i = 0; i < 20; ++i) values.push_back(r.any_finite());
+            for (int i = 0; i < 20; ++i) {
+                const float v = box.lo[a] + float(r.unit()) * (box.hi[a] - box.lo[a]);
+                if (!std::isfinite(v)) continue;
+                values.push_back(v);
+                values.push_back(std::nextafter(v, FLT_MAX));
+            }
+            std::sort(values.begin(), values.end());
+            std::uint32_t last = 0;
+            for (const float v : values) {
+                const std::uint32_t cell = l.cell(v, a);
+                ck_assert_msg(cell >= last && cell < l.cells[a], "%g is in cell %u of %u, after %u",
+                              double(v), cell, l.cells[a], last);
+                last = cell;
+            }
+            ck_assert_uint_eq(l.cell(box.lo[a], a), 0);
+        }
+    }
+}
+END_TEST
+
+// A few points far away do not make the cells of the others large, and stay in the lattice.
+START_TEST(lattice_covers_the_bulk) {
+    Random r{6};
+    Mesh mesh = soup(r, 4000, 0, 5, false);
+    for (int i = 0; i < 5; ++i) mesh.positions[r.below(4000)] = {r.uniform(-1e6, 1e6), 1e7f, -1e5f};
+    const fast::Points points = collected(mesh, box_of(mesh));
+    const fast::Lattice l = fast::make_lattice(points, box_of(mesh), 0.5, 64000);
+    ck_assert_msg(1 / double(l.inverse) < 1, "cells of %g", 1 / double(l.inverse));
+    ck_assert_uint_le(l.count(), 64000);
+}
+END_TEST
+
+// ---- query ----------------------------------------------------------------------------------------
+
+using Found = std::array<std::uint32_t, 4>; // body, vertex, tet, certain
+
+class Collect final : public fast::Findings {
+public:
+    std::vector<Found> found;
+    void take(std::span<const fast::Finding> findings) override {
+        for (const fast::Finding& f : findings) found.push_back({f.body, f.vertex, f.tet, f.certain});
+    }
+};
+
+// Vertices of `meshes` against the tets of `meshes[0]`, its own vertices first where `self`; each mesh's
+// within its region.
+std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
+                         double cell_size) {
+    const Mesh& mesh = meshes[0];
+    const fast::Tiles tiles = tiles_of(mesh);
+    const auto tile_count = std::uint32_t(tiles.tiles.size());
+    fast::Bins bins(std::pmr::get_default_resource());
+    std::pmr::vector<std::uint32_t> cell_of;
+    std::vector<fast::Source> sources;
+    for (std::size_t a = self ? 0 : 1; a < meshes.size(); ++a) {
+        const fast::Points points = collected(meshes[a], regions[a]);
+        if (points.count == 0) continue;
+        const Box box = fast::bounds(points);
+        const fast::Lattice lattice = fast::make_lattice(points, box, cell_size, 100000);
+        sources.push_back({fast::bin(points, lattice, box, cell_of, bins), regions[a], std::uint32_t(a)});
+    }
+    std::vector<Box> boxes(tile_count);
+    std::vector<std::uint8_t> known(tile_count);
+    fast::tile_boxes(tiles, packed(mesh), 0, tile_count / 2, boxes.data(), known.data());
+    std::vector<std::uint32_t> stamps(mesh.positions.size());
+    const bool stamped = self && !sources.empty() && sources[0].body == 0;
+    fast::Query q{};
+    q.tiles = &tiles;
+    q.positions = packed(mesh);
+    q.boxes = boxes.data();
+    q.known = known.data();
+    q.stamps = stamped ? stamps.data() : nullptr;
+    const auto scratch = std::make_unique<fast::QueryScratch>();
+    Collect out;
+    for (std::uint32_t t = 0; t < tile_count; t += 5) // in pieces
+        fast::query_tiles(q, sources, t, std::min(tile_count, t + 5), *scratch, out);
+    fast::flush(*scratch, out);
+    for (std::uint32_t t = 0; t < tile_count; ++t) {
+        Box box = fast::empty_box;
+        for (std::uint32_t i = 0; i < tiles.tiles[t].vertex_count; ++i)
+            fast::add(box, box_around(mesh.positions[tiles.vertices[tiles.tiles[t].first_vertex + i]]));
+        ck_assert_msg(known[t] && same(boxes[t], box), "box of tile %u", t);
+    }
+    std::sort(out.found.begin(), out.found.end());
+    return out.found;
+}
+
+// Returns how many findings are uncertain.
+std::size_t check_query(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
+                        double cell_size, const char* name) {
+    std::vector<Found> first;
+    std::size_t uncertain = 0;
+    at_each_level([&](const char* level) {
+        const std::vector<Found> found = query(meshes, regions, self, cell_size);
+        if (first.empty()) first = found;
+        ck_assert_msg(found == first, "%s: other findings on %s", name, level);
+    });
+    std::set<std::array<std::uint32_t, 3>> pairs;
+    for (const Found& f : first) {
+        ck_assert_msg(pairs.insert({f[0], f[1], f[2]}).second, "%s: vertex %u in tet %u found twice", name,
+                      f[1], f[2]);
+        const Tet& tet = meshes[0].tets[f[2]];
+        const Vec3f p = meshes[f[0]].positions[f[1]];
+        ck_assert_msg(inside(p, regions[f[0]]), "%s: vertex %u is not in the region", name, f[1]);
+        ck_assert_msg(f[0] != 0 || (self && !owns(tet, f[1])), "%s: vertex %u in its own tet %u", name, f[1],
+                      f[2]);
+        ck_assert_msg(!f[3] || locate_in(meshes[0], tet, p) == Containment::interior,
+                      "%s: vertex %u is not inside tet %u", name, f[1], f[2]);
+        uncertain += !f[3];
+    }
+    for (std::size_t a = self ? 0 : 1; a < meshes.size(); ++a)
+        for (std::uint32_t v = 0; v < meshes[a].positions.size(); ++v) {
+            const Vec3f p = meshes[a].positions[v];
+            if (!inside(p, regions[a])) continue;
+            for (std::uint32_t t = 0; t < meshes[0].tets.size(); ++t) {
+                const Tet& tet = meshes[0].tets[t];
+                if ((a == 0 && owns(tet, v)) || !holds(locate_in(meshes[0], tet, p))) continue;
+                ck_assert_msg(pairs.count({std::uint32_t(a), v, t}),
+                              "%s: vertex %u of body %zu in tet %u is missing", name, v, a, t);
+            }
+        }
+    return uncertain;
+}
+
+START_TEST(query_misses_nothing) {
+    Random r{7};
+    std::size_t uncertain = 0;
+    for (int round = 0; round < 40; ++round) {
+        std::vector<Mesh> meshes;
+        for (int i = 0; i < 3; ++i) {
+            const bool snapped = round % 4 == 3;
+            Mesh mesh =
+                round % 2 ? soup(r, 40 + r.below(120), 30 + r.below(150), 3, snapped) : block(4, 4, 4);
+            if (round % 2 == 0) {
+                jitter(mesh, round % 4 == 0 ? 0.2 : 0, r);
+                move(mesh, 1, i * 1.5 - 2, i * 0.5 - 2, -2);
+                renumber(mesh, r);
+            }
+            meshes.push_back(std::move(mesh));
+        }
+        for (const double scale : {1.0, 0x1p-60, 0x1p-140, 0x1p60, 0x1p120}) {
+            std::vector<Mesh> scaled = meshes;
+            std::vector<Box> whole, parts;
+            for (Mesh& mesh : scaled) {
+                move(mesh, scale, 0, 0, 0);
+                whole.push_back(box_of(mesh));
+                Box part = random_box(r, 3 * scale);
+                fast::intersect(part, whole.back());
+                parts.push_back(part);
+            }
+            const double cell_size = r.uniform(0.2, 3) * scale;
+            uncertain += check_query(scaled, whole, round % 3 == 0, cell_size, "everything");
+            check_query(scaled, parts, round % 3 == 1, cell_size, "a region");
+            if (round > 8) break;
+        }
+    }
+    ck_assert_uint_gt(uncertain, 1000);
+}
+END_TEST
+
+// More vertices in one tile, and more pairs, than the buffers hold at a time.
+START_TEST(query_of_crowds) {
+    Random r{8};
+    Mesh tets = block(2, 2, 2), crowd;
+    move(tets, 1, -1, -1, -1);
+    for (int i = 0; i < 5000; ++i)
+        crowd.positions.push_back({r.uniform(-1.1, 1.1), r.uniform(-1.1, 1.1), r.uniform(-1.1, 1.1)});
+    const std::vector<Mesh> meshes{tets, crowd, crowd};
+    for (const double cell_size : {0.1, 1.0, 10.0})
+        check_query(meshes, {box_of(tets), box_of(crowd), box_of(crowd)}, true, cell_size, "a crowd");
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("stages");
+    TCase* tests = tcase_create("stages");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, tiles_hold_every_tet_once);
+    tcase_add_test(tests, tiles_are_full_and_compact);
+    tcase_add_test(tests, stream_finds_the_boxes);
+    tcase_add_test(tests, stream_sees_what_is_not_finite);
+    tcase_add_test(tests, pairs_are_all_that_overlap);
+    tcase_add_test(tests, window_collects_and_bins);
+    tcase_add_test(tests, lattice_is_monotone);
+    tcase_add_test(tests, lattice_covers_the_bulk);
+    tcase_add_test(tests, query_misses_nothing);
+    tcase_add_test(tests, query_of_crowds);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
