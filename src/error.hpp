@@ -31,7 +31,7 @@ format(const char* pattern, ...) {
     char text[1024];
     va_list arguments;
     va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
+    (void)std::vsnprintf(text, sizeof text, pattern, arguments); // a longer text is cut
     va_end(arguments);
     return text;
 }
