@@ -2,13 +2,6 @@
 
 #include "error.hpp"
 
-#include <algorithm>
-
-#if defined(VOX_TBB)
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
-
 namespace vox {
 
 void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
@@ -23,53 +16,6 @@ void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
                     "grid worker_count is 0 with a task system of the caller's, expected how many it has");
 }
 
-// ---- built-in scheduler ---------------------------------------------------------------------------
-
-#if defined(VOX_TBB)
-
-struct Workers::Scheduler {
-    explicit Scheduler(std::uint32_t worker_count) : arena(static_cast<int>(worker_count)) {}
-
-    void run(Job& job, std::size_t items, std::size_t min_range) {
-        arena.execute([&] {
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items, std::max<std::size_t>(min_range, 1)),
-                              [&](const tbb::blocked_range<std::size_t>& range) {
-                                  const int worker = tbb::this_task_arena::current_thread_index();
-                                  run_range(range.begin(), range.end(), static_cast<std::uint32_t>(worker),
-                                            &job);
-                              });
-        });
-    }
-
-    tbb::task_arena arena;
-};
-
-namespace {
-// oneTBB has no more threads than there are cores, and warns on the terminal when it is asked for more.
-std::uint32_t most_workers(std::uint32_t asked) {
-    if (asked == 1) return 1;
-    const auto cores =
-        static_cast<std::uint32_t>(tbb::task_arena(tbb::task_arena::automatic).max_concurrency());
-    const std::uint32_t most = std::clamp<std::uint32_t>(cores, 1, VOX_MAX_WORKERS);
-    return asked == 0 ? most : std::min(asked, most);
-}
-} // namespace
-
-#else
-
-struct Workers::Scheduler {
-    explicit Scheduler(std::uint32_t) {}
-    void run(Job& job, std::size_t items, std::size_t) { run_range(0, items, 0, &job); }
-};
-
-namespace {
-std::uint32_t most_workers(std::uint32_t) { return 1; }
-} // namespace
-
-#endif
-
-// ---- workers --------------------------------------------------------------------------------------
-
 Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count) : tasks_(tasks) {
     set_count(worker_count);
 }
@@ -81,7 +27,7 @@ void Workers::set_count(std::uint32_t worker_count) {
         count_ = worker_count;
         return;
     }
-    const std::uint32_t count = most_workers(worker_count);
+    const std::uint32_t count = Scheduler::most_workers(worker_count);
     scheduler_ = count > 1 ? std::make_unique<Scheduler>(count) : nullptr;
     count_ = count;
 }
@@ -110,7 +56,7 @@ void Workers::run(Job& job, std::size_t items, std::size_t min_range) {
         void* handle = tasks_.enqueue(&run_range, items, min_range, &job, tasks_.user);
         if (handle) tasks_.finish(handle, tasks_.user);
     } else {
-        scheduler_->run(job, items, min_range);
+        scheduler_->run(&run_range, items, min_range, &job);
     }
     if (job.failure) std::rethrow_exception(job.failure);
     if (job.done != items)

@@ -1,6 +1,8 @@
-// The threads of a step: the caller's task system, or the built-in one (oneTBB where the library is built
-// with it, else serial). What the stages compute never depends on how many there are.
+// The threads of a step: the caller's task system, or the built-in one. What the stages compute never depends
+// on how many there are.
 #pragma once
+
+#include "scheduler.hpp"
 
 #include <vox/vox.h>
 
@@ -52,7 +54,6 @@ private:
         std::exception_ptr failure{};
         std::size_t done = 0;
     };
-    struct Scheduler; // the built-in one
 
     static void run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker, void* job) noexcept;
     void run(Job& job, std::size_t items, std::size_t min_range);
