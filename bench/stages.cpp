@@ -1,0 +1,216 @@
+// Each stage of the fast engine by itself: nanoseconds an element, medians of rounds in which all stages take
+// turns. Processor time of the thread, at the SIMD level of the machine or the one asked for.
+//
+//   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
+#include "fast_scenes.hpp"
+#include "simd.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <time.h>
+
+using namespace vox;
+using fast::Box;
+
+namespace {
+
+double now() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+struct Stage {
+    const char* name;
+    const char* element;
+    std::size_t elements;
+    std::function<void()> run;
+    std::vector<double> seconds{};
+};
+
+class Count final : public fast::Findings {
+public:
+    std::size_t count = 0;
+    void take(std::span<const fast::Finding> findings) override { count += findings.size(); }
+};
+
+Positions view(const Mesh& mesh) {
+    return {reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)};
+}
+
+const float* packed(const Mesh& mesh) { return reinterpret_cast<const float*>(mesh.positions.data()); }
+
+// What the stages read and write. Two balls, the second reaching half into the first.
+struct Bodies {
+    std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+    Mesh a, b;
+    std::uint32_t vertices;
+    fast::Tiles tiles{memory};
+    fast::Surface surface{memory};
+    std::vector<Box> blocks, tile_boxes, many;
+    std::vector<std::uint8_t> known;
+    Box box_a{}, box_b{}, region{};
+    fast::PairBuffers pair_buffers{memory};
+    std::pmr::vector<fast::Pair> pairs;
+    fast::Points points{memory};
+    fast::Lattice lattice{};
+    fast::Bins bins{memory};
+    std::pmr::vector<std::uint32_t> cell_of;
+    fast::Window window{};
+    std::unique_ptr<fast::QueryScratch> scratch = std::make_unique<fast::QueryScratch>();
+    fast::Certificate certificate{memory};
+    std::uint64_t exact_tests = 0;
+    Count found;
+
+    explicit Bodies(double tets) {
+        Random random{1};
+        double radius = 0;
+        a = ball(tets / 2, &radius);
+        jitter(a, 0.1, random);
+        b = ball(tets / 2);
+        jitter(b, 0.1, random);
+        move(b, 1, radius, 0.123, 0.271);
+        vertices = std::uint32_t(a.positions.size());
+        fast::make_tiles(a.tets, vertices, view(a), tiles);
+        blocks.resize(tiles.block_count());
+        tile_boxes.resize(tiles.tiles.size());
+        known.resize(tiles.tiles.size());
+        fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
+        fast::make_surface(a.tets, vertices, view(a), tiles, surface);
+        box_b = fast::empty_box;
+        for (const Vec3f& p : b.positions) fast::add(box_b, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
+        region = box_a;
+        fast::intersect(region, box_b);
+        const double side = 2 * std::cbrt(tets / 1000); // boxes of bodies, each meeting a few others
+        for (double i = 0; i < tets / 100; ++i) {
+            const float x = random.uniform(0, side), y = random.uniform(0, side), z = random.uniform(0, side);
+            many.push_back({{x, y, z, 0}, {x + 1, y + 1, z + 1, 0}});
+        }
+        collect();
+        lattice = fast::make_lattice(points, fast::bounds(points), cell_size, 2 * std::size_t{points.count});
+        bin();
+    }
+
+    static constexpr double cell_size = 1.7; // 0.6 sides of a tile, about
+
+    void collect() {
+        points.count = 0;
+        points.reserve(b.positions.size());
+        fast::collect(packed(b), 0, std::uint32_t(b.positions.size()), region, points);
+    }
+
+    void bin() {
+        bins.clear();
+        window = fast::bin(points, lattice, region, cell_of, bins);
+    }
+
+    void query() {
+        fast::Query q{};
+        q.tiles = &tiles;
+        q.positions = packed(a);
+        q.boxes = tile_boxes.data();
+        q.known = known.data();
+        const fast::Source source{window, region, 1};
+        fast::query_tiles(q, {&source, 1}, 0, std::uint32_t(tiles.tiles.size()), *scratch, found);
+        fast::flush(*scratch, found);
+    }
+};
+
+std::vector<Stage> stages_of(Bodies& s) {
+    const std::size_t tets = s.a.tets.size();
+    return {
+        {"tiles", "tet", tets,
+         [&s] {
+             fast::Tiles tiles(s.memory);
+             fast::make_tiles(s.a.tets, s.vertices, view(s.a), tiles);
+         }},
+        {"surface", "tet", tets,
+         [&s] {
+             fast::Surface surface(s.memory);
+             fast::make_surface(s.a.tets, s.vertices, view(s.a), s.tiles, surface);
+         }},
+        {"stream", "vertex", s.vertices,
+         [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},
+        {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, s.pair_buffers, s.pairs); }},
+        {"tile boxes", "tet", tets,
+         [&s] {
+             std::fill(s.known.begin(), s.known.end(), std::uint8_t{0});
+             fast::tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
+                              s.tile_boxes.data(), s.known.data());
+         }},
+        {"collect", "vertex", s.b.positions.size(), [&s] { s.collect(); }},
+        {"bin", "point", s.points.count, [&s] { s.bin(); }},
+        {"query", "tet", tets, [&s] { s.query(); }},
+        {"winding", "tet", tets,
+         [&s] {
+             const fast::WindingBody body{s.tiles, s.surface,           packed(s.a),    s.box_a,
+                                          2.3,     s.tile_boxes.data(), s.known.data(), nullptr};
+             fast::certify(body, s.certificate, s.exact_tests);
+         }},
+    };
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    double tets = 200000;
+    int rounds = 11;
+    std::string only;
+    for (int i = 1; i < argc; i += 2) {
+        const std::string option = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
+        if (option == "--tets" && std::atof(value.c_str()) >= 1000)
+            tets = std::atof(value.c_str());
+        else if (option == "--rounds" && std::atoi(value.c_str()) > 0)
+            rounds = std::atoi(value.c_str());
+        else if (option == "--stage")
+            only = value;
+        else if (option == "--level" && value == "portable")
+            simd::force_level(simd::Level::portable);
+        else if (option == "--level" && value == "sse4")
+            simd::force_level(simd::Level::sse4);
+        else if (option == "--level" && value == "avx2")
+            simd::force_level(simd::Level::avx2);
+        else if (option == "--level" && value == "avx512")
+            simd::force_level(simd::Level::avx512);
+        else {
+            std::fprintf(stderr,
+                         "usage: bench_stages [--tets N >= 1000] [--rounds K] [--level portable|sse4|avx2|"
+                         "avx512] [--stage NAME]\n");
+            return 2;
+        }
+    }
+    Bodies bodies(tets);
+    std::vector<Stage> stages = stages_of(bodies);
+    for (int round = 0; round <= rounds; ++round) // the first is not counted: buffers grow
+        for (Stage& stage : stages) {
+            if (!only.empty() && only != stage.name) continue;
+            // Short ones several times, for at least a millisecond or so.
+            const double start = now();
+            double taken = 0;
+            int times = 0;
+            do {
+                stage.run();
+                ++times;
+                taken = now() - start;
+            } while (taken < 1e-3);
+            if (round > 0) stage.seconds.push_back(taken / times);
+        }
+    std::printf("stages of the fast engine, %s, medians of %d rounds\n%-12s %10s %-8s %10s %10s\n",
+                simd::level_name(simd::level()), rounds, "stage", "elements", "", "ms", "ns each");
+    for (const Stage& stage : stages)
+        if (!stage.seconds.empty()) {
+            const double time = median(stage.seconds);
+            std::printf("%-12s %10zu %-8s %10.3f %10.2f\n", stage.name, stage.elements, stage.element,
+                        time * 1e3, time * 1e9 / double(stage.elements));
+        }
+    return 0;
+}
