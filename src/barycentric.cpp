@@ -14,6 +14,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycentric.cpp"
 #include <hwy/foreach_target.h>
+
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #ifndef VOX_BARYCENTRIC_ONCE
@@ -32,6 +34,8 @@ struct BarycentricBlock {
 HWY_BEFORE_NAMESPACE();
 namespace vox {
 namespace HWY_NAMESPACE {
+
+#if HWY_HAVE_FLOAT64
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -100,24 +104,18 @@ std::uint64_t BlockWeights(const BarycentricBlock& block, std::size_t count, flo
     return uncertain;
 }
 
+#else // no registers of doubles: every point is left to the function that computes one
+
+std::uint64_t BlockWeights(const BarycentricBlock&, std::size_t, float*) { return ~std::uint64_t{0}; }
+
+#endif
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace vox {
-namespace {
-
-inline void prefetch(const void* address) {
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-#else
-    static_cast<void>(address);
-#endif
-}
-
-} // namespace
-
 void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t first,
                  BarycentricWeights& weights) {
     // Far enough to hide the way to memory, near enough that nothing is evicted again.
@@ -128,14 +126,14 @@ void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::s
         const std::size_t h = first + i;
         if (h + tets_ahead < hits.size()) {
             const Hit& later = hits[h + tets_ahead];
-            prefetch(bodies[later.body_b].tets.data() + later.tet);
+            hwy::Prefetch(bodies[later.body_b].tets.data() + later.tet);
         }
         if (h + positions_ahead < hits.size()) {
             const Hit& later = hits[h + positions_ahead];
             const Body &a = bodies[later.body_a], &b = bodies[later.body_b];
-            prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
+            hwy::Prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
             for (const std::uint32_t v : b.tets[later.tet].v)
-                prefetch(b.positions.data + v * b.positions.byte_stride);
+                hwy::Prefetch(b.positions.data + v * b.positions.byte_stride);
         }
         const Hit& hit = hits[h];
         const Body& b = bodies[hit.body_b];

@@ -25,8 +25,11 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/query.cpp"
 #include <hwy/foreach_target.h>
+
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "compress-inl.hpp"
 #include "tile-inl.hpp"
 
 #ifndef VOX_FAST_QUERY_ONCE
@@ -349,13 +352,13 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
                 const auto inside_z = hn::And(hn::Ge(vz, lz), hn::Le(vz, hz));
                 const auto inside =
                     hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, end - i)));
-                if (hn::AllFalse(d, inside)) continue;
-                hn::StoreU(hn::Compress(vx, inside), d, s.candidate_x + n);
-                hn::StoreU(hn::Compress(vy, inside), d, s.candidate_y + n);
-                hn::StoreU(hn::Compress(vz, inside), d, s.candidate_z + n);
-                hn::StoreU(hn::Compress(hn::LoadU(du, ids + i), hn::RebindMask(du, inside)), du,
-                           s.candidate_id + n);
-                n += static_cast<std::uint32_t>(hn::CountTrue(d, inside));
+                // Also when there is none: a branch would be mispredicted too often.
+                const Compressor compress(inside);
+                hn::StoreU(compress(vx), d, s.candidate_x + n);
+                hn::StoreU(compress(vy), d, s.candidate_y + n);
+                hn::StoreU(compress(vz), d, s.candidate_z + n);
+                hn::StoreU(compress(hn::LoadU(du, ids + i)), du, s.candidate_id + n);
+                n += compress.count();
                 if (n > QueryScratch::most_candidates - 16) {
                     for (; labelled < n; ++labelled) s.candidate_body[labelled] = source.body;
                     Process(w, n, own ? n : own_count);
@@ -369,8 +372,35 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
     return n;
 }
 
+HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
+    const char* line = static_cast<const char*>(from);
+    for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(line + i);
+}
+
+// What is made of the tile when it has candidates; it comes while those are fetched.
+HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile) {
+    const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
+    PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
+    PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
+    PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
+}
+
+// Of a window of few points the tiles of a super-tile together read more or less all.
+HWY_INLINE void PrefetchWindow(const Window& window) {
+    constexpr std::uint32_t few = 512;
+    if (window.count > few) return;
+    const Bins& bins = *window.bins;
+    const std::size_t bytes = window.count * sizeof(float), cells = window.lattice.count() + 1;
+    PrefetchRange(bins.begin.data() + window.first_cell, cells * sizeof(std::uint32_t));
+    PrefetchRange(bins.points.x.data() + window.first_point, bytes);
+    PrefetchRange(bins.points.y.data() + window.first_point, bytes);
+    PrefetchRange(bins.points.z.data() + window.first_point, bytes);
+    PrefetchRange(bins.points.id.data() + window.first_point, bytes);
+}
+
 void QueryTiles(const Query& query, const Source* sources, std::size_t source_count, std::uint32_t first,
                 std::uint32_t last, QueryScratch& s, Findings& out) {
+    for (std::size_t i = 0; i < source_count; ++i) PrefetchWindow(sources[i].window);
     for (std::uint32_t t = first; t < last; ++t) {
         TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, 0};
         if (!query.known[t]) {
@@ -380,9 +410,12 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
             query.known[t] = 1;
         }
         std::uint32_t n = 0, own_count = 0;
+        bool met = false;
         for (std::size_t i = 0; i < source_count; ++i) {
-            if (overlap(w.box, sources[i].region))
-                n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
+            if (!overlap(w.box, sources[i].region)) continue;
+            if (!met) PrefetchTile(*query.tiles, w.tile);
+            met = true;
+            n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
         }
         if (n) Process(w, n, own_count);
     }

@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "compress-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
@@ -35,11 +37,12 @@ std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, 
         const auto inside_z = hn::And(hn::Ge(pz, lz), hn::Le(pz, hz));
         const auto inside = hn::And(hn::And(inside_x, inside_y), inside_z);
         if (hn::AllFalse(d, inside)) continue;
-        hn::StoreU(hn::Compress(px, inside), d, x + n);
-        hn::StoreU(hn::Compress(py, inside), d, y + n);
-        hn::StoreU(hn::Compress(pz, inside), d, z + n);
-        hn::StoreU(hn::Compress(hn::Iota(du, v), hn::RebindMask(du, inside)), du, id + n);
-        n += static_cast<std::uint32_t>(hn::CountTrue(d, inside));
+        const Compressor compress(inside);
+        hn::StoreU(compress(px), d, x + n);
+        hn::StoreU(compress(py), d, y + n);
+        hn::StoreU(compress(pz), d, z + n);
+        hn::StoreU(compress(hn::Iota(du, v)), du, id + n);
+        n += compress.count();
     }
     for (; v < last; ++v) {
         const float* p = positions + std::size_t{v} * 3;

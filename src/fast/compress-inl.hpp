@@ -1,0 +1,92 @@
+// The lanes of a mask moved to the front. Included once per SIMD target, after hwy/highway.h.
+//
+// hn::Compress looks its shuffles up in a table too where registers are shorter than 512 bits, but in one
+// that gcc 12 copies to the stack every time.
+#if defined(VOX_FAST_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOX_FAST_COMPRESS_INL
+#undef VOX_FAST_COMPRESS_INL
+#else
+#define VOX_FAST_COMPRESS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#ifndef VOX_FAST_COMPRESS_ONCE
+#define VOX_FAST_COMPRESS_ONCE
+#include <array>
+#include <cstdint>
+
+namespace vox::fast {
+
+// For each set of eight lanes the lanes in it, in order, and then the others.
+struct CompressTable {
+    std::uint8_t lane[256][8];
+};
+constexpr CompressTable make_compress_table() {
+    CompressTable table{};
+    for (unsigned mask = 0; mask < 256; ++mask) {
+        unsigned n = 0;
+        for (unsigned wanted = 2; wanted-- > 0;)
+            for (unsigned i = 0; i < 8; ++i)
+                if ((mask >> i & 1) == wanted) table.lane[mask][n++] = static_cast<std::uint8_t>(i);
+    }
+    return table;
+}
+inline constexpr CompressTable compress_table = make_compress_table();
+
+} // namespace vox::fast
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// One mask for several registers of floats or 32-bit words. What comes after the lanes of the mask means
+// nothing.
+class Compressor {
+public:
+    using Floats = hn::CappedTag<float, 16>;
+    using Words = hn::RebindToUnsigned<Floats>;
+
+    HWY_INLINE explicit Compressor(hn::Mask<Floats> mask)
+#if HWY_MAX_BYTES >= 64
+        : mask_(mask), count_(static_cast<std::uint32_t>(hn::CountTrue(Floats(), mask))){}
+#else
+    {
+        const hn::Rebind<std::uint8_t, Floats> db;
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(Floats(), mask, bits);
+        lanes_ = hn::PromoteTo(Words(), hn::LoadU(db, compress_table.lane[bits[0]]));
+        count_ = static_cast<std::uint32_t>(hwy::PopCount(bits[0]));
+    }
+#endif
+
+          HWY_INLINE hn::Vec<Floats>
+          operator()(hn::Vec<Floats> v) const {
+#if HWY_MAX_BYTES >= 64
+        return hn::Compress(v, mask_);
+#else
+        return hn::TableLookupLanes(v, hn::IndicesFromVec(Floats(), lanes_));
+#endif
+    }
+    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> v) const {
+        return hn::BitCast(Words(), (*this)(hn::BitCast(Floats(), v)));
+    }
+    HWY_INLINE std::uint32_t count() const { return count_; }
+
+private:
+#if HWY_MAX_BYTES >= 64
+    hn::Mask<Floats> mask_;
+#else
+    hn::Vec<Words> lanes_;
+#endif
+    std::uint32_t count_;
+};
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#endif
