@@ -11,4 +11,5 @@ endforeach()
 set(io ${PROJECT_SOURCE_DIR}/src/io)
 vox_test(stuffing internal/test_stuffing.cpp ${io}/solid_coarsen.cpp ${io}/solid_lattice.cpp ${io}/solid_stencil.cpp
   ${io}/solid_stuff.cpp LIBS vox::vox)
+set_tests_properties(solid_bodies solid_models solid_surfaces stuffing PROPERTIES LABELS heavy)
 target_include_directories(test_stuffing PRIVATE ${io} ${PROJECT_SOURCE_DIR}/src)
