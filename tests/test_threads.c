@@ -135,6 +135,13 @@ static uint64_t stepped_hash(vox_grid* grid, vox_counters* counters) {
     return hash;
 }
 
+/* What was done is the same; only how much memory it took may depend on the workers. */
+static void check_same_counters(const vox_counters* a, const vox_counters* b) {
+    vox_counters x = *a, y = *b;
+    x.bytes = y.bytes = x.peak_bytes = y.peak_bytes = 0;
+    ck_assert_mem_eq(&x, &y, sizeof x);
+}
+
 /* ---- tests ---- */
 
 static const struct {
@@ -166,10 +173,7 @@ START_TEST(same_for_any_task_system) {
                 ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
                 ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
                 if (workers > 1 && suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
-                ck_assert_uint_eq(counters.contacts, serial.contacts);
-                ck_assert_uint_eq(counters.candidates, serial.candidates);
-                ck_assert_uint_eq(counters.exact_tests, serial.exact_tests);
-                ck_assert_uint_eq(counters.visited_entries, serial.visited_entries);
+                check_same_counters(&counters, &serial);
             }
             vox_grid_destroy(grid);
         }
@@ -178,15 +182,18 @@ START_TEST(same_for_any_task_system) {
 END_TEST
 
 START_TEST(same_for_any_worker_count) {
-    vox_counters counters;
+    vox_counters serial, counters;
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = suite_engine;
     make_bodies();
     vox_grid* grid = new_scene(&desc);
-    const uint64_t expected = stepped_hash(grid, &counters);
+    const uint64_t expected = stepped_hash(grid, &serial);
     for (uint32_t workers = 0; workers <= 8; ++workers) {
         ck_ok(vox_grid_set_worker_count(grid, workers));
-        for (int step = 0; step < 3; ++step) ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+        for (int step = 0; step < 3; ++step) {
+            ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+            check_same_counters(&counters, &serial);
+        }
     }
     ck_ok(vox_grid_set_worker_count(grid, VOX_MAX_WORKERS));
     ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
@@ -212,6 +219,89 @@ START_TEST(non_finite_is_the_same_vertex) {
     small[3].positions[0] = 1 / zero;
     ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097, vertex 1234");
     vox_grid_destroy(grid);
+    free_bodies();
+}
+END_TEST
+
+START_TEST(large_bodies_are_shared) {
+    /* One body large enough that the workers share the making of its window, and one that is not. */
+    scheduler s;
+    vox_counters serial, counters;
+    vox_grid* grid = NULL;
+    vox_mesh mesh = 0;
+    uint64_t expected = 0;
+    vox_grid_desc desc = vox_default_grid_desc();
+    body bodies[2] = {make_box(30, 0.0625f, 0, 0, 0), make_box(8, 0.0625f, 1.75f, 1.75f, 1.75f)};
+    memset(&s, 0, sizeof s);
+    desc.engine = VOX_ENGINE_FAST;
+    desc.tasks.enqueue = late_enqueue;
+    desc.tasks.finish = threaded_finish;
+    desc.tasks.user = &s;
+    for (uint32_t workers = 1; workers <= 4; workers += 3) {
+        s.worker_count = desc.worker_count = workers;
+        ck_ok(vox_grid_create(&desc, &grid));
+        for (int i = 0; i < 2; ++i) {
+            vox_mesh_desc mesh_desc = body_desc(&bodies[i]);
+            mesh_desc.flags = VOX_MESH_SELF_COLLISION;
+            ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+        }
+        const uint64_t hash = stepped_hash(grid, workers == 1 ? &serial : &counters);
+        if (workers == 1) expected = hash;
+        ck_assert_uint_eq(hash, expected);
+        vox_grid_destroy(grid);
+    }
+    ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
+    ck_assert_uint_gt(serial.contacts, 0);
+    check_same_counters(&counters, &serial);
+    for (int i = 0; i < 2; ++i) free_body(&bodies[i]);
+}
+END_TEST
+
+START_TEST(budget_that_ends_in_a_task) {
+    scheduler s;
+    vox_counters inserted, full;
+    vox_contact_view view;
+    uint32_t failures = 0;
+    vox_grid_desc desc = vox_default_grid_desc();
+    memset(&s, 0, sizeof s);
+    desc.engine = suite_engine;
+    s.worker_count = desc.worker_count = 4;
+    desc.tasks.enqueue = late_enqueue;
+    desc.tasks.finish = threaded_finish;
+    desc.tasks.user = &s;
+    make_bodies();
+    vox_grid* grid = new_scene(&desc);
+    inserted.struct_size = sizeof inserted;
+    ck_ok(vox_grid_counters(grid, &inserted));
+    const uint64_t expected = stepped_hash(grid, &full);
+    vox_grid_destroy(grid);
+    const uint64_t least = inserted.peak_bytes, step_bytes = full.peak_bytes - least;
+    ck_assert_uint_gt(step_bytes, 100000);
+
+    for (uint64_t part = 0; part <= 20; ++part) {
+        uint64_t hash = 0;
+        desc.byte_budget = least + step_bytes * part / 16;
+        grid = new_scene(&desc);
+        for (int step = 0; step < 2; ++step) {
+            const vox_result result = vox_grid_step(grid);
+            if (result == VOX_OK) {
+                ck_ok(vox_grid_hash(grid, &hash));
+                ck_assert_uint_eq(hash, expected);
+                continue;
+            }
+            ++failures;
+            ck_assert_int_eq(result, VOX_ERROR_BUDGET);
+            ck_ok(vox_grid_contacts(grid, &view));
+            ck_assert_uint_eq(view.count, 0);
+        }
+        ck_ok(vox_grid_clear(grid)); /* gives up the meshes; now there is room for a small one */
+        vox_mesh mesh = 0;
+        const vox_mesh_desc mesh_desc = body_desc(&small[0]);
+        ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+        ck_ok(vox_grid_step(grid));
+        vox_grid_destroy(grid);
+    }
+    ck_assert_uint_ge(failures, 10);
     free_bodies();
 }
 END_TEST
@@ -267,6 +357,8 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, same_for_any_task_system);
     tcase_add_test(tests, same_for_any_worker_count);
     tcase_add_test(tests, non_finite_is_the_same_vertex);
+    tcase_add_test(tests, budget_that_ends_in_a_task);
+    tcase_add_test(tests, large_bodies_are_shared);
     tcase_add_test(tests, defective_task_systems);
     tcase_add_test(tests, bad_arguments);
 }

@@ -99,6 +99,8 @@ void add_collide(CLI::App& app) {
         ->check(not_negative());
     add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
     add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
+    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
+        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
     command->add_option("--repeat", options->repeat, "Steps to time, after one to warm up")
         ->check(CLI::Range(1u, 1000000u));
     command->add_option("--limit", options->limit, "Contacts to print as text");

@@ -419,6 +419,7 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     query.known = tile_known_.data() + state.first_tile;
     if (worker.scratch.empty()) worker.scratch.resize(1);
     fast::QueryScratch& scratch = worker.scratch[0];
+    scratch.finding_count = 0; // another piece may have failed and left some
     if (self) {
         const std::size_t vertices = step.bodies[b].vertex_count;
         if (worker.stamps.size() < vertices) worker.stamps.resize(vertices, 0);

@@ -102,7 +102,7 @@ HWY_AFTER_NAMESPACE();
 namespace vox::fast {
 
 void Points::reserve(std::size_t most) {
-    if (x.size() >= most + padding) return;
+    if (id.size() >= most + padding) return; // the last one: an earlier call may have run out of memory
     const std::size_t size = most + most / 8 + padding;
     x.resize(size);
     y.resize(size);

@@ -85,6 +85,8 @@ class CommandLine(unittest.TestCase):
             ["collide", self.two, self.two, "--repeat", 0],
             ["collide", self.two, self.two, "--repeat", -3],
             ["collide", self.two, self.two, "--limit", "few"],
+            ["collide", self.two, self.two, "--threads", -1],
+            ["collide", self.two, self.two, "--threads", 257],
             ["suggest", self.two, "--p-nc", 1], ["suggest", self.two, "--p-nc", 0],
             ["suggest", self.two, "--ratio", 0], ["suggest", self.two, "--world", -4],
             ["suggest", self.two, "--model", "guess"], ["suggest", self.two, "--size-reading", "guess"],
@@ -215,6 +217,14 @@ class CommandLine(unittest.TestCase):
             self.assertRegex(text, r"\ASuggested cell size [0-9.]+, ")
 
     # ---- collide ----
+
+    def test_collide_threads(self):
+        serial, *others = [run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--threads", threads)
+                           for threads in (1, 0, 2, 256)]
+        self.assertEqual(serial["contact_count"], 1)
+        for found in others:
+            self.assertEqual(found["contacts"], serial["contacts"])
+            self.assertEqual(found["hash"], serial["hash"])
 
     def test_collide(self):
         found = run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--repeat", 3)
