@@ -101,8 +101,8 @@ enum { small_bodies = 40 };
 static body large[2], small[small_bodies];
 
 static void make_bodies(void) {
-    large[0] = make_box(16, 0.125f, 0, 0, 0);
-    large[1] = make_box(16, 0.11f, 0.9f, 0.8f, 0.7f);
+    large[0] = make_box(12, 0.17f, 0, 0, 0);
+    large[1] = make_box(12, 0.15f, 0.9f, 0.8f, 0.7f);
     for (uint32_t v = 0; v < large[0].vertex_count; ++v) /* fold one half of a box into the other */
         if (large[0].positions[3 * v] > 1.5f) large[0].positions[3 * v] = 2.6f - large[0].positions[3 * v];
     for (uint32_t i = 0; i < small_bodies; ++i)
@@ -161,7 +161,7 @@ START_TEST(same_for_any_task_system) {
     vox_grid_destroy(grid);
 
     for (size_t k = 0; k < sizeof systems / sizeof *systems; ++k)
-        for (uint32_t workers = 1; workers <= 8; ++workers) {
+        for (uint32_t workers = 1; workers <= 8; workers += workers < 3 ? 1 : 5) {
             memset(&s, 0, sizeof s);
             s.worker_count = desc.worker_count = workers;
             desc.tasks.enqueue = systems[k].enqueue;
@@ -188,9 +188,9 @@ START_TEST(same_for_any_worker_count) {
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const uint64_t expected = stepped_hash(grid, &serial);
-    for (uint32_t workers = 0; workers <= 8; ++workers) {
+    for (uint32_t workers = 0; workers <= 4; ++workers) {
         ck_ok(vox_grid_set_worker_count(grid, workers));
-        for (int step = 0; step < 3; ++step) {
+        for (int step = 0; step < 2; ++step) {
             ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
             check_same_counters(&counters, &serial);
         }
@@ -214,7 +214,7 @@ START_TEST(non_finite_is_the_same_vertex) {
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const float zero = 0;
-    large[1].positions[3 * 4000] = 1 / zero;
+    large[1].positions[3 * 2000] = 1 / zero;
     large[1].positions[3 * 1234 + 2] = 1 / zero;
     small[3].positions[0] = 1 / zero;
     ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097, vertex 1234");
@@ -278,7 +278,7 @@ START_TEST(budget_that_ends_in_a_task) {
     const uint64_t least = inserted.peak_bytes, step_bytes = full.peak_bytes - least;
     ck_assert_uint_gt(step_bytes, 100000);
 
-    for (uint64_t part = 0; part <= 20; ++part) {
+    for (uint64_t part = 0; part <= 20; part += 2) {
         uint64_t hash = 0;
         desc.byte_budget = least + step_bytes * part / 16;
         grid = new_scene(&desc);
@@ -301,7 +301,7 @@ START_TEST(budget_that_ends_in_a_task) {
         ck_ok(vox_grid_step(grid));
         vox_grid_destroy(grid);
     }
-    ck_assert_uint_ge(failures, 10);
+    ck_assert_uint_ge(failures, 6);
     free_bodies();
 }
 END_TEST
