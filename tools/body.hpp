@@ -28,8 +28,15 @@ struct Placement {
     std::array<double, 3> offset{};
 };
 
+// What becomes of a surface: its vertices alone take part, or the tetrahedra it is filled with (lattice cells
+// of edge `cell`; 0: the library's default) take its place.
+struct Fill {
+    bool surfaces = false;
+    double cell = 0;
+};
+
 // Throws Failure in the reader's words, or when a placed coordinate is beyond the range of float.
-Body load_body(const std::string& path, const Placement& placement = {});
+Body load_body(const std::string& path, const Placement& placement = {}, const Fill& fill = {});
 // Takes over a mesh that was made rather than read.
 Body own_body(const std::string& name, vox_io_mesh* mesh);
 

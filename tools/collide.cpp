@@ -15,6 +15,7 @@ namespace {
 struct Options {
     std::string a, b;
     bool self = false;
+    Fill fill;
     std::vector<double> offset = {0, 0, 0};
     double scale = 1;
     vox_grid_desc grid = vox_default_grid_desc();
@@ -66,10 +67,10 @@ void run(const Options& options) {
     if (options.b.empty() && !options.self)
         wrong_usage("collide needs a second mesh, or --self for the self-collision of the first");
     std::vector<Body> bodies;
-    bodies.push_back(load_body(options.a));
+    bodies.push_back(load_body(options.a, {}, options.fill));
     if (!options.b.empty()) {
         const Placement placement{options.scale, {options.offset[0], options.offset[1], options.offset[2]}};
-        bodies.push_back(load_body(options.b, placement));
+        bodies.push_back(load_body(options.b, placement, options.fill));
     }
     std::vector<vox_mesh> ids;
     const Grid grid = make_grid(options.grid, bodies, options.self, ids);
@@ -88,6 +89,7 @@ void add_collide(CLI::App& app) {
     command->add_option("A", options->a, "Mesh file")->required();
     CLI::Option* b = command->add_option("B", options->b, "Second mesh file");
     command->add_flag("--self", options->self, "Also the contacts of a mesh with itself");
+    add_fill(*command, options->fill);
     command->add_option("--scale", options->scale, "Scales B, before the offset")->check(finite())->needs(b);
     command->add_option("--offset", options->offset, "Moves B by X Y Z, after the scale")
         ->expected(3)

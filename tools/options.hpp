@@ -1,6 +1,8 @@
 // Kinds of option values that CLI11 has no check for. All refuse with exit code 2.
 #pragma once
 
+#include "body.hpp"
+
 #include <vox/vox.h>
 
 #include <CLI/CLI.hpp>
@@ -61,6 +63,15 @@ inline CLI::Validator positive() {
 }
 inline CLI::Validator not_negative() {
     return number_check([](double value) { return value >= 0; }, "0 or a number above");
+}
+
+// The options of commands that take surfaces where tetrahedra are needed.
+inline void add_fill(CLI::App& app, Fill& fill) {
+    CLI::Option* flag = app.add_flag("--fill", fill.surfaces, "Fill surfaces with tetrahedra first");
+    app.add_option("--fill-cell", fill.cell,
+                   "Edge of a lattice cell for it; 0: a fiftieth of the longest side")
+        ->check(not_negative())
+        ->needs(flag);
 }
 
 } // namespace tool

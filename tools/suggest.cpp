@@ -13,6 +13,7 @@ namespace tool {
 namespace {
 
 struct Options {
+    Fill fill;
     std::vector<std::string> files;
     vox_suggest_desc desc = vox_default_suggest_desc();
     bool json = false;
@@ -58,7 +59,7 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
 void run(const Options& options) {
     std::vector<Body> bodies;
     std::vector<vox_mesh_desc> meshes;
-    for (const std::string& file : options.files) bodies.push_back(load_body(file));
+    for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     vox_suggestion found{};
     found.struct_size = sizeof found;
@@ -76,6 +77,7 @@ void add_suggest(CLI::App& app) {
     vox_suggest_desc& desc = options->desc;
     CLI::App* command = app.add_subcommand("suggest", "The best cell size for meshes, and why");
     command->add_option("MESH", options->files, "Mesh files with tetrahedra")->required();
+    add_fill(*command, options->fill);
     add_choice(*command, "--model", desc.model, models, "Cost model to minimise");
     command
         ->add_option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")

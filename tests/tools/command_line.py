@@ -297,6 +297,14 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(written[key], found[key])
             self.assertAlmostEqual(written["volume"], found["volume"], 9)
             self.assertEqual(written["inverted"], 0)
+        # Filled on the way in it gives what the written file gives.
+        filled = run_json("collide", cube, self.one, "--fill", "--fill-cell", 0.1, "--offset", 0.4, 0.4, 0.4)
+        out = os.path.join(self.folder.name, "cube.msh")
+        read = run_json("collide", out, self.one, "--offset", 0.4, 0.4, 0.4)
+        self.assertGreater(filled["contact_count"], 0)
+        self.assertEqual(filled["contacts"], read["contacts"])
+        self.assertGreater(run_json("suggest", cube, "--fill")["cell_size"], 0)
+        self.assertEqual(run("collide", cube, self.one, "--fill-cell", 0.1).returncode, 2)
         # With tetrahedra it holds what a surface cannot.
         self.assertGreater(run_json("collide", out, self.one, "--scale", 0.5)["contact_count"], 4)
 
