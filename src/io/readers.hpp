@@ -15,6 +15,10 @@ MeshData read_vega(const File& file);
 MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
+// OFF surfaces; polygons are cut into fans.
+bool is_off(std::string_view bytes);
+MeshData read_off(const File& file);
+
 // Surfaces through assimp: from memory, or from a path when other files may lie beside it.
 // `extension` without its dot; mesh_index as in vox_io_load_desc.
 MeshData read_surface(const File& file, const std::string& extension, std::uint32_t mesh_index);
