@@ -378,7 +378,7 @@ START_TEST(off_variants) {
         const char *text, *words;
     } bad[] = {{"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 4\n", "line 7: expected a vertex number from 0 to 3"},
                {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "line 5: expected a coordinate"},
-               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "expected a vertex number"},
+               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: number of corners"},
                {"OFF\n999999999999 1 0\n0 0 0\n", "line 2"},
                {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "expected triangles, found none"},
                {"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "expected triangles"},
