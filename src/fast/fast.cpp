@@ -6,6 +6,7 @@
 
 #include "clock.hpp"
 #include "error.hpp"
+#include "mesh_check.hpp"
 #include "predicates.hpp"
 #include "step.hpp"
 
@@ -40,14 +41,7 @@ void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pie
 }
 
 [[noreturn]] void throw_non_finite(std::span<const Body> bodies) {
-    for (const Body& body : bodies)
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-            const Vec3f p = body.positions[v];
-            if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
-                throw Error(VOX_ERROR_NON_FINITE,
-                            format("mesh %u, vertex %u: position (%g, %g, %g) is not finite", body.mesh_id, v,
-                                   double{p.x}, double{p.y}, double{p.z}));
-        }
+    for (const Body& body : bodies) check_finite(body);
     throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");
 }
 
