@@ -147,6 +147,62 @@ START_TEST(stuffed_body) {
 }
 END_TEST
 
+/* The bodies' surfaces as fine triangle meshes: a profile of (distance from the axis, z) turned around the z axis. */
+enum { profile_points = 240, turns = 240 };
+
+static void profile_of(int body, int i, double* rho, double* z) {
+    const double t = (double)i / profile_points, pi = 3.14159265358979323846;
+    if (body == 1) { /* torus: a closed circle */
+        *rho = 2 + 0.7 * cos(2 * pi * t);
+        *z = 0.7 * sin(2 * pi * t);
+    } else if (body == 3) { /* cylinder: from the middle of one end over the rims to the middle of the other */
+        const double length = 5 * t;
+        *rho = length < 1 ? length : length < 4 ? 1 : 5 - length;
+        *z = length < 1 ? -1.5 : length < 4 ? length - 2.5 : 1.5;
+    } else { /* ball, capsule: from pole to pole */
+        const double r = body == 0 ? 1.5 : 0.5, end = body == 0 ? 0 : 1, angle = pi * t;
+        *rho = r * sin(angle);
+        *z = -r * cos(angle) + (2 * i < profile_points ? -end : end);
+    }
+}
+
+static vox_io_mesh* turned_surface(int body) {
+    static double positions[3 * (profile_points + 1) * turns];
+    static uint32_t triangles[6 * profile_points * turns];
+    uint32_t* t = triangles;
+    for (uint32_t i = 0; i <= profile_points; ++i) {
+        double rho = 0, z = 0;
+        profile_of(body, (int)(body == 1 ? i % profile_points : i), &rho, &z);
+        for (uint32_t k = 0; k < turns; ++k) {
+            const double angle = 2 * 3.14159265358979323846 * k / turns;
+            double* p = &positions[3 * (i * turns + k)];
+            p[0] = rho * cos(angle), p[1] = rho * sin(angle), p[2] = z;
+            if (i == profile_points) continue;
+            const uint32_t next = (k + 1) % turns, a = i * turns + k, b = i * turns + next;
+            *t++ = a, *t++ = b, *t++ = b + turns;
+            *t++ = a, *t++ = b + turns, *t++ = a + turns;
+        }
+    }
+    const vox_io_mesh_view arrays = {positions, (profile_points + 1) * turns, NULL, 0, triangles,
+                                     2 * profile_points * turns};
+    vox_io_mesh* surface = NULL;
+    ck_ok(vox_io_mesh_create(&arrays, &surface));
+    return surface;
+}
+
+START_TEST(stuffed_body_is_near_its_surface) {
+    const body_case* body = &bodies[_i];
+    const double cell = body->longest / 50;
+    vox_io_mesh *mesh = NULL, *surface = turned_surface(_i);
+    ck_ok(body->make(cell, &mesh));
+    const vox_io_quality quality = quality_of(mesh, surface);
+    ck_assert_msg(quality.hausdorff < 0.5 * cell, "%s: %g cells", body->name, quality.hausdorff / cell);
+    ck_assert_double_gt(quality.hausdorff, 0);
+    vox_io_mesh_destroy(mesh);
+    vox_io_mesh_destroy(surface);
+}
+END_TEST
+
 START_TEST(box_is_exact) {
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_make_box(8, 1, 1.5, 0.26, &mesh)); /* 31 x 4 x 6 cuboids */
@@ -217,6 +273,7 @@ int main(void) {
     tcase_add_test(tests, lattice_ball_of_any_size);
     tcase_add_test(tests, lattice_ball_is_the_same_again);
     tcase_add_loop_test(tests, stuffed_body, 0, 4);
+    tcase_add_loop_test(tests, stuffed_body_is_near_its_surface, 0, 4);
     tcase_add_test(tests, box_is_exact);
     tcase_add_test(tests, bad_arguments);
     suite_add_tcase(suite, tests);
