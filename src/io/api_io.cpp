@@ -58,7 +58,7 @@ MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_ind
     case VOX_IO_FORMAT_VTU:
         return read_vtu(file);
     case VOX_IO_FORMAT_SURFACE:
-        if (is_off(file.bytes)) {
+        if (is_off(file)) {
             if (mesh_index != VOX_IO_ALL_MESHES && mesh_index != 0)
                 throw Error(VOX_ERROR_INVALID_ARGUMENT,
                             format("%s: mesh %u was asked for, but the file holds 1", given.name.c_str(),
@@ -80,7 +80,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
     const File& file = bytes.file();
     refuse_strangers(file);
     const vox_io_format which = format_of(file, desc.format);
-    if (which == VOX_IO_FORMAT_SURFACE && !is_off(without_byte_order_mark(file).bytes))
+    if (which == VOX_IO_FORMAT_SURFACE && !is_off(without_byte_order_mark(file)))
         return read_surface_at(path, desc.mesh_index);
     if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, which, desc.mesh_index);
 

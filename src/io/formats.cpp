@@ -32,7 +32,7 @@ vox_io_format format_of_content(std::string_view bytes) {
     if (behind_comments.starts_with("MeshVersionFormatted")) return VOX_IO_FORMAT_MEDIT;
     for (const char* keyword : {"*VERTICES", "*ELEMENTS", "*MATERIAL", "*INCLUDE"})
         if (behind_comments.starts_with(keyword)) return VOX_IO_FORMAT_VEGA;
-    if (is_off(behind_comments)) return VOX_IO_FORMAT_SURFACE;
+    if (starts_as_off(behind_comments)) return VOX_IO_FORMAT_SURFACE;
     if (contains_early(bytes, "[MeshSerializer")) return VOX_IO_FORMAT_SURFACE; // Ogre's .mesh
     return VOX_IO_FORMAT_AUTO;
 }

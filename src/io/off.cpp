@@ -18,7 +18,7 @@ std::string_view base_keyword(std::string_view word) {
 
 } // namespace
 
-bool is_off(std::string_view bytes) {
+bool starts_as_off(std::string_view bytes) {
     const File file{"", bytes};
     Scanner in(file, '#');
     in.skip_space();
@@ -26,11 +26,14 @@ bool is_off(std::string_view bytes) {
     return keyword.ends_with("OFF") && keyword.size() <= 7;
 }
 
+bool is_off(const File& file) { return extension_of(file.name) == "off" || starts_as_off(file.bytes); }
+
 MeshData read_off(const File& file) {
     MeshData data;
     data.format = VOX_IO_FORMAT_SURFACE;
     Scanner in(file, '#');
     in.skip_space();
+    if (!starts_as_off(in.rest())) in.expected("OFF");
     const std::string keyword(in.word("OFF"));
     if (base_keyword(keyword) != "OFF")
         in.fail(format("%s: only points of three dimensions are read (OFF, with ST, C or N before it)",

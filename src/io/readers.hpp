@@ -16,7 +16,8 @@ MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
 // OFF surfaces; polygons are cut into fans.
-bool is_off(std::string_view bytes);
+bool starts_as_off(std::string_view bytes);
+bool is_off(const File& file); // by content or by name: assimp never gets a file it takes for OFF
 MeshData read_off(const File& file);
 
 // Surfaces through assimp: from memory, or from a path when other files may lie beside it.
