@@ -40,7 +40,8 @@ struct FastSettings {
     Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
 };
 
-// The engine's buffers live here from step to step, so that the steady state allocates nothing.
+// The engine's buffers live here from step to step, so that the steady state allocates nothing (with several
+// workers: once each has met the largest body).
 class Fast {
 public:
     explicit Fast(std::pmr::memory_resource* memory);

@@ -7,6 +7,8 @@
  *   Errors    A function that can fail returns vox_result. On failure the out-parameters are left
  *             untouched, nothing has changed, and vox_last_error() gives the reason with numbers in it.
  *             No function prints, exits, throws or asserts on user input, in any build.
+ *             Everywhere: INVALID_ARGUMENT for a null pointer that a comment does not allow, INVALID_HANDLE
+ *             for an id that names no mesh of the grid.
  *   Structs   Structs whose first field is struct_size may grow. Fill them with vox_X_init or
  *             vox_default_X; the library reads and writes only the fields that struct_size covers,
  *             so old programs run with new libraries and the reverse.
@@ -184,7 +186,7 @@ typedef struct vox_grid_desc {
     vox_log log;
     vox_task_system tasks;
     /* Threads that run a step's tasks: 1 (the default) serial, on the calling thread; 0 one per core; at most
-     * VOX_MAX_WORKERS. With a task system of one's own: how many workers it has, at least 1. Contacts do not
+     * VOX_MAX_WORKERS. The reference engine is serial. With a task system of one's own: how many workers it has, at least 1. Contacts do not
      * depend on it. A library built without oneTBB has no threads of its own: then the built-in scheduler is
      * serial. */
     uint32_t worker_count;
@@ -288,7 +290,7 @@ VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint6
 
 /* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
  * of vox_mesh_desc.positions; a copy made at insertion is released. Values written to the same memory
- * between steps need no new call. */
+ * between steps need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
                                            vox_format format, uint64_t byte_stride);
 
@@ -296,7 +298,8 @@ VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const 
 
 /* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
  * failure they are gone and the grid stays usable. In the steady state (same meshes, no more contacts
- * than before) it allocates nothing.
+ * than before) it allocates nothing; with several workers, a worker's buffers may still grow the first time it meets
+ * a larger body, and the built-in scheduler's own memory is oneTBB's, not the grid's.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE (names mesh and vertex), BUDGET,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
