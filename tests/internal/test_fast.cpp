@@ -6,7 +6,7 @@
 #include "reference.hpp"
 #include "simd.hpp"
 
-#include <check.h>
+#include "../suite.h"
 
 #include <cfloat>
 #include <cstdio>
@@ -633,9 +633,5 @@ int main() {
     tcase_add_test(tests, memory_is_bounded);
     tcase_add_test(tests, outliers_do_not_fill_a_cell);
     suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include <check.h> // last: it defines macros with common names
+#include "../suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;
@@ -539,9 +539,5 @@ int main() {
     tcase_add_test(tests, query_misses_nothing);
     tcase_add_test(tests, query_of_crowds);
     suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }

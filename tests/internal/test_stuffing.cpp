@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <check.h>
+#include "../suite.h"
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -142,9 +142,5 @@ int main() {
     tcase_add_loop_test(tests, random_lattices, 0, 24);
     tcase_add_loop_test(tests, coarse_inside, 0, 4);
     suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }

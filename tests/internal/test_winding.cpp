@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include <check.h> // last: it defines macros with common names
+#include "../suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;
@@ -338,9 +338,5 @@ int main() {
     tcase_add_test(tests, certificate_is_sound);
     tcase_add_test(tests, certificate_of_an_inverted_body);
     suite_add_tcase(suite, tests);
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }
