@@ -7,6 +7,7 @@
 //                 [--cell-size S] [--csv] [--counters]
 #include "contacts.hpp"
 #include "fast.hpp"
+#include "counting_memory.hpp"
 #include "fast_scenes.hpp"
 #include "reference.hpp"
 #include "simd.hpp"
@@ -35,24 +36,6 @@ double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
 }
-
-// Bytes in use and the most there ever were.
-class Counting final : public std::pmr::memory_resource {
-public:
-    std::size_t bytes = 0, peak = 0;
-
-private:
-    void* do_allocate(std::size_t size, std::size_t alignment) override {
-        bytes += size;
-        peak = std::max(peak, bytes);
-        return std::pmr::new_delete_resource()->allocate(size, alignment);
-    }
-    void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-        bytes -= size;
-        std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-    }
-    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
 
 // ---- scenes ---------------------------------------------------------------------------------------
 
@@ -227,7 +210,7 @@ double floor2(Scene& scene, std::vector<std::array<float, 6>>& boxes) {
 
 bool run(const Named& named, const Options& options) {
     const Case made = named.make(options.tets);
-    Counting memory, tiles_memory;
+    CountingMemory memory, tiles_memory;
     Scene scene(&tiles_memory);
     std::size_t tets = 0, vertices = 0;
     for (const Mesh& mesh : made.meshes) {

@@ -4,7 +4,7 @@ target_include_directories(vox_oracle PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(vox_oracle PUBLIC ${GMP_LIBRARY} $<$<BOOL:${UNIX}>:m>)
 vox_target(vox_oracle)
 
-foreach(name predicates reference canonical_contacts)
+foreach(name predicates reference reference_grid canonical_contacts)
   vox_test(${name} internal/test_${name}.cpp LIBS vox_internal vox_oracle)
 endforeach()
 

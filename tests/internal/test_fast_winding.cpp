@@ -1,0 +1,172 @@
+// Self-collision with and without culling by winding numbers: the same hits, those of the reference engine,
+// and less work where there is nothing to find.
+#include "fast_checks.hpp"
+
+using namespace vox;
+
+namespace {
+
+// The vertices that a self-collision scene puts into its window, after checking the hits with and without
+// culling.
+std::uint64_t check_winding(Scene& scene, const char* name) {
+    scene.prepare();
+    const std::vector<Key> expected = run_reference(scene, 1.2);
+    std::uint64_t entries = 0;
+    for (const simd::Level level : levels) {
+        if (simd::force_level(level) != level) continue;
+        Fast engine(std::pmr::get_default_resource());
+        for (const bool winding : {true, false}) {
+            std::pmr::vector<Hit> hits;
+            vox_counters counters{};
+            vox_profile profile{};
+            engine.detect(scene.bodies(), scene.prepared(), {0, winding}, hits, counters, profile);
+            const std::vector<Key> found = keys(hits);
+            ck_assert_msg(found == expected, "%s, %s, winding %d: %zu hits, expected %zu", name,
+                          simd::level_name(level), winding, found.size(), expected.size());
+            if (winding) entries = counters.entries;
+        }
+    }
+    simd::force_level(simd::best_level());
+    return entries;
+}
+
+Scene one_block(Mesh mesh) {
+    Scene scene;
+    scene.add(std::move(mesh), true);
+    return scene;
+}
+
+// A bar with its ends through each other.
+Mesh ring(Random& r, double turn) {
+    Mesh mesh = block(70, 16, 16);
+    jitter(mesh, 0.1, r);
+    for (Vec3f& p : mesh.positions) {
+        const double angle = p.x / 70.0 * turn, around = 14 + p.y;
+        p = {float(around * std::cos(angle)), float(around * std::sin(angle)), p.z};
+    }
+    return mesh;
+}
+
+START_TEST(winding_culls_compact_bodies) {
+    Random r{20};
+    Mesh mesh = block(21, 21, 21);
+    jitter(mesh, 0.1, r);
+    Scene scene = one_block(mesh);
+    ck_assert_uint_eq(check_winding(scene, "a block"), 0);
+    for (Tet& tet : mesh.tets) // either winding
+        if (r.below(2)) std::swap(tet.v[1], tet.v[3]);
+    scene = one_block(mesh);
+    ck_assert_uint_eq(check_winding(scene, "a block of both windings"), 0);
+    renumber(mesh, r);
+    move(mesh, 1e-3, 5, 5, -9);
+    scene = one_block(mesh);
+    ck_assert_uint_eq(check_winding(scene, "a block far away, renumbered"), 0);
+    double radius = 0;
+    mesh = ball(90000, &radius);
+    jitter(mesh, 0.1, r);
+    scene = one_block(mesh);
+    const std::size_t vertices = mesh.positions.size();
+    ck_assert_uint_lt(check_winding(scene, "a ball"), vertices / 4);
+}
+END_TEST
+
+START_TEST(winding_turned_inside_out) {
+    Random r{21};
+    Mesh mesh = block(21, 21, 21);
+    jitter(mesh, 0.1, r);
+    Scene scene = one_block(mesh);
+    scene.prepare();
+    for (Vec3f& p : scene.meshes()[0].positions) p.x = -p.x; // all tets inverted after they were prepared
+    const std::vector<Key> expected = run_reference(scene, 1);
+    Fast engine(std::pmr::get_default_resource());
+    ck_assert(run_fast(engine, scene, 0) == expected);
+}
+END_TEST
+
+START_TEST(winding_finds_every_contact) {
+    Random r{22};
+    for (const double turn : {5.0, 6.0, 6.2831853, 6.4, 7.0}) { // apart, near, touching, overlapping
+        Scene scene = one_block(ring(r, turn));
+        check_winding(scene, "a ring");
+    }
+    for (int part = 0; part < 6; ++part) {
+        Mesh mesh = block(21, 21, 21);
+        if (part != 1) jitter(mesh, 0.1, r);
+        const auto vertices = std::uint32_t(mesh.positions.size());
+        if (part == 0) // some inverted
+            for (int i = 0; i < 5; ++i) mesh.positions[r.below(vertices)].y += 2;
+        if (part == 1) // pushed onto a neighbour: flat tets, coincident vertices
+            for (int i = 0; i < 5; ++i) {
+                const std::uint32_t v = r.below(vertices - 1);
+                mesh.positions[v] = mesh.positions[v + 1];
+            }
+        if (part == 2) // loose vertices, inside and out
+            for (int i = 0; i < 20; ++i)
+                mesh.positions.push_back({r.uniform(-1, 22), r.uniform(-1, 22), r.uniform(-1, 22)});
+        if (part == 3) { // cut in two along the lattice, the halves touching
+            for (std::uint32_t v = 0; v < vertices; ++v) mesh.positions.push_back(mesh.positions[v]);
+            for (std::size_t t = mesh.tets.size() / 2; t < mesh.tets.size(); ++t)
+                for (std::uint32_t& v : mesh.tets[t].v) v += vertices;
+        }
+        if (part == 4) { // the same tet twice; a corner named twice
+            mesh.tets.push_back(mesh.tets[77]);
+            Tet tet = mesh.tets[99];
+            tet.v[2] = tet.v[0];
+            mesh.tets.push_back(tet);
+        }
+        if (part == 5) { // one vertex pulled out through the far side
+            mesh.positions[0] = {30, 31, 32};
+            mesh.positions[vertices / 2].z = -1e6f;
+        }
+        Scene scene = one_block(mesh);
+        check_winding(scene, "a block with something wrong");
+    }
+    Scene scene = one_block(ring(r, 6.6)); // two bodies, both through themselves and each other
+    Mesh second = ring(r, 6.9);
+    move(second, 1, 10, 10, 5);
+    scene.add(std::move(second), true);
+    check_winding(scene, "two rings");
+}
+END_TEST
+
+// A body made of two blocks that meet at one point, one edge, one face, or with a vertex in the face of the
+// other.
+START_TEST(winding_sees_exact_contact) {
+    for (int kind = 0; kind < 6; ++kind) {
+        Mesh mesh = block(20, 20, 20), other = block(20, 20, 20);
+        const float x = 20,
+                    y = kind == 0   ? 17.0f
+                        : kind == 5 ? 0.5f
+                                    : 0,
+                    z = kind <= 1   ? 17.0f
+                        : kind == 4 ? 19.5f
+                                    : 0;
+        for (Vec3f& p : other.positions) {
+            p = {p.x + x, p.y + y, p.z + z};
+            if (kind == 3) p.x = p.x + 0x1p-18f; // next to it
+        }
+        const auto vertices = std::uint32_t(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+        for (Tet tet : other.tets) {
+            for (std::uint32_t& v : tet.v) v += vertices;
+            mesh.tets.push_back(tet);
+        }
+        Scene scene = one_block(mesh);
+        check_winding(scene, "two blocks that touch");
+    }
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("fast engine, winding numbers");
+    TCase* tests = tcase_create("hits");
+    tcase_set_timeout(tests, 0); // a slow machine is no failure
+    tcase_add_test(tests, winding_culls_compact_bodies);
+    tcase_add_test(tests, winding_turned_inside_out);
+    tcase_add_test(tests, winding_finds_every_contact);
+    tcase_add_test(tests, winding_sees_exact_contact);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
