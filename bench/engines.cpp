@@ -6,9 +6,10 @@
 //   bench_engines [--tets N] [--frames K] [--scene NAME] [--level portable|sse4|avx2|avx512] [--no-reference]
 //                 [--cell-size S] [--csv] [--counters]
 #include "contacts.hpp"
-#include "fast.hpp"
 #include "counting_memory.hpp"
+#include "fast.hpp"
 #include "fast_scenes.hpp"
+#include "processor_time.hpp"
 #include "reference.hpp"
 #include "simd.hpp"
 
@@ -18,24 +19,10 @@
 #include <cstring>
 #include <functional>
 #include <string>
-#include <time.h>
 
 using namespace vox;
 
 namespace {
-
-// Processor time of this thread: what others do on the machine counts as little as it can.
-double now() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 // ---- scenes ---------------------------------------------------------------------------------------
 

@@ -3,6 +3,7 @@
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
 #include "fast_scenes.hpp"
+#include "processor_time.hpp"
 #include "simd.hpp"
 
 #include <cstdio>
@@ -11,23 +12,11 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <time.h>
 
 using namespace vox;
 using fast::Box;
 
 namespace {
-
-double now() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 struct Stage {
     const char* name;

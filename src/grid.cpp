@@ -46,7 +46,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
 
 namespace {
 
-// pmr vectors grow without being asked to; this grows one geometrically, so that n calls copy O(n) elements.
+// Room for `count` elements, at least doubled when it grows, so that n insertions copy O(n) elements.
 template <class T>
 void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
