@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace vox::io {
 namespace {
@@ -18,8 +19,8 @@ namespace {
 using Point = std::array<double, 3>;
 
 // The origin's place in its cube, so that the body has no exact symmetry.
-constexpr Point kOffset = {.137, .271, .419};
-constexpr double kPi = 3.14159265358979323846;
+constexpr Point offset = {.137, .271, .419};
+constexpr double pi = std::numbers::pi;
 
 double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
@@ -43,16 +44,16 @@ struct Lattice {
     std::int64_t side = 0;             // points an axis
     std::vector<std::uint8_t> inside;  // per point: in the ball
     std::vector<std::uint8_t> kept;    // per cube, numbered by its lowest corner
-    std::vector<std::uint32_t> vertex; // per point: its number, or kNone
+    std::vector<std::uint32_t> vertex; // per point: its number, or none
     std::uint64_t cubes = 0;
 };
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t none = 0xffffffffu;
 
 Point lattice_point(std::int64_t half, double spacing, std::int64_t x, std::int64_t y, std::int64_t z) {
-    return {(static_cast<double>(x - half) + kOffset[0]) * spacing,
-            (static_cast<double>(y - half) + kOffset[1]) * spacing,
-            (static_cast<double>(z - half) + kOffset[2]) * spacing};
+    return {(static_cast<double>(x - half) + offset[0]) * spacing,
+            (static_cast<double>(y - half) + offset[1]) * spacing,
+            (static_cast<double>(z - half) + offset[2]) * spacing};
 }
 
 Lattice select_cubes(double spacing) {
@@ -142,7 +143,7 @@ void drop_flat(MeshData& mesh) {
     double median = *middle;
     if (count % 2 == 0) median = (median + *std::max_element(sorted.begin(), middle)) / 2;
 
-    std::vector<std::uint32_t> number(mesh.positions.size() / 3, kNone);
+    std::vector<std::uint32_t> number(mesh.positions.size() / 3, none);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < count; ++t) {
         if (!(volumes[t] > 1e-3 * median)) continue;
@@ -155,7 +156,7 @@ void drop_flat(MeshData& mesh) {
     mesh.tets.resize(4 * kept);
     std::uint32_t used = 0;
     for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] == kNone) continue;
+        if (number[v] == none) continue;
         for (std::size_t k = 0; k < 3; ++k)
             mesh.positions[3 * std::size_t{used} + k] = mesh.positions[3 * v + k];
         number[v] = used++;
@@ -190,7 +191,7 @@ MeshData build(double spacing) {
             }
         }
     }
-    lattice.vertex.assign(used.size(), kNone);
+    lattice.vertex.assign(used.size(), none);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         lattice.vertex[i] = static_cast<std::uint32_t>(points.size());
@@ -236,7 +237,7 @@ std::uint64_t distance(const MeshData& mesh, std::uint64_t tet_count) {
 // Few tets: every spacing at which another cube fits in is tried, from one cube to well above the count.
 MeshData search_all(std::uint64_t tet_count) {
     const double cubes_wanted = static_cast<double>(tet_count) / 5;
-    const std::int64_t reach = static_cast<std::int64_t>(cube_root(3 * (cubes_wanted + 8) / (4 * kPi))) + 3;
+    const std::int64_t reach = static_cast<std::int64_t>(cube_root(3 * (cubes_wanted + 8) / (4 * pi))) + 3;
     std::vector<double> farthest; // corner of each cube near the origin, for spacing 1
     for (std::int64_t z = -reach; z < reach; ++z)
         for (std::int64_t y = -reach; y < reach; ++y)
@@ -263,7 +264,7 @@ MeshData search_all(std::uint64_t tet_count) {
 // Many tets: their number goes with the third power of the spacing, nearly.
 MeshData search_spacing(std::uint64_t tet_count) {
     const double wanted = static_cast<double>(tet_count);
-    double spacing = cube_root(5 * 4 * kPi / 3 / wanted);
+    double spacing = cube_root(5 * 4 * pi / 3 / wanted);
     MeshData best;
     for (int attempt = 0; attempt < 14; ++attempt) {
         MeshData mesh = build(spacing);

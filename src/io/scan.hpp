@@ -158,7 +158,6 @@ public:
     // Whether a decimal number out of a double's range is so for being small.
     static bool is_tiny(std::string_view number) noexcept;
 
-
     static bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
 

@@ -28,7 +28,7 @@ MeshData make(const Point& half, double cell, Depth&& depth) {
                     runs.push_back({y, z, i, i});
             }
     const Body body = {frame, NodeSet(frame, std::move(runs)), [&](const Node& node, unsigned neighbour) {
-                           const Node& step = kNeighbours[neighbour];
+                           const Node& step = neighbour_steps[neighbour];
                            double in = 0, out = 1;
                            for (int i = 0; i < 52; ++i) {
                                const double middle = (in + out) / 2;

@@ -50,8 +50,8 @@ Octree::Octree(const Frame& frame, const NodeSet& inside, const std::function<bo
         for (std::int32_t i = run.first; i <= run.last; ++i) {
             const Node middle = {2 * i + 1, run.y, run.z};
             bool all = is_inner(middle);
-            for (unsigned k = kLongNeighbours; k < kNeighbours.size() && all; ++k)
-                all = is_inner(middle + kNeighbours[k]);
+            for (unsigned k = long_neighbours; k < neighbour_steps.size() && all; ++k)
+                all = is_inner(middle + neighbour_steps[k]);
             if (all) append({i, run.y >> 1, run.z >> 1});
         }
     });

@@ -32,7 +32,7 @@ private:
     // Cell (x, y, z) of `level` may be a leaf or part of a larger one.
     bool holds(std::size_t level, const Node& cell) const {
         return level < merged_.size() && cell.x >= 0 && cell.y >= 0 && cell.z >= 0 &&
-               merged_[level].find({2 * cell.x, 2 * cell.y, 2 * cell.z}) != NodeSet::kNone;
+               merged_[level].find({2 * cell.x, 2 * cell.y, 2 * cell.z}) != NodeSet::none;
     }
     bool is_leaf(std::size_t level, const Node& cell) const {
         return holds(level, cell) && !holds(level + 1, {cell.x >> 1, cell.y >> 1, cell.z >> 1});

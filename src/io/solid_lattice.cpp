@@ -13,10 +13,10 @@ Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 
     frame.half_cell = cell / 2;
     for (std::size_t k = 0; k < 3; ++k) {
         const double cells = std::ceil((box_max[k] - box_min[k]) / cell);
-        if (!(cells <= kMaxCells))
+        if (!(cells <= max_cells))
             throw Error(VOX_ERROR_LIMIT,
                         format("a cell of %g makes %.0f cells along %c, at most %d are possible", cell, cells,
-                               static_cast<int>('x' + k), kMaxCells));
+                               static_cast<int>('x' + k), max_cells));
         frame.cells[k] = static_cast<std::int32_t>(cells + margin);
         frame.origin[k] = (box_min[k] + box_max[k]) / 2 - (cells + margin) * frame.half_cell;
     }
@@ -43,7 +43,7 @@ NodeSet::NodeSet(const Frame& frame, std::vector<Run> runs)
             run.last = std::max(run.last, runs[at].last);
         spans_.push_back({run.first, run.last, static_cast<std::uint32_t>(size)});
         size += static_cast<std::uint64_t>(run.last - run.first + 1);
-        if (size >= kNone)
+        if (size >= none)
             throw Error(VOX_ERROR_LIMIT,
                         "the lattice would hold more than 4294967294 points: choose larger cells");
         ++row_start_[row_of(run.y & 1, run.y >> 1, run.z >> 1) + 1];

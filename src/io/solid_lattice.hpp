@@ -16,23 +16,23 @@ struct Node {
     std::int32_t x, y, z;
 };
 
-// Neighbour k lies at kNeighbours[k], neighbour k ^ 1 at its opposite. k / 2 is the direction: 0, 1, 2 the
-// axes.
-inline constexpr std::array<Node, 14> kNeighbours = {{{2, 0, 0},
-                                                      {-2, 0, 0},
-                                                      {0, 2, 0},
-                                                      {0, -2, 0},
-                                                      {0, 0, 2},
-                                                      {0, 0, -2},
-                                                      {1, 1, 1},
-                                                      {-1, -1, -1},
-                                                      {1, 1, -1},
-                                                      {-1, -1, 1},
-                                                      {1, -1, 1},
-                                                      {-1, 1, -1},
-                                                      {1, -1, -1},
-                                                      {-1, 1, 1}}};
-inline constexpr unsigned kLongNeighbours = 6; // the first six
+// Neighbour k lies at neighbour_steps[k], neighbour k ^ 1 at its opposite. k / 2 is the direction: 0, 1, 2
+// the axes.
+inline constexpr std::array<Node, 14> neighbour_steps = {{{2, 0, 0},
+                                                          {-2, 0, 0},
+                                                          {0, 2, 0},
+                                                          {0, -2, 0},
+                                                          {0, 0, 2},
+                                                          {0, 0, -2},
+                                                          {1, 1, 1},
+                                                          {-1, -1, -1},
+                                                          {1, 1, -1},
+                                                          {-1, -1, 1},
+                                                          {1, -1, 1},
+                                                          {-1, 1, -1},
+                                                          {1, -1, -1},
+                                                          {-1, 1, 1}}};
+inline constexpr unsigned long_neighbours = 6; // the first six
 
 constexpr Node operator+(const Node& a, const Node& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
@@ -48,10 +48,10 @@ struct Frame {
 };
 
 // Longest side of a lattice, in cells.
-inline constexpr std::int32_t kMaxCells = 4096;
+inline constexpr std::int32_t max_cells = 4096;
 
 // A lattice of `cell` sized cells around the box, centred on it, with a margin of two cells on each side.
-// Throws LIMIT when it would have more than kMaxCells cells along an axis.
+// Throws LIMIT when it would have more than max_cells cells along an axis.
 Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 3>& box_max, double cell);
 
 // Nodes (2 * first + parity, y, z) to (2 * last + parity, y, z): parity is that of y, which is that of z.
@@ -64,7 +64,7 @@ struct Run {
 // number of rows and runs.
 class NodeSet {
 public:
-    static constexpr std::uint32_t kNone = 0xffffffffu;
+    static constexpr std::uint32_t none = 0xffffffffu;
 
     NodeSet() = default;
     // The union of the runs. Throws LIMIT where it would hold more than 2^32 - 2 nodes.
@@ -77,14 +77,14 @@ public:
         const std::int32_t y = node.y >> 1, z = node.z >> 1, i = node.x >> 1;
         if (static_cast<std::uint32_t>(y) >= static_cast<std::uint32_t>(rows_y_) ||
             static_cast<std::uint32_t>(z) >= static_cast<std::uint32_t>(rows_z_))
-            return kNone;
+            return none;
         const std::size_t row = row_of(parity, y, z);
         for (std::uint32_t r = row_start_[row]; r < row_start_[row + 1]; ++r) {
             const Span& span = spans_[r];
-            if (i < span.first) return kNone;
+            if (i < span.first) return none;
             if (i <= span.last) return span.number + static_cast<std::uint32_t>(i - span.first);
         }
-        return kNone;
+        return none;
     }
 
     // Calls visit(number of the first node, run) for every run, in the order of the numbers.

@@ -3,6 +3,7 @@
 #include "solid_distance.hpp"
 
 #include <Eigen/Dense>
+#include <numbers>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double pi = std::numbers::pi;
 
 Vector3d corner(const vox_io_mesh_view& mesh, std::uint32_t vertex) {
     return Vector3d(mesh.positions + 3 * std::size_t{vertex});
@@ -22,7 +23,7 @@ Vector3d corner(const vox_io_mesh_view& mesh, std::uint32_t vertex) {
 
 void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
     if (mesh.tet_count == 0) return;
-    double smallest = kPi, largest = 0;
+    double smallest = pi, largest = 0;
     for (std::size_t t = 0; t < mesh.tet_count; ++t) {
         std::array<Vector3d, 4> p;
         for (std::size_t k = 0; k < 4; ++k) p[k] = corner(mesh, mesh.tets[4 * t + k]);
@@ -34,13 +35,13 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = i + 1; j < 4; ++j) {
                 const double angle =
-                    kPi - std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
+                    pi - std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
                 smallest = std::min(smallest, angle);
                 largest = std::max(largest, angle);
             }
     }
-    quality.min_dihedral = smallest * 180 / kPi;
-    quality.max_dihedral = largest * 180 / kPi;
+    quality.min_dihedral = smallest * 180 / pi;
+    quality.max_dihedral = largest * 180 / pi;
 }
 
 // The facets of exactly one tet, three vertices each.

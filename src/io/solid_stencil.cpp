@@ -16,8 +16,8 @@ using Tet = std::array<std::uint8_t, 4>;
 using Place = std::array<int, 3>;
 
 std::uint8_t cut(unsigned a, unsigned b) {
-    for (unsigned e = 0; e < kTetEdges.size(); ++e)
-        if ((kTetEdges[e][0] == a && kTetEdges[e][1] == b) || (kTetEdges[e][0] == b && kTetEdges[e][1] == a))
+    for (unsigned e = 0; e < tet_edges.size(); ++e)
+        if ((tet_edges[e][0] == a && tet_edges[e][1] == b) || (tet_edges[e][0] == b && tet_edges[e][1] == a))
             return static_cast<std::uint8_t>(4 + e);
     return 0;
 }
@@ -120,7 +120,7 @@ Place place(unsigned v, bool first_above) {
     const int z = first_above ? -2 : 2;
     const std::array<Place, 4> corners = {{{0, 0, 0}, {4, 0, 0}, {2, -2, z}, {2, 2, z}}};
     if (v < 4) return corners[v];
-    const Place &a = corners[kTetEdges[v - 4][0]], &b = corners[kTetEdges[v - 4][1]];
+    const Place &a = corners[tet_edges[v - 4][0]], &b = corners[tet_edges[v - 4][1]];
     return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
 

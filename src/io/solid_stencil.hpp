@@ -10,7 +10,7 @@ namespace vox::io {
 enum class Side : std::uint8_t { outside = 0, inside = 1, on = 2 };
 
 // Corners 0 and 1 are the ends of one long edge, 2 and 3 of the other, each pair's lower end first.
-// A vertex of a piece is a corner (0 to 3) or the cut point of an edge (4 to 9, edge kTetEdges[v - 4]).
+// A vertex of a piece is a corner (0 to 3) or the cut point of an edge (4 to 9, edge tet_edges[v - 4]).
 struct Stencil {
     std::uint8_t count = 0;
     std::array<std::array<std::uint8_t, 4>, 3> tets{}; // oriented as the tetrahedron (0, 1, 2, 3)
@@ -18,7 +18,7 @@ struct Stencil {
     void add(const std::array<std::uint8_t, 4>& tet) { tets[count++] = tet; }
 };
 
-inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kTetEdges = {
+inline constexpr std::array<std::array<std::uint8_t, 2>, 6> tet_edges = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 // What is left inside. `first_above`: the long edge 0-1 lies above 2-3 on the axis that neither is parallel

@@ -16,16 +16,16 @@ namespace {
 // Distances, in edge lengths, within which a node counts as too close to a cut point. Chosen for the rule of
 // solid_stencil.cpp by a search over the extreme configurations, which gives dihedral angles of 11.59 to
 // 159.24 degrees; the paper's choices give 10.78 to 164.74 (or 8.97 to 158.76, or 9.32 to 161.64).
-constexpr double kAlphaLong = 0.26, kAlphaShort = 0.38;
+constexpr double alpha_long = 0.26, alpha_short = 0.38;
 
-constexpr std::uint32_t kNone = NodeSet::kNone;
+constexpr std::uint32_t none = NodeSet::none;
 
 class Stuffing {
 public:
     Stuffing(const Body& body, std::uint64_t max_tets, const Progress& progress)
         : body_(body), max_tets_(max_tets), progress_(progress),
           nodes_(with_neighbours(body.frame, body.inside)), sides_(nodes_.size(), Side::outside),
-          fringe_(nodes_.size(), kNone), numbers_(nodes_.size(), kNone) {}
+          fringe_(nodes_.size(), none), numbers_(nodes_.size(), none) {}
 
     MeshData run(std::uint32_t coarsen) {
         find_sides();
@@ -35,7 +35,7 @@ public:
             body_.frame, body_.inside,
             [&](const Node& node) {
                 const std::uint32_t n = nodes_.find(node);
-                return n != kNone && sides_[n] == Side::inside;
+                return n != none && sides_[n] == Side::inside;
             },
             coarsen);
         fill(octree);
@@ -79,11 +79,11 @@ private:
     }
 
     Fringe& fringe_of(std::uint32_t node) {
-        if (fringe_[node] == kNone) {
+        if (fringe_[node] == none) {
             fringe_[node] = static_cast<std::uint32_t>(fringes_.size());
             Fringe fringe{};
-            fringe.cuts.fill(kNone);
-            fringe.moved_to = kNone;
+            fringe.cuts.fill(none);
+            fringe.moved_to = none;
             fringe.node = node;
             fringes_.push_back(fringe);
         }
@@ -93,13 +93,13 @@ private:
     void find_cuts() {
         for_each_node(body_.inside, [&](std::uint32_t number, const Node& node) {
             if (number % 65536 == 0) progress_.report(0.4 * number / body_.inside.size());
-            std::uint32_t self = kNone;
-            for (std::uint32_t k = 0; k < kNeighbours.size(); ++k) {
-                const std::uint32_t other = nodes_.find(node + kNeighbours[k]);
+            std::uint32_t self = none;
+            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+                const std::uint32_t other = nodes_.find(node + neighbour_steps[k]);
                 if (sides_[other] == Side::inside) continue;
-                if (self == kNone) self = nodes_.find(node);
+                if (self == none) self = nodes_.find(node);
                 const auto cut = static_cast<std::uint32_t>(cuts_.size());
-                cuts_.push_back({node, k, body_.leaves(node, k), kNone});
+                cuts_.push_back({node, k, body_.leaves(node, k), none});
                 fringe_of(self).cuts[k] = cut;
                 fringe_of(other).cuts[k ^ 1] = cut;
             }
@@ -116,25 +116,25 @@ private:
             Fringe& fringe = fringes_[f];
             const bool inside = sides_[fringe.node] == Side::inside;
             double nearest = 2;
-            for (std::uint32_t k = 0; k < kNeighbours.size(); ++k) {
-                if (fringe.cuts[k] == kNone) continue;
+            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+                if (fringe.cuts[k] == none) continue;
                 const double fraction = cuts_[fringe.cuts[k]].fraction;
                 const double away = inside ? fraction : 1 - fraction;
-                const bool is_long = k < kLongNeighbours;
+                const bool is_long = k < long_neighbours;
                 const double length = away * (is_long ? 2.0 : std::sqrt(3.0));
-                if (away < (is_long ? kAlphaLong : kAlphaShort) && length < nearest) {
+                if (away < (is_long ? alpha_long : alpha_short) && length < nearest) {
                     nearest = length;
                     fringe.moved_to = fringe.cuts[k];
                 }
             }
-            if (fringe.moved_to == kNone) continue;
+            if (fringe.moved_to == none) continue;
             sides_[fringe.node] = Side::on;
-            for (std::uint32_t k = 0; k < kNeighbours.size(); ++k) {
-                if (fringe.cuts[k] == kNone) continue;
+            for (std::uint32_t k = 0; k < neighbour_steps.size(); ++k) {
+                if (fringe.cuts[k] == none) continue;
                 const Cut& cut = cuts_[fringe.cuts[k]];
-                const Node other = inside ? cut.inside + kNeighbours[cut.neighbour] : cut.inside;
-                fringes_[fringe_[nodes_.find(other)]].cuts[k ^ 1] = kNone;
-                fringe.cuts[k] = kNone;
+                const Node other = inside ? cut.inside + neighbour_steps[cut.neighbour] : cut.inside;
+                fringes_[fringe_[nodes_.find(other)]].cuts[k ^ 1] = none;
+                fringe.cuts[k] = none;
             }
         }
     }
@@ -147,10 +147,10 @@ private:
             if ((low.y & 1) == 0) return;
             const bool low_merged = octree.is_merged(low);
             for (unsigned d = 0; d < 3; ++d) {
-                const Node high = low + kNeighbours[2 * d];
+                const Node high = low + neighbour_steps[2 * d];
                 if (low_merged || octree.is_merged(high)) continue;
                 const std::uint32_t high_number = nodes_.find(high);
-                if (high_number == kNone) continue;
+                if (high_number == none) continue;
                 // The face's corners, round about the edge: axes u, v = (d + 1) % 3, (d + 2) % 3.
                 std::array<Node, 4> ring{};
                 std::array<std::uint32_t, 4> ring_number{};
@@ -168,7 +168,7 @@ private:
                     {{0, 1}, {3, 2}, {0, 3}, {1, 2}}};
                 for (unsigned e = 0; e < 4; ++e) {
                     const unsigned a = edges[e][0], b = edges[e][1];
-                    if (ring_number[a] == kNone || ring_number[b] == kNone) continue;
+                    if (ring_number[a] == none || ring_number[b] == none) continue;
                     const bool first_above = e == 0 || e == 2;
                     // det(d, e, f) with f the axis across: positive for e = u; the edge lies on f's other
                     // side when first_above.
@@ -198,7 +198,7 @@ private:
             return;
         }
         std::array<std::array<double, 4>, 4> stumps{};
-        for (const auto& [a, b] : kTetEdges) {
+        for (const auto& [a, b] : tet_edges) {
             if (sides[a] == Side::inside && sides[b] == Side::outside)
                 stumps[a][b] = cut_of(numbers[a], nodes[a], nodes[b]).fraction;
             if (sides[b] == Side::inside && sides[a] == Side::outside)
@@ -210,7 +210,7 @@ private:
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::uint8_t v = stencil.tets[t][k];
                 tet[k] =
-                    v < 4 ? node_vertex(numbers[v], nodes[v]) : cut_vertex(numbers, nodes, kTetEdges[v - 4u]);
+                    v < 4 ? node_vertex(numbers[v], nodes[v]) : cut_vertex(numbers, nodes, tet_edges[v - 4u]);
             }
             if (!positive) std::swap(tet[2], tet[3]);
             add_tet(tet);
@@ -231,14 +231,14 @@ private:
     }
 
     std::array<double, 3> cut_position(const Cut& cut) const {
-        const Node& step = kNeighbours[cut.neighbour];
+        const Node& step = neighbour_steps[cut.neighbour];
         return body_.frame.position(cut.inside.x + cut.fraction * step.x,
                                     cut.inside.y + cut.fraction * step.y,
                                     cut.inside.z + cut.fraction * step.z);
     }
 
     std::uint32_t node_vertex(std::uint32_t number, const Node& node) {
-        if (numbers_[number] == kNone)
+        if (numbers_[number] == none)
             numbers_[number] = add_vertex(sides_[number] == Side::on
                                               ? cut_position(cuts_[fringes_[fringe_[number]].moved_to])
                                               : body_.frame.position(node.x, node.y, node.z));
@@ -247,8 +247,8 @@ private:
 
     Cut& cut_of(std::uint32_t number, const Node& from, const Node& to) {
         unsigned k = 0;
-        while (kNeighbours[k].x != to.x - from.x || kNeighbours[k].y != to.y - from.y ||
-               kNeighbours[k].z != to.z - from.z)
+        while (neighbour_steps[k].x != to.x - from.x || neighbour_steps[k].y != to.y - from.y ||
+               neighbour_steps[k].z != to.z - from.z)
             ++k;
         return cuts_[fringes_[fringe_[number]].cuts[k]];
     }
@@ -256,7 +256,7 @@ private:
     std::uint32_t cut_vertex(const std::array<std::uint32_t, 4>& numbers, const std::array<Node, 4>& nodes,
                              const std::array<std::uint8_t, 2>& edge) {
         Cut& cut = cut_of(numbers[edge[0]], nodes[edge[0]], nodes[edge[1]]);
-        if (cut.vertex == kNone) cut.vertex = add_vertex(cut_position(cut));
+        if (cut.vertex == none) cut.vertex = add_vertex(cut_position(cut));
         return cut.vertex;
     }
 
@@ -265,8 +265,8 @@ private:
     const Progress& progress_;
     const NodeSet nodes_; // inside, and next to those
     std::vector<Side> sides_;
-    std::vector<std::uint32_t> fringe_;  // of each node: index into fringes_, or kNone
-    std::vector<std::uint32_t> numbers_; // of each node: its vertex, or kNone
+    std::vector<std::uint32_t> fringe_;  // of each node: index into fringes_, or none
+    std::vector<std::uint32_t> numbers_; // of each node: its vertex, or none
     std::vector<Fringe> fringes_;
     std::vector<Cut> cuts_;
     MeshData mesh_;

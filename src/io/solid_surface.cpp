@@ -29,14 +29,14 @@ Triangle in_order(Corners corners) {
 
 // Integer coordinates stay below 2^29, so that products of differences, and their differences, fit into 63
 // bits.
-constexpr int kCoordinateBits = 29;
+constexpr int coordinate_bits = 29;
 
 // For each direction a linear map of determinant one to (t, u, v): t runs along the direction, a unit a unit
 // of the coordinate that leads it, and u and v are the same for all points of a line.
 struct Projection {
     std::array<std::array<std::int32_t, 3>, 3> rows; // t, u, v in terms of x, y, z
 };
-constexpr std::array<Projection, 7> kProjections = {{
+constexpr std::array<Projection, 7> projections = {{
     {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
     {{{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}}},
     {{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}},
@@ -136,7 +136,7 @@ void check_edges(const std::vector<Corners>& triangles, SurfaceCheck& check) {
 // Crosses all lines of a direction with all triangles. `oriented`: by winding number, else by parity.
 LatticeLines cast(unsigned direction, const std::vector<Point>& points,
                   const std::vector<Triangle>& triangles, int shift, bool oriented) {
-    const Projection& projection = kProjections[direction];
+    const Projection& projection = projections[direction];
     const bool diagonal = direction >= 3;
     const std::int64_t unit = std::int64_t{1} << shift;
     std::vector<Crossing> crossings;
@@ -213,9 +213,9 @@ LatticeLines cast(unsigned direction, const std::vector<Point>& points,
 
 } // namespace
 
-SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) : shift_(kCoordinateBits) {
+SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) : shift_(coordinate_bits) {
     const std::int32_t longest = 2 * *std::max_element(frame.cells.begin(), frame.cells.end());
-    while ((std::int64_t{longest} << shift_) >= std::int64_t{1} << kCoordinateBits) --shift_;
+    while ((std::int64_t{longest} << shift_) >= std::int64_t{1} << coordinate_bits) --shift_;
 
     points_.resize(surface.vertex_count);
     const double scale = std::ldexp(1.0, shift_) / frame.half_cell;
@@ -223,7 +223,7 @@ SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) 
         for (std::size_t k = 0; k < 3; ++k) {
             // Vertices that no triangle uses may lie outside of the lattice.
             const double x = std::floor((surface.positions[3 * i + k] - frame.origin[k]) * scale + 0.5);
-            points_[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, kCoordinateBits)));
+            points_[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, coordinate_bits)));
         }
     const std::vector<std::uint32_t> number = weld(points_);
     std::vector<Corners> given;
@@ -256,8 +256,8 @@ void SurfaceLines::cast_rest(const Progress& progress) {
 SurfaceLines::Line SurfaceLines::find(unsigned direction, const Node& node) const {
     const LatticeLines& lines = lines_[direction];
     const Point point = {node.x, node.y, node.z};
-    const auto u = static_cast<std::int32_t>(apply(kProjections[direction].rows[1], point));
-    const auto v = static_cast<std::int32_t>(apply(kProjections[direction].rows[2], point));
+    const auto u = static_cast<std::int32_t>(apply(projections[direction].rows[1], point));
+    const auto v = static_cast<std::int32_t>(apply(projections[direction].rows[2], point));
     const std::int64_t row = std::int64_t{v} - lines.first_v;
     if (row < 0 || row + 1 >= static_cast<std::int64_t>(lines.row_start.size())) return {nullptr, nullptr};
     const auto begin = lines.line_u.begin() + lines.row_start[static_cast<std::size_t>(row)];

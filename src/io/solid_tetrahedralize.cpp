@@ -15,7 +15,7 @@ namespace {
 
 // A surface is refused when more than this share of the lines ends inside of it, or of the nodes is inside
 // for one axis and outside for another.
-constexpr double kMostDoubtful = 0.01;
+constexpr double most_doubtful = 0.01;
 
 struct Box {
     std::array<double, 3> min, max;
@@ -39,7 +39,7 @@ void refuse_open(const SurfaceLines& lines, double doubtful) {
         format("the surface is open: %llu of its %llu edges have an odd number of triangles, and for %.1f %% "
                "of the lattice inside and outside cannot be told apart (at most %.0f %%)",
                static_cast<unsigned long long>(lines.check().open_edges),
-               static_cast<unsigned long long>(lines.check().edges), 100 * doubtful, 100 * kMostDoubtful));
+               static_cast<unsigned long long>(lines.check().edges), 100 * doubtful, 100 * most_doubtful));
 }
 
 struct Attempt {
@@ -63,7 +63,7 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
         mesh = make_cubes(surface, frame, inside, desc.max_tets);
     } else {
         if (open && inside.size() == 0) refuse_open(lines, 1);
-        if (doubtful > kMostDoubtful) refuse_open(lines, doubtful);
+        if (doubtful > most_doubtful) refuse_open(lines, doubtful);
         check_tet_count(inside, frame, coarsen, desc.max_tets);
         lines.cast_rest(progress.part(0, 0.3));
         const Body body = {frame, std::move(inside), [&lines](const Node& node, unsigned neighbour) {
@@ -108,7 +108,7 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
         const Progress round = to_distance ? progress.part(begin, (1 + begin) / 2) : progress;
         MeshData mesh = run({surface, desc, box, cell, std::min(desc.coarsen, 16u) + halvings}, round);
         // Half the cell makes four times the tets at least, where they are at the boundary.
-        const bool last = 2 * longest / cell > kMaxCells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
+        const bool last = 2 * longest / cell > max_cells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
         if (mesh.tets.empty() && (!to_distance || last))
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("no tet fits into the surface with a cell of %g (its longest side is %g)",
@@ -124,7 +124,7 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
                 format("cells of %g, %llu tets, come within %g of the surface; %g (max_distance) needs more "
                        "than %llu tets (max_tets) or %d cells along an axis",
                        cell, static_cast<unsigned long long>(mesh.tets.size() / 4), reached,
-                       desc.max_distance, static_cast<unsigned long long>(desc.max_tets), kMaxCells));
+                       desc.max_distance, static_cast<unsigned long long>(desc.max_tets), max_cells));
     }
 }
 

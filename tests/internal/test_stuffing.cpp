@@ -3,9 +3,9 @@
 // them.
 #include "solid_stuff.hpp"
 
+#include "../suite.h"
 #include <algorithm>
 #include <array>
-#include "../suite.h"
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -76,7 +76,7 @@ struct Random {
 
 // The distances in solid_stuff.cpp: cuts just on either side of them give the extreme shapes.
 double extreme(Random& random, unsigned neighbour) {
-    const double alpha = neighbour < kLongNeighbours ? 0.26 : 0.38;
+    const double alpha = neighbour < long_neighbours ? 0.26 : 0.38;
     const double kind = random(), aside = random() < 0.5 ? 1e-9 : -1e-9;
     if (kind < 0.2) return random();
     return kind < 0.6 ? alpha + aside : 1 - alpha - aside;
