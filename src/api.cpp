@@ -54,6 +54,7 @@ vox_grid_desc grid_defaults() {
     desc.struct_size = sizeof desc;
     desc.byte_budget = 4ull << 30;
     desc.worker_count = 1;
+    desc.flags = VOX_GRID_PENETRATIONS;
     return desc;
 }
 
@@ -192,6 +193,14 @@ vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
         require(grid, "grid");
         require(out_view, "out_view");
         *out_view = grid->contacts();
+    });
+}
+
+vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_view, "out_view");
+        *out_view = grid->penetrations();
     });
 }
 

@@ -41,7 +41,10 @@ void check_grid_desc(const vox_grid_desc& desc) {
     if (!desc.allocator.allocate != !desc.allocator.release)
         refuse("grid allocator has one of allocate and release, expected both or none");
     check_workers(desc.tasks, desc.worker_count);
-    if (desc.reserved != 0) refuse(format("grid reserved is %u, expected 0", desc.reserved));
+    constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS;
+    if (desc.flags & ~known_flags)
+        refuse(
+            format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
 }
 
 namespace {
@@ -70,6 +73,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       tasks_(desc.tasks), workers_(desc.tasks, desc.worker_count),
       fast_(desc.engine == VOX_ENGINE_FAST ||
             (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
+      find_penetrations_((desc.flags & VOX_GRID_PENETRATIONS) != 0),
       settings_{.storage = desc.storage,
                 .hash = desc.hash,
                 .hash_table_size = desc.hash_table_size,
@@ -77,7 +81,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_) {}
+      reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
+      penetrations_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -274,6 +279,12 @@ void vox_grid::write_log(vox_log_level level, const char* text) const {
 
 vox_contact_view vox_grid::contacts() const noexcept {
     return {contacts_.data(), sizeof(vox_contact), contacts_.size(), epoch_};
+}
+
+vox_penetration_view vox_grid::penetrations() const {
+    if (!find_penetrations_)
+        throw Error(VOX_ERROR_INVALID_STATE, "the grid was created without VOX_GRID_PENETRATIONS");
+    return {penetrations_.data(), sizeof(vox_penetration), penetrations_.size(), epoch_};
 }
 
 std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }

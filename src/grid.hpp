@@ -44,6 +44,7 @@ public:
     void step();
 
     vox_contact_view contacts() const noexcept;
+    vox_penetration_view penetrations() const;
     std::uint64_t epoch() const noexcept { return epoch_; }
     std::uint64_t hash() const noexcept;
     vox_counters counters() const noexcept;
@@ -73,6 +74,7 @@ private:
 
     // settings
     bool fast_;
+    bool find_penetrations_;
     vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
     double cell_size_;
     bool choose_cell_size_;          // the library chooses the cell size ...
@@ -94,6 +96,7 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
+    std::pmr::vector<vox_penetration> penetrations_;
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;

@@ -161,6 +161,11 @@ typedef enum vox_engine {
     VOX_ENGINE_FORCE_32_BITS = 0x7fffffff
 } vox_engine;
 
+typedef enum vox_grid_flags {
+    VOX_GRID_PENETRATIONS = 1, /* the step's depth stage (vox_grid_penetrations); on by default */
+    VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
+} vox_grid_flags;
+
 /* An open grid: a set of meshes and the settings they collide under. */
 typedef struct vox_grid vox_grid;
 
@@ -190,7 +195,7 @@ typedef struct vox_grid_desc {
      * depend on it. A library built without oneTBB has no threads of its own: then the built-in scheduler is
      * serial. */
     uint32_t worker_count;
-    uint32_t reserved; /* 0 */
+    uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
 } vox_grid_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -336,6 +341,54 @@ VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
 VOX_API vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash);
 
+/* ---- penetrations ----------------------------------------------------------------------------- */
+
+/* How a penetration's depth and direction were found. Below, p is the vertex; a colliding vertex is one of mesh_a
+ * with a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b are the facets of
+ * exactly one of its tetrahedra, doubled ones taken once. SURFACE and PROPAGATED are the method of Heidelberger et
+ * al. 2004; the other states are where it gives no answer. Closest: the closest point of mesh_b's surface to p;
+ * depth is the distance to it and direction leads straight to it. For self-contact the surface is that of the
+ * fold that p has entered, never a triangle that has p as a corner. */
+typedef enum vox_penetration_state {
+    VOX_PENETRATION_SURFACE = 0,    /* edges lead from p out of mesh_b: mean over where they cross the surface */
+    VOX_PENETRATION_PROPAGATED = 1, /* all neighbours of p collide: mean over those closer to the surface */
+    VOX_PENETRATION_ENCLOSED = 2,   /* no edge leads out from p or from a colliding vertex connected with it, or p has
+                                       no edges, as in meshes without tetrahedra: closest */
+    VOX_PENETRATION_CROSSING = 3,   /* the means are of no use: the normals nearly cancel (edges leave on opposite
+                                       sides), the depth would not be positive, or an edge that leads out crosses
+                                       no surface (inverted tetrahedra, non-manifold facets): closest */
+    VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface: depth 0, direction is the surface's normal at p */
+    VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
+} vox_penetration_state;
+
+/* Vertex `vertex` of mesh_a lies inside mesh_b (a = b: self-contact), and mesh_b is the side it has to leave: moving
+ * the vertex by depth * direction leads to the surface of mesh_b, exactly where the state says closest, and as well
+ * as a mean over neighbours tells elsewhere. Always finite, and direction always a unit vector to rounding. A
+ * mesh_b without any surface (each facet belongs to several tetrahedra) gives depth 0 and the normal of a facet of
+ * the contact's tetrahedron. Does not depend on engine, cell size, workers or machine. */
+typedef struct vox_penetration {
+    vox_mesh mesh_a;
+    uint32_t vertex;
+    vox_mesh mesh_b;
+    vox_penetration_state state;
+    uint64_t contact;   /* index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b) */
+    float depth;        /* >= 0, in the caller's unit */
+    float direction[3]; /* in the frame of the positions, out of mesh_b */
+} vox_penetration;
+
+/* `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order.
+ * A vertex inside two meshes has two. Lives and ends with the contacts' view. */
+typedef struct vox_penetration_view {
+    const vox_penetration* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_penetration_view;
+
+/* The penetrations of the last step; count 0 when it found no contacts, before the first, after a failed one and
+ * after a clear. Errors: INVALID_STATE when the grid was created without VOX_GRID_PENETRATIONS. */
+VOX_API vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view);
+
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
@@ -356,6 +409,11 @@ typedef struct vox_counters {
     uint64_t skipped_degenerate;
     uint64_t bytes;              /* held by the grid now, the caller's arrays not counted */
     uint64_t peak_bytes;         /* most it ever held */
+    uint64_t penetrations;
+    uint64_t leaving_edges;      /* edges from a colliding vertex to one outside mesh_b */
+    uint64_t edge_tests;         /* tetrahedra that these were followed through */
+    uint64_t closest_searches;   /* penetrations that took the closest point of the surface */
+    uint64_t closest_tests;      /* triangles whose closest point that took */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -370,6 +428,7 @@ typedef struct vox_profile {
     uint64_t broad_ns;    /* cells and box tests */
     uint64_t narrow_ns;   /* exact decisions */
     uint64_t contacts_ns; /* canonical order, barycentric coordinates */
+    uint64_t depth_ns;    /* penetrations */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */
