@@ -11,6 +11,12 @@ if(VOX_BUILD_IO)
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES include/vox/vox_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
 endif()
+if(VOX_BUILD_SIM)
+  install(TARGETS vox_sim EXPORT voxTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES include/vox/vox_sim.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+endif()
 install(EXPORT voxTargets NAMESPACE vox:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
 
 configure_package_config_file(cmake/voxConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake
@@ -28,4 +34,8 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox.pc DESTINATION ${CMAKE_INSTALL_LIB
 if(VOX_BUILD_IO)
   configure_file(cmake/vox_io.pc.in vox_io.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_io.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
+if(VOX_BUILD_SIM)
+  configure_file(cmake/vox_sim.pc.in vox_sim.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_sim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endif()

@@ -1,5 +1,5 @@
 # The public headers compile alone, as C99 and as C++17, without a hidden hole in any struct.
-foreach(header vox vox_io)
+foreach(header vox vox_io vox_sim)
   foreach(language c cpp)
     set(file ${CMAKE_CURRENT_BINARY_DIR}/header_${header}.${language})
     file(CONFIGURE OUTPUT ${file} CONTENT "#include <vox/${header}.h>\n")
@@ -12,7 +12,7 @@ endforeach()
 
 # The libraries export vox_* and nothing else.
 if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
-  foreach(library vox vox_io)
+  foreach(library vox vox_io vox_sim)
     if(TARGET ${library})
       add_test(NAME exports_${library}
         COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/exports.sh ${CMAKE_NM} $<TARGET_FILE:${library}>

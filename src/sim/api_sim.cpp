@@ -1,0 +1,142 @@
+// The C border of vox_sim.h: read the caller's structs, forward to the simulation, nothing else.
+#include "border.hpp"
+#include "sim.hpp"
+#include "structs.hpp"
+
+#include <cmath>
+
+using namespace vox;
+
+namespace {
+
+vox_sim_desc sim_defaults() {
+    vox_sim_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.substeps = 10;
+    desc.detect_every = 1;
+    desc.gravity[2] = -9.81;
+    desc.max_time_step = 1.0 / 30;
+    desc.floor_normal[2] = 1;
+    desc.friction = 0.5;
+    desc.max_push_speed = 1;
+    desc.contact_slop = -1;
+    return desc;
+}
+
+vox_sim_body_desc body_defaults() {
+    vox_sim_body_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.density = 1000;
+    desc.youngs_modulus = 1e6;
+    desc.bulk_modulus = 1e6;
+    desc.damping = 0.001;
+    return desc;
+}
+
+} // namespace
+
+// ---- simulation -----------------------------------------------------------------------------------
+
+vox_result vox_sim_desc_init(vox_sim_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, sim_defaults(), "desc"); });
+}
+
+vox_result vox_sim_create(const vox_sim_desc* desc, vox_sim** out_sim) {
+    return border([&] {
+        require(out_sim, "out_sim");
+        *out_sim = new vox_sim(desc ? read_struct(desc, sim_defaults(), "desc") : sim_defaults());
+    });
+}
+
+void vox_sim_destroy(vox_sim* sim) { delete sim; }
+
+vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid) {
+    return border([&] {
+        require(sim, "sim");
+        require(out_grid, "out_grid");
+        *out_grid = sim->grid();
+    });
+}
+
+vox_result vox_sim_step(vox_sim* sim, double time_step) {
+    return border([&] {
+        require(sim, "sim");
+        sim->step(time_step);
+    });
+}
+
+// ---- bodies ---------------------------------------------------------------------------------------
+
+vox_result vox_sim_body_desc_init(vox_sim_body_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, body_defaults(), "desc"); });
+}
+
+vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_mesh* out_body) {
+    return border([&] {
+        require(sim, "sim");
+        require(out_body, "out_body");
+        *out_body = sim->insert(read_struct(desc, body_defaults(), "desc"));
+    });
+}
+
+vox_result vox_sim_body_remove(vox_sim* sim, vox_mesh body) {
+    return border([&] {
+        require(sim, "sim");
+        sim->remove(body);
+    });
+}
+
+vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_body_view* out_view) {
+    return border([&] {
+        require(sim, "sim");
+        require(out_view, "out_view");
+        const sim::Body& b = sim->body(body);
+        static_assert(sizeof(sim::Vec3) == 3 * sizeof(double));
+        *out_view = {.positions = b.positions[0].data(),
+                     .velocities = b.velocities[0].data(),
+                     .masses = b.masses.data(),
+                     .grid_positions = b.grid_positions.data(),
+                     .tets = b.tets.data(),
+                     .vertex_count = b.positions.size(),
+                     .tet_count = b.tets.size() / 4};
+    });
+}
+
+vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body, const double* positions,
+                                  const double* velocities) {
+    return border([&] {
+        require(sim, "sim");
+        sim::set_state(sim->body(body), positions, velocities);
+    });
+}
+
+vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const double acceleration[3]) {
+    return border([&] {
+        require(sim, "sim");
+        sim::Body& target = sim->body(body);
+        require(acceleration, "acceleration");
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(acceleration[axis]) <= 1e15))
+                throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                            format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
+                                   acceleration[axis], axis));
+        target.acceleration = sim::Vec3(acceleration[0], acceleration[1], acceleration[2]);
+    });
+}
+
+// ---- measurements ---------------------------------------------------------------------------------
+
+vox_result vox_sim_energy(const vox_sim* sim, vox_mesh body, vox_sim_energies* out_energies) {
+    return border([&] {
+        require(sim, "sim");
+        check_out_struct(out_energies, "out_energies");
+        write_struct(out_energies, sim->energies(body), "out_energies");
+    });
+}
+
+vox_result vox_sim_counters(const vox_sim* sim, vox_sim_counts* out_counts) {
+    return border([&] {
+        require(sim, "sim");
+        write_struct(out_counts, sim->counts(), "out_counts");
+    });
+}

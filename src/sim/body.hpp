@@ -1,0 +1,70 @@
+// A deformable body: particles, and what holds them together. Plain arrays that the stages of a substep work
+// on.
+#pragma once
+
+#include <vox/vox_sim.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace vox::sim {
+
+using Vec3 = Eigen::Vector3d;
+
+// Keeps its two particles at a distance.
+struct EdgeConstraint {
+    std::uint32_t a, b;
+    double rest_length;
+    double compliance; // of the length
+};
+
+// Keeps the signed volume of its four particles. "Six-fold volume" is the determinant of the three edges from
+// corner 0.
+struct VolumeConstraint {
+    std::uint32_t corners[4];
+    double rest_volume6;
+    double compliance; // of the six-fold volume
+    double
+        least_stiffness; // a quarter of what the constraint's gradients, weighted with 1/mass, sum to at rest
+};
+
+struct Body {
+    vox_mesh mesh = VOX_NULL_MESH;
+    bool fixed = false;
+
+    // particles
+    std::vector<Vec3> positions;
+    std::vector<Vec3> previous; // where the particles were when the substep began
+    std::vector<Vec3> velocities;
+    std::vector<double> masses;
+    std::vector<double> inverse_masses; // all 0 for a fixed body
+    std::vector<float> grid_positions;  // 3 a particle: what the grid sees
+
+    // constraints
+    std::vector<std::uint32_t> tets; // 4 a tet
+    std::vector<EdgeConstraint> edges;
+    std::vector<VolumeConstraint> volumes;
+    double damping = 0;
+
+    Vec3 acceleration = Vec3::Zero(); // besides gravity
+    double mean_edge = 0;
+    std::uint64_t flat_tets = 0;
+    std::uint64_t inverted_tets = 0;
+    std::uint64_t raised_masses = 0;
+};
+
+// Checks the caller's arrays and numbers and computes masses and constraints from them. Throws.
+Body make_body(const vox_sim_body_desc& desc);
+
+// Replaces positions and velocities (3 a particle; null: as they are). Throws and then changes nothing.
+void set_state(Body& body, const double* positions, const double* velocities);
+
+// Rounds the positions for the grid.
+void write_grid_positions(Body& body);
+
+// Determinant of the edges from corner 0: six times the signed volume.
+double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3);
+
+} // namespace vox::sim

@@ -1,0 +1,210 @@
+#include "sim.hpp"
+
+#include "clock.hpp"
+#include "constraints.hpp"
+#include "error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace vox;
+using namespace vox::sim;
+
+namespace {
+
+void check(vox_result result) {
+    if (result != VOX_OK) throw Error(result, vox_last_error());
+}
+
+[[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
+
+Vec3 check_vector(const double values[3], const char* name) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(values[axis]) <= 1e15))
+            refuse(format("sim %s is %g on axis %d, expected a number of at most 1e15 in size", name,
+                          values[axis], axis));
+    return Vec3(values[0], values[1], values[2]);
+}
+
+double check_number(double value, const char* name) {
+    if (!(value >= 0 && value <= 1e60))
+        refuse(format("sim %s is %g, expected a number from 0 to 1e60", name, value));
+    return value;
+}
+
+Floor floor_of(const vox_sim_desc& desc) {
+    Floor floor{check_vector(desc.floor_normal, "floor_normal"), desc.floor_offset};
+    if (!(std::abs(floor.offset) <= 1e15))
+        refuse(format("sim floor_offset is %g, expected a number of at most 1e15 in size", floor.offset));
+    if (!floor.normal.isZero(0)) floor.normal.stableNormalize();
+    return floor;
+}
+
+unsigned long long number(std::uint64_t count) { return count; }
+
+} // namespace
+
+vox_sim::vox_sim(const vox_sim_desc& desc)
+    : log_(desc.log), gravity_(check_vector(desc.gravity, "gravity")), max_time_step_(desc.max_time_step),
+      substeps_(desc.substeps), detect_every_(desc.detect_every),
+      contact_settings_{.friction = check_number(desc.friction, "friction"),
+                        .compliance = check_number(desc.contact_compliance, "contact_compliance"),
+                        .push_speed = check_number(desc.max_push_speed, "max_push_speed"),
+                        .slop = desc.contact_slop},
+      floor_(floor_of(desc)) {
+    if (!(max_time_step_ >= 1e-12 && max_time_step_ <= 1e12))
+        refuse(format("sim max_time_step is %g, expected a number from 1e-12 to 1e12", max_time_step_));
+    if (substeps_ == 0 || substeps_ > 10000)
+        refuse(format("sim substeps is %u, expected 1 to 10000", substeps_));
+    if (!(desc.contact_slop <= 1e60))
+        refuse(format("sim contact_slop is %g, expected a number up to 1e60", desc.contact_slop));
+    if (desc.reserved != 0) refuse(format("sim reserved is %u, expected 0", desc.reserved));
+    vox_grid* grid = nullptr;
+    check(vox_grid_create(desc.grid, &grid));
+    grid_.reset(grid);
+    vox_penetration_view penetrations;
+    check(vox_grid_penetrations(grid, &penetrations)); // a grid without them is of no use here
+}
+
+// ---- step -----------------------------------------------------------------------------------------
+
+void vox_sim::step(double time_step) {
+    if (!(time_step > 0) || std::isinf(time_step))
+        refuse(format("time_step is %g, expected a finite number above 0", time_step));
+    const std::uint64_t start = nanoseconds();
+    counts_.detect_ns = 0;
+    if (time_step > max_time_step_) {
+        if (counts_.clamped_steps++ == 0)
+            write_log(VOX_LOG_WARNING,
+                      format("time step %g is cut down to max_time_step, %g; so will be others", time_step,
+                             max_time_step_));
+        time_step = max_time_step_;
+    }
+    const double h = time_step / substeps_;
+    for (std::uint32_t i = 0; i < substeps_; ++i) {
+        if (detect_every_ != 0 && i % detect_every_ == 0) detect();
+        substep(h);
+    }
+    for (const auto& body : bodies_) write_grid_positions(*body);
+    ++counts_.steps;
+    counts_.step_ns = nanoseconds() - start;
+    counts_.solve_ns = counts_.step_ns - counts_.detect_ns;
+}
+
+void vox_sim::detect() {
+    for (const auto& body : bodies_) write_grid_positions(*body);
+    const std::uint64_t start = nanoseconds();
+    check(vox_grid_step(grid_.get()));
+    counts_.detect_ns += nanoseconds() - start;
+    gather_contacts(grid_.get(), bodies_, contact_settings_, contacts_);
+    ++counts_.detections;
+    counts_.penetrations = contacts_.size();
+}
+
+void vox_sim::substep(double h) {
+    for (const auto& body : bodies_) move_freely(*body, gravity_, h);
+    for (const auto& body : bodies_) {
+        solve_edges(*body, h);
+        solve_volumes(*body, h);
+    }
+    solve_contacts(contacts_, contact_settings_, h);
+    counts_.floor_contacts = 0;
+    for (const auto& body : bodies_)
+        counts_.floor_contacts += solve_floor(*body, floor_, contact_settings_, h);
+    for (const auto& body : bodies_) take_velocities(*body, h);
+    ++counts_.substeps;
+}
+
+// ---- bodies ---------------------------------------------------------------------------------------
+
+vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
+    auto body = std::make_unique<Body>(make_body(desc));
+    // What follows the insertion into the grid must not fail.
+    if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
+
+    vox_mesh_desc mesh = vox_default_mesh_desc();
+    if (desc.flags & VOX_SIM_BODY_SELF_COLLISION) mesh.flags |= VOX_MESH_SELF_COLLISION;
+    mesh.positions = body->grid_positions.data();
+    mesh.vertex_count = body->positions.size();
+    mesh.tets = body->tets.data();
+    mesh.tet_count = desc.tet_count;
+    mesh.user_data = desc.user_data;
+    check(vox_mesh_insert(grid_.get(), &mesh, &body->mesh));
+
+    const Body& inserted = *body;
+    // A slot of the grid may be used again, so a new body need not be the last.
+    const auto place = std::upper_bound(bodies_.begin(), bodies_.end(), body->mesh,
+                                        [](vox_mesh id, const auto& other) { return id < other->mesh; });
+    bodies_.insert(place, std::move(body));
+    if (inserted.flat_tets + inserted.inverted_tets + inserted.raised_masses > 0)
+        write_log(
+            VOX_LOG_WARNING,
+            format("body %u: %llu of %llu tets have no rest volume and so no volume constraint, %llu are "
+                   "inverted; %llu of %zu vertices were made heavier",
+                   inserted.mesh, number(inserted.flat_tets), number(desc.tet_count),
+                   number(inserted.inverted_tets), number(inserted.raised_masses),
+                   inserted.positions.size()));
+    return inserted.mesh;
+}
+
+Body& vox_sim::body(vox_mesh mesh) const {
+    if (Body* found = find_body(bodies_, mesh)) return *found;
+    throw Error(VOX_ERROR_INVALID_HANDLE,
+                format("mesh id %u names no body of the simulation, which has %zu", mesh, bodies_.size()));
+}
+
+void vox_sim::remove(vox_mesh mesh) {
+    const Body* removed = &body(mesh);
+    check(vox_mesh_remove(grid_.get(), mesh));
+    contacts_.clear();
+    std::erase_if(bodies_, [&](const auto& b) { return b.get() == removed; });
+}
+
+// ---- measurements ---------------------------------------------------------------------------------
+
+vox_sim_energies vox_sim::energies(vox_mesh mesh) const {
+    vox_sim_energies sum{};
+    Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
+    const auto add = [&](const Body& body) {
+        for (std::size_t v = 0; v < body.positions.size(); ++v) {
+            const double mass = body.masses[v], speed = body.velocities[v].norm();
+            sum.mass += mass;
+            sum.kinetic += mass * speed * speed / 2;
+            sum.max_speed = std::max(sum.max_speed, speed);
+            momentum += mass * body.velocities[v];
+            moment += mass * body.positions[v];
+        }
+        sum.elastic += elastic_energy(body);
+    };
+    if (mesh != VOX_NULL_MESH) {
+        add(body(mesh));
+    } else {
+        for (const auto& body : bodies_)
+            if (!body->fixed) add(*body);
+    }
+    sum.potential = -gravity_.dot(moment);
+    for (int axis = 0; axis < 3; ++axis) {
+        sum.momentum[axis] = momentum[axis];
+        sum.centre[axis] = sum.mass > 0 ? moment[axis] / sum.mass : 0;
+    }
+    return sum;
+}
+
+vox_sim_counts vox_sim::counts() const {
+    vox_sim_counts counts = counts_;
+    counts.bodies = static_cast<std::uint32_t>(bodies_.size());
+    for (const auto& body : bodies_) {
+        counts.vertices += body->positions.size();
+        counts.tets += body->tets.size() / 4;
+        counts.edges += body->edges.size();
+        counts.volumes += body->volumes.size();
+        counts.flat_tets += body->flat_tets;
+        counts.inverted_tets += body->inverted_tets;
+        counts.raised_masses += body->raised_masses;
+    }
+    return counts;
+}
+
+void vox_sim::write_log(vox_log_level level, const std::string& text) const {
+    if (log_.write) log_.write(level, text.c_str(), log_.user);
+}

@@ -1,0 +1,48 @@
+// A simulation: bodies, the grid they collide in, and step(), which runs the substeps.
+#pragma once
+
+#include "body.hpp"
+#include "contacts.hpp"
+
+#include <memory>
+#include <vector>
+
+// Every public vox_sim_* function is one member here; all throw, and none changes anything when it does
+// (step: see vox_sim_step).
+struct vox_sim {
+public:
+    explicit vox_sim(const vox_sim_desc& desc); // throws INVALID_ARGUMENT naming the field and its value
+
+    vox_grid* grid() const noexcept { return grid_.get(); }
+    void step(double time_step);
+
+    vox_mesh insert(const vox_sim_body_desc& desc);
+    void remove(vox_mesh mesh);
+    vox::sim::Body& body(vox_mesh mesh) const;
+
+    vox_sim_energies energies(vox_mesh mesh) const;
+    vox_sim_counts counts() const;
+
+private:
+    struct GridDeleter {
+        void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
+    };
+
+    void detect();
+    void substep(double h);
+    void write_log(vox_log_level level, const std::string& text) const;
+
+    vox_log log_;
+    vox::sim::Vec3 gravity_;
+    double max_time_step_;
+    std::uint32_t substeps_;
+    std::uint32_t detect_every_;
+    vox::sim::ContactSettings contact_settings_;
+    vox::sim::Floor floor_;
+
+    std::unique_ptr<vox_grid, GridDeleter> grid_;
+    std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
+    std::vector<vox::sim::Contact> contacts_;             // of the last detection
+
+    vox_sim_counts counts_{};
+};
