@@ -41,7 +41,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
     if (!desc.allocator.allocate != !desc.allocator.release)
         refuse("grid allocator has one of allocate and release, expected both or none");
     check_workers(desc.tasks, desc.worker_count);
-    constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS;
+    constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
     if (desc.flags & ~known_flags)
         refuse(
             format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
@@ -82,7 +82,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
-      penetrations_(&memory_) {}
+      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -126,7 +126,13 @@ void vox_grid::clear() {
     for (std::size_t slot = slots_.size(); slot-- > 0;)
         if (slots_[slot].live) vacate(static_cast<std::uint32_t>(slot));
     contacts_.clear();
+    contacts_hold_ = false;
+    events_.hide_pairs();
     ++epoch_;
+}
+
+void vox_grid::mark_moved(vox_mesh id) {
+    for (fast::Rest::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
 }
 
 void vox_grid::vacate(std::uint32_t slot) noexcept {
@@ -155,6 +161,7 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     room_for(hits_, contact_count);
     room_for(scratch_, contact_count);
     room_for(contacts_, contact_count);
+    events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
 
@@ -187,19 +194,24 @@ void vox_grid::set_cell_size(double cell_size) {
     cell_size_ = cell_size;
     choose_cell_size_ = cell_size == 0;
     cell_size_is_stale_ = true;
+    contacts_hold_ = false; // they do, but the next step should show what the cell size does
 }
 
 void vox_grid::set_worker_count(std::uint32_t worker_count) {
     check_workers(tasks_, worker_count);
     workers_.set_count(worker_count);
+    contacts_hold_ = false; // as for the cell size
 }
 
 // ---- step -----------------------------------------------------------------------------------------
 
 void vox_grid::step() {
     const std::uint64_t start = nanoseconds();
-    contacts_.clear();
+    const bool carry = contacts_hold_;
+    contacts_hold_ = false;
     hits_.clear();
+    events_.hide_pairs();
+    events_.hide_events();
     ++epoch_;
 
     vox_counters counters{};
@@ -207,13 +219,20 @@ void vox_grid::step() {
     try {
         gather_bodies();
         if (fast_)
-            detect_fast(counters, profile);
+            detect_fast(carry, counters, profile);
         else
             detect_reference(counters, profile);
 
         const std::uint64_t detected = nanoseconds();
-        make_contacts(bodies_, hits_, scratch_, contacts_);
+        if (carry) counters.carried_contacts = carry_contacts();
+        // Where these are all there were and all there are, they stay as they are.
+        if (counters.carried_contacts != contacts_.size() || hits_.size() != contacts_.size())
+            make_contacts(bodies_, hits_, scratch_, contacts_);
         profile.contacts_ns = nanoseconds() - detected;
+
+        const std::uint64_t contacts_made = nanoseconds();
+        events_.update(contacts_, slots_.size(), [this](vox_mesh id) { return mesh(id).user_data(); });
+        profile.events_ns = nanoseconds() - contacts_made;
     } catch (...) {
         contacts_.clear();
         throw;
@@ -226,6 +245,7 @@ void vox_grid::step() {
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
+    contacts_hold_ = fast_;
 }
 
 void vox_grid::gather_bodies() {
@@ -238,6 +258,7 @@ void vox_grid::gather_bodies() {
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
+        s.body = static_cast<std::uint32_t>(bodies_.size());
         bodies_.push_back(s.mesh.body(id));
         if (!fast_) continue;
         s.mesh.make_tiles(); // of meshes that were inserted without positions
@@ -245,16 +266,40 @@ void vox_grid::gather_bodies() {
     }
 }
 
-void vox_grid::detect_fast(vox_counters& counters, vox_profile& profile) {
+void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
-    const FastSettings settings{.cell_size = choose_cell_size_ ? 0 : cell_size_, .workers = &workers_};
+    const FastSettings settings{
+        .cell_size = choose_cell_size_ ? 0 : cell_size_, .workers = &workers_, .carry = carry};
     fast_engine_.detect(bodies_, tiles_, settings, hits_, counters, profile);
     if (choose_cell_size_) cell_size_ = fast_engine_.cell_size();
+}
+
+// Appends the contacts of the last step between meshes that have not moved as hits, and returns how many. All
+// hits of a vertex with a mesh are carried or none; taken for interior ones, those that became contacts do so
+// again.
+std::uint64_t vox_grid::carry_contacts() {
+    const std::size_t found = hits_.size();
+    const auto rests = [this](vox_mesh id) {
+        const Slot& s = slots_[slot_of(id)];
+        return s.live && s.generation == generation_of(id) && !fast_engine_.moved(s.body);
+    };
+    for (const vox_contact& contact : contacts_) {
+        if (!rests(contact.mesh_a) || !rests(contact.mesh_b)) continue;
+        Hit hit{};
+        hit.body_a = slots_[slot_of(contact.mesh_a)].body;
+        hit.vertex = contact.vertex;
+        hit.body_b = slots_[slot_of(contact.mesh_b)].body;
+        hit.tet = contact.tet & 0x7fffffffu;
+        hit.interior = 1;
+        hits_.push_back(hit);
+    }
+    return hits_.size() - found;
 }
 
 void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
     choose_cell_size();
     settings_.cell_size = cell_size_;
+    counters.moved_meshes = bodies_.size();
     reference_.detect(bodies_, settings_, hits_, counters, profile);
 }
 

@@ -1,6 +1,7 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
+#include "events.hpp"
 #include "fast.hpp"
 #include "memory.hpp"
 #include "mesh.hpp"
@@ -37,6 +38,7 @@ public:
 
     vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
     void remove(vox_mesh mesh);
+    void mark_moved(vox_mesh mesh);
     bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh);
     const vox::Mesh& mesh(vox_mesh mesh) const;
@@ -46,6 +48,7 @@ public:
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
     std::uint64_t epoch() const noexcept { return epoch_; }
+    const vox::Events& events() const noexcept { return events_; }
     std::uint64_t hash() const noexcept;
     vox_counters counters() const noexcept;
     const vox_profile& profile() const noexcept { return profile_; }
@@ -56,12 +59,14 @@ private:
         vox::Mesh mesh;
         std::uint32_t generation = 0; // of the mesh that lives here, or of the last one that did
         bool live = false;
+        std::uint32_t body = 0; // in bodies_, during a step
     };
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
     void gather_bodies();
-    void detect_fast(vox_counters& counters, vox_profile& profile);
+    void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
+    std::uint64_t carry_contacts();
     void detect_reference(vox_counters& counters, vox_profile& profile);
     void choose_cell_size();
     void write_log(vox_log_level level, const char* text) const;
@@ -88,7 +93,7 @@ private:
 
     // one step
     std::pmr::vector<vox::Body> bodies_;
-    std::pmr::vector<const vox::FastMesh*> tiles_; // of each body, for the fast engine
+    std::pmr::vector<vox::FastMesh*> tiles_; // of each body, for the fast engine
     vox::Fast fast_engine_;
     vox::Reference reference_;
     std::pmr::vector<vox::Hit> hits_;
@@ -96,7 +101,11 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
+    // They are what another step would find of meshes that were in the last one and have not moved since. False
+    // after every change of a setting that contacts may depend on.
+    bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
+    vox::Events events_;
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;

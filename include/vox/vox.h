@@ -163,6 +163,7 @@ typedef enum vox_engine {
 
 typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* the step's depth stage (vox_grid_penetrations); on by default */
+    VOX_GRID_CONTACT_EVENTS = 2, /* events of single vertices too (vox_grid_contact_events) */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
 
@@ -299,10 +300,19 @@ VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint6
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
                                            vox_format format, uint64_t byte_stride);
 
+/* Has the next step look at a mesh even if it is at rest (see vox_grid_step). Contacts never need it; it is for
+ * measuring steps over positions that stay the same. */
+VOX_API vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh);
+
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
 /* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
- * failure they are gone and the grid stays usable. In the steady state (same meshes, no more contacts
+ * failure they are gone and the grid stays usable.
+ * A mesh is at rest when its positions, bit by bit, are those of the last step; the fast engine keeps a copy to know.
+ * Between meshes at rest, and of a mesh at rest with itself, contacts are taken over from the last step: such meshes
+ * cost little more than reading their positions. (A mesh that has been moving is copied, and so looked at once more,
+ * when it comes to rest.) A step that follows a failed one, or a change of a setting, looks at all meshes.
+ * In the steady state (same meshes, no more contacts
  * than before) it allocates nothing; with several workers, a worker's buffers may still grow the first time it meets
  * a larger body, and the built-in scheduler's own memory is oneTBB's, not the grid's.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE (names mesh and vertex), BUDGET,
@@ -389,9 +399,110 @@ typedef struct vox_penetration_view {
  * after a clear. Errors: INVALID_STATE when the grid was created without VOX_GRID_PENETRATIONS. */
 VOX_API vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view);
 
+/* ---- touching pairs and events ---------------------------------------------------------------- */
+
+/* Two meshes that touch: a vertex of one of them lies in a tetrahedron of the other. mesh_a <= mesh_b; both are
+ * the same where a mesh touches itself. The contacts of the pair are those that
+ * vox_pair_view.contacts[first], ... names: first the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then
+ * the b_in_a of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts. */
+typedef struct vox_pair {
+    vox_mesh mesh_a;
+    vox_mesh mesh_b;
+    uint64_t user_data_a; /* of mesh_a, as given at insertion */
+    uint64_t user_data_b;
+    uint64_t first;
+    uint64_t a_in_b;
+    uint64_t b_in_a;
+} vox_pair;
+
+#define VOX_MAX_CONTACTS 4294967295u /* of one step; more fail it with VOX_ERROR_LIMIT */
+
+/* `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts`: the index of every contact of
+ * vox_grid_contacts() once, pair by pair. Both live until the next step, clear, reserve or destroy of the grid. */
+typedef struct vox_pair_view {
+    const vox_pair* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+    const uint32_t* contacts;
+} vox_pair_view;
+
+/* The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear. */
+VOX_API vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view);
+
+/* Copies the first `capacity` of the last step's contacts that `mesh` has a part in, as mesh_a or as mesh_b: pair
+ * by pair as in vox_grid_pairs, in the order given there. *out_count is how many there are, which may be more than
+ * were copied. `contacts` may be null when capacity is 0. Also of a mesh that is disabled by now; not of one that
+ * was removed. */
+VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
+                                          uint64_t capacity, uint64_t* out_count);
+
+/* Of a touch_event: how the last successful step differs from the successful step before it. */
+typedef enum vox_touch {
+    VOX_TOUCH_BEGAN = 1,     /* touches, and did not */
+    VOX_TOUCH_PERSISTED = 2, /* touches, and did */
+    VOX_TOUCH_ENDED = 3,     /* does not touch any more, for whatever reason */
+    VOX_TOUCH_FORCE_32_BITS = 0x7fffffff
+} vox_touch;
+
+/* What became of a pair of meshes, mesh_a <= mesh_b. Every pair that began persists in each following step until
+ * it ends, once: also when a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
+ * `mesh_b` may be ids that are stale by now: the user data are those of the meshes that they named. */
+typedef struct vox_touch_event {
+    vox_mesh mesh_a;
+    vox_mesh mesh_b;
+    uint64_t user_data_a;
+    uint64_t user_data_b;
+    vox_touch kind;
+    uint32_t pair; /* its index in vox_grid_pairs; VOX_NO_PAIR when it ended */
+} vox_touch_event;
+
+#define VOX_NO_PAIR 0xffffffffu
+
+/* All that began, then all that persisted, then all that ended: `count` together, `byte_stride` apart, each part
+ * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. */
+typedef struct vox_touch_view {
+    const vox_touch_event* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+    uint64_t began;
+    uint64_t persisted;
+    uint64_t ended;
+} vox_touch_view;
+
+/* What the last step changed; count 0 before the first one. A step that fails gives no events and loses none: the
+ * next one is compared with the last that succeeded. Removing meshes and clearing the grid give no events at once;
+ * the next step ends the pairs. Destroying the grid ends them without events. */
+VOX_API vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view);
+
+/* Vertex `vertex` of mesh_a came into tetrahedra of mesh_b, or is in none of them any more. Moving on from one
+ * tetrahedron of mesh_b to another is no event. */
+typedef struct vox_contact_event {
+    vox_mesh mesh_a;
+    uint32_t vertex;
+    vox_mesh mesh_b;
+    vox_touch kind; /* VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
+} vox_contact_event;
+
+/* All that began, then all that ended, each part sorted by (mesh_a, vertex, mesh_b); lives as vox_touch_view. */
+typedef struct vox_contact_event_view {
+    const vox_contact_event* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+    uint64_t began;
+    uint64_t ended;
+} vox_contact_event_view;
+
+/* The same for single vertices, under the same rules, on grids with VOX_GRID_CONTACT_EVENTS.
+ * Errors: INVALID_STATE on other grids. */
+VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view);
+
 /* ---- measurements ----------------------------------------------------------------------------- */
 
-/* What the last successful step did. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
+/* What the last successful step did. From `cells` to `skipped_degenerate`, what was taken over from the step before
+ * counts nothing. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
  * them with the reference engine, those with a vertex of theirs to test with the fast one. */
 typedef struct vox_counters {
     uint32_t struct_size;
@@ -409,6 +520,8 @@ typedef struct vox_counters {
     uint64_t skipped_degenerate;
     uint64_t bytes;              /* held by the grid now, the caller's arrays not counted */
     uint64_t peak_bytes;         /* most it ever held */
+    uint64_t moved_meshes;       /* meshes that were not found at rest: see vox_grid_step */
+    uint64_t carried_contacts;   /* of `contacts`: taken over from the step before, between meshes at rest */
     uint64_t penetrations;
     uint64_t leaving_edges;      /* edges from a colliding vertex to one outside mesh_b */
     uint64_t edge_tests;         /* tetrahedra that these were followed through */
@@ -429,6 +542,7 @@ typedef struct vox_profile {
     uint64_t narrow_ns;   /* exact decisions */
     uint64_t contacts_ns; /* canonical order, barycentric coordinates */
     uint64_t depth_ns;    /* penetrations */
+    uint64_t events_ns;   /* touching pairs and events */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */

@@ -1,0 +1,152 @@
+#include "events.hpp"
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+namespace vox {
+
+namespace {
+
+bool pair_before(const vox_pair& x, const vox_pair& y) {
+    return std::tie(x.mesh_a, x.mesh_b) < std::tie(y.mesh_a, y.mesh_b);
+}
+
+// Merges two sorted sets and calls function(element) for those that began (in `is` alone), persist (in both:
+// that of `is`) or ended (in `was` alone), in order.
+template <class Set, class Before, class Function>
+void for_each_of_kind(vox_touch kind, const Set& was, const Set& is, Before before, Function&& function) {
+    auto old = was.begin();
+    auto now = is.begin();
+    while (old != was.end() || now != is.end()) {
+        if (old == was.end() || (now != is.end() && before(*now, *old))) {
+            if (kind == VOX_TOUCH_BEGAN) function(*now);
+            ++now;
+        } else if (now == is.end() || before(*old, *now)) {
+            if (kind == VOX_TOUCH_ENDED) function(*old);
+            ++old;
+        } else {
+            if (kind == VOX_TOUCH_PERSISTED) function(*now);
+            ++old;
+            ++now;
+        }
+    }
+}
+
+} // namespace
+
+Events::Events(std::pmr::memory_resource* memory, bool of_contacts)
+    : buffers_(memory), touching_{Touching(memory), Touching(memory)},
+      inside_{std::pmr::vector<Inside>(memory), std::pmr::vector<Inside>(memory)}, of_contacts_(of_contacts),
+      touch_events_(memory), contact_events_(memory) {}
+
+void Events::hide_events() noexcept {
+    touch_events_.clear();
+    contact_events_.clear();
+    began_ = persisted_ = contacts_began_ = 0;
+}
+
+void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
+    const auto room_for = [](auto& vector, std::size_t count) {
+        if (count > vector.capacity()) vector.reserve(count);
+    };
+    const std::size_t pairs = std::min(8 * mesh_count, contact_count);
+    room_for(buffers_.last_of_slot, mesh_count);
+    room_for(buffers_.runs, contact_count);
+    room_for(buffers_.directed, 2 * pairs);
+    room_for(buffers_.order, 2 * pairs);
+    room_for(touch_events_, 2 * pairs);
+    for (Touching& touching : touching_) {
+        room_for(touching.pairs, pairs);
+        room_for(touching.contacts, contact_count);
+    }
+    if (!of_contacts_) return;
+    room_for(contact_events_, 2 * contact_count);
+    for (std::pmr::vector<Inside>& inside : inside_) room_for(inside, contact_count);
+}
+
+void Events::compare(std::span<const vox_contact> contacts) {
+    try {
+        compare_pairs();
+        if (of_contacts_) compare_contacts(contacts);
+    } catch (...) {
+        hide_events();
+        throw;
+    }
+    current_ = 1 - current_;
+    pairs_are_shown_ = true;
+}
+
+void Events::compare_pairs() {
+    const std::pmr::vector<vox_pair>&was = touching_[current_].pairs, &is = next().pairs;
+    for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_PERSISTED, VOX_TOUCH_ENDED})
+        for_each_of_kind(kind, was, is, pair_before, [&](const vox_pair& pair) {
+            const auto index =
+                kind == VOX_TOUCH_ENDED ? VOX_NO_PAIR : static_cast<std::uint32_t>(&pair - is.data());
+            touch_events_.push_back(
+                {pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b, kind, index});
+            began_ += kind == VOX_TOUCH_BEGAN;
+            persisted_ += kind == VOX_TOUCH_PERSISTED;
+        });
+}
+
+void Events::compare_contacts(std::span<const vox_contact> contacts) {
+    const std::pmr::vector<Inside>& was = inside_[current_];
+    std::pmr::vector<Inside>& is = inside_[1 - current_];
+    is.clear();
+    for (const vox_contact& contact : contacts) {
+        const Inside inside{contact.mesh_a, contact.vertex, contact.mesh_b};
+        if (is.empty() || is.back() != inside)
+            is.push_back(inside); // in the interior of several tets at once
+    }
+    for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_ENDED})
+        for_each_of_kind(kind, was, is, std::less<>(), [&](const Inside& inside) {
+            contact_events_.push_back({inside.mesh_a, inside.vertex, inside.mesh_b, kind});
+            contacts_began_ += kind == VOX_TOUCH_BEGAN;
+        });
+}
+
+std::span<const vox_pair> Events::pairs() const noexcept {
+    return pairs_are_shown_ ? std::span<const vox_pair>(touching_[current_].pairs)
+                            : std::span<const vox_pair>();
+}
+
+std::uint64_t Events::copy_contacts(std::span<const vox_contact> contacts, vox_mesh mesh,
+                                    std::span<vox_contact> out) const noexcept {
+    std::uint64_t count = 0;
+    for (const vox_pair& pair : pairs()) {
+        if (pair.mesh_a != mesh && pair.mesh_b != mesh) continue;
+        const std::uint32_t* index = pair_contacts() + pair.first;
+        for (const std::uint32_t* end = index + pair.a_in_b + pair.b_in_a; index != end; ++index, ++count)
+            if (count < out.size()) out[count] = contacts[*index];
+    }
+    return count;
+}
+
+vox_touch_view Events::touch_events() const noexcept {
+    const std::uint64_t count = touch_events_.size();
+    return {.data = touch_events_.data(),
+            .byte_stride = sizeof(vox_touch_event),
+            .count = count,
+            .epoch = 0,
+            .began = began_,
+            .persisted = persisted_,
+            .ended = count - began_ - persisted_};
+}
+
+vox_contact_event_view Events::contact_events() const {
+    if (!of_contacts_)
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    "the grid was created without VOX_GRID_CONTACT_EVENTS in its flags");
+    const std::uint64_t count = contact_events_.size();
+    return {.data = contact_events_.data(),
+            .byte_stride = sizeof(vox_contact_event),
+            .count = count,
+            .epoch = 0,
+            .began = contacts_began_,
+            .ended = count - contacts_began_};
+}
+
+} // namespace vox

@@ -1,0 +1,81 @@
+// What changes from step to step: pairs of meshes, and vertices in meshes, that begin and end touching.
+// Differences of two sorted sets, the last successful step's and this one's, so that nothing that happens
+// between two steps can lose an event.
+#pragma once
+
+#include "touching.hpp"
+
+#include <vox/vox.h>
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class Events {
+public:
+    // `of_contacts`: those of single vertices too.
+    Events(std::pmr::memory_resource* memory, bool of_contacts);
+
+    // A step begins, or what the last one found is not wanted any more: no pairs until a step ends.
+    void hide_pairs() noexcept { pairs_are_shown_ = false; }
+    void hide_events() noexcept;
+
+    // A step succeeded but for this. Until it returns (it may throw) nothing is forgotten. user_data(mesh_id)
+    // is asked for every mesh that touches.
+    template <class UserData>
+    void update(std::span<const vox_contact> contacts, std::size_t slots, UserData&& user_data) {
+        find_touching(contacts, slots, buffers_, next());
+        for (vox_pair& pair : next().pairs) {
+            pair.user_data_a = user_data(pair.mesh_a);
+            pair.user_data_b = user_data(pair.mesh_b);
+        }
+        compare(contacts);
+    }
+
+    // Room for what so many contacts need, and the pairs of so many meshes (eight each).
+    void reserve(std::size_t mesh_count, std::size_t contact_count);
+
+    std::span<const vox_pair> pairs() const noexcept;
+    // Their contacts, as vox_pair_view.contacts.
+    const std::uint32_t* pair_contacts() const noexcept { return touching_[current_].contacts.data(); }
+    // vox_mesh_copy_contacts, of the contacts of the last update().
+    std::uint64_t copy_contacts(std::span<const vox_contact> contacts, vox_mesh mesh,
+                                std::span<vox_contact> out) const noexcept;
+    // Views without an epoch.
+    vox_touch_view touch_events() const noexcept;
+    vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) where they are not wanted
+
+private:
+    // A vertex in some mesh.
+    struct Inside {
+        vox_mesh mesh_a;
+        std::uint32_t vertex;
+        vox_mesh mesh_b;
+
+        auto operator<=>(const Inside&) const = default;
+    };
+
+    Touching& next() noexcept { return touching_[1 - current_]; }
+    void compare(std::span<const vox_contact> contacts);
+    void compare_pairs();
+    void compare_contacts(std::span<const vox_contact> contacts);
+
+    TouchingBuffers buffers_;
+    std::array<Touching, 2> touching_; // this step's and the last one's
+    std::array<std::pmr::vector<Inside>, 2> inside_;
+    std::size_t current_ = 0; // of the two
+    bool pairs_are_shown_ = false;
+    bool of_contacts_;
+    std::pmr::vector<vox_touch_event> touch_events_;
+    std::pmr::vector<vox_contact_event> contact_events_;
+    std::uint64_t began_ = 0, persisted_ = 0; // of touch_events_
+    std::uint64_t contacts_began_ = 0;        // of contact_events_
+};
+
+} // namespace vox
