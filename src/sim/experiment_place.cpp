@@ -1,0 +1,157 @@
+#include "experiment_place.hpp"
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace vox::sim {
+
+void check(vox_result result) {
+    if (result != VOX_OK) throw Error(result, vox_last_error());
+}
+
+// ---- shapes -----------------------------------------------------------------------------------------
+
+Point Bounds::centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2}; }
+
+Bounds bounds_of(const std::vector<double>& positions) {
+    Bounds bounds;
+    std::copy_n(positions.begin(), 3, bounds.min.begin());
+    bounds.max = bounds.min;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        bounds.min[i % 3] = std::min(bounds.min[i % 3], positions[i]);
+        bounds.max[i % 3] = std::max(bounds.max[i % 3], positions[i]);
+    }
+    return bounds;
+}
+
+namespace {
+
+// About the centre of the box, by the rotation of a quaternion of any length.
+void turn(std::vector<double>& positions, double w, double x, double y, double z) {
+    const double s = 2 / (w * w + x * x + y * y + z * z);
+    const double matrix[3][3] = {{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+                                 {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+                                 {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}};
+    const Point centre = bounds_of(positions).centre();
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        const double p[3] = {positions[i] - centre[0], positions[i + 1] - centre[1],
+                             positions[i + 2] - centre[2]};
+        for (std::size_t k = 0; k < 3; ++k)
+            positions[i + k] = centre[k] + matrix[k][0] * p[0] + matrix[k][1] * p[1] + matrix[k][2] * p[2];
+    }
+}
+
+} // namespace
+
+// About 41 and 57 degrees, about axes that are none of a cube's.
+void turn_first(std::vector<double>& positions) { turn(positions, 1, 0.11, 0.23, 0.28); }
+void turn_second(std::vector<double>& positions) { turn(positions, 1, 0.31, -0.37, 0.26); }
+
+void move(std::vector<double>& positions, const Point& by) {
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += by[i % 3];
+}
+
+void round_positions(const std::vector<double>& positions, std::vector<float>& rounded) {
+    rounded.resize(positions.size());
+    std::transform(positions.begin(), positions.end(), rounded.begin(),
+                   [](double x) { return static_cast<float>(x); });
+}
+
+// ---- shares -----------------------------------------------------------------------------------------
+
+double share_in_contact(const vox_grid* grid, std::uint64_t tet_count) {
+    vox_contact_view view{};
+    check(vox_grid_contacts(grid, &view));
+    std::vector<std::uint64_t> held;
+    held.reserve(static_cast<std::size_t>(view.count));
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        vox_contact contact;
+        std::memcpy(&contact, reinterpret_cast<const std::byte*>(view.data) + i * view.byte_stride,
+                    sizeof contact);
+        held.push_back(std::uint64_t{contact.mesh_b} << 32 | contact.tet);
+    }
+    std::sort(held.begin(), held.end());
+    const auto end = std::unique(held.begin(), held.end());
+    return static_cast<double>(end - held.begin()) / static_cast<double>(tet_count);
+}
+
+ContactShare::ContactShare(const Shape& a, const Shape& b)
+    : b_(b), tet_count_((a.tets.size() + b.tets.size()) / 4) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = 0; // contacts alone
+    vox_grid* grid = nullptr;
+    check(vox_grid_create(&desc, &grid));
+    grid_.reset(grid);
+    round_positions(a.positions, a_positions_);
+    b_positions_.resize(b.positions.size());
+    for (const Shape* shape : {&a, &b}) {
+        vox_mesh_desc mesh = vox_default_mesh_desc();
+        mesh.positions = (shape == &a ? a_positions_ : b_positions_).data();
+        mesh.vertex_count = shape->positions.size() / 3;
+        mesh.tets = shape->tets.data();
+        mesh.tet_count = shape->tets.size() / 4;
+        vox_mesh id = VOX_NULL_MESH;
+        check(vox_mesh_insert(grid, &mesh, &id));
+    }
+}
+
+double ContactShare::at(const Point& offset) {
+    for (std::size_t i = 0; i < b_positions_.size(); ++i)
+        b_positions_[i] = static_cast<float>(b_.positions[i] + offset[i % 3]);
+    check(vox_grid_step(grid_.get()));
+    return share_in_contact(grid_.get(), tet_count_);
+}
+
+double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const Point& axis, double wanted) {
+    const auto shadow = [&](const Shape& shape) {
+        double min = HUGE_VAL, max = -HUGE_VAL;
+        for (std::size_t i = 0; i < shape.positions.size(); i += 3) {
+            const double along = shape.positions[i] * axis[0] + shape.positions[i + 1] * axis[1] +
+                                 shape.positions[i + 2] * axis[2];
+            min = std::min(min, along);
+            max = std::max(max, along);
+        }
+        return std::pair(min, max);
+    };
+    const auto [a_min, a_max] = shadow(a);
+    const auto [b_min, b_max] = shadow(b);
+    const auto share_at = [&](double along) {
+        return share.at({along * axis[0], along * axis[1], along * axis[2]});
+    };
+
+    // From just touching to just through, in steps that do not jump over a shallow contact of slender bodies.
+    double outside = a_max - b_min, inside = outside;
+    const double through = a_min - b_max;
+    constexpr int steps = 256;
+    double most = 0, reached = 0;
+    for (int i = 1; i <= steps && reached < wanted; ++i) {
+        outside = inside;
+        inside = a_max - b_min + (through - (a_max - b_min)) * i / steps;
+        reached = share_at(inside);
+        most = std::max(most, reached);
+    }
+    if (reached < wanted)
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    format("at most %.3g of the tets come into contact along the axis (%.9g, %.9g, %.9g), "
+                           "wanted is %.3g",
+                           most, axis[0], axis[1], axis[2], wanted));
+    while (std::abs(reached - wanted) > 0.005 * wanted) {
+        const double middle = inside + (outside - inside) / 2;
+        if (middle == inside || middle == outside) break;
+        const double there = share_at(middle);
+        if (there >= wanted) {
+            inside = middle;
+            reached = there;
+        } else if (wanted - there <= 0.005 * wanted) {
+            return middle;
+        } else {
+            outside = middle;
+        }
+    }
+    return inside;
+}
+
+} // namespace vox::sim

@@ -1,0 +1,189 @@
+// Least squares with polynomials that are orthogonal over the very points measured, by their three-term
+// recurrence: G. E. Forsythe, "Generation and use of orthogonal polynomials for data-fitting with a digital
+// computer", J. SIAM 5, 1957. Their coefficients do not change as the degree grows, so that all degrees are
+// tried in one pass. The degree is the one that predicts best the points it was not given, one left out at a
+// time; that needs no second fit: D. M. Allen, "The relationship between variable selection and data
+// augmentation and a method for prediction", Technometrics 16, 1974.
+//
+// Both axes are logarithms. The cost is a sum of powers of the cell size, falling ones and rising ones, whose
+// logarithm over the logarithm is a smooth bowl between two straight lines, which polynomials follow well;
+// and the noise of a time is in proportion to it, so that every point weighs the same.
+#include "fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace vox::sim {
+
+namespace {
+
+double dot(std::span<const double> a, std::span<const double> b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+// One orthonormal polynomial: its values at the points, and as a power series.
+struct Basis {
+    std::vector<double> values;
+    double powers[max_fit_degree + 1] = {};
+
+    void scale(double factor) {
+        for (double& value : values) value *= factor;
+        for (double& power : powers) power *= factor;
+    }
+};
+
+// u times `last`, made orthogonal to `last` and to the one `before` it; to all others it is already.
+Basis next_basis(std::span<const double> u, const Basis& last, const Basis& before) {
+    Basis next;
+    next.values.resize(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) next.values[i] = u[i] * last.values[i];
+    for (std::size_t k = 0; k < max_fit_degree; ++k) next.powers[k + 1] = last.powers[k];
+    for (const Basis* other : {&last, &before}) {
+        const double along = dot(next.values, other->values);
+        for (std::size_t i = 0; i < u.size(); ++i) next.values[i] -= along * other->values[i];
+        for (std::size_t k = 0; k <= max_fit_degree; ++k) next.powers[k] -= along * other->powers[k];
+    }
+    next.scale(1 / std::sqrt(dot(next.values, next.values)));
+    return next;
+}
+
+std::size_t count_distinct(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::size_t(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+}
+
+double power_series(const double (&coefficients)[max_fit_degree + 1], std::size_t degree, double u) {
+    double sum = coefficients[degree];
+    for (std::size_t k = degree; k-- > 0;) sum = sum * u + coefficients[k];
+    return sum;
+}
+
+double cell_size_at(const TimeFit& fit, double u) {
+    if (u == -1) return fit.range_min;
+    if (u == 1) return fit.range_max;
+    return fit.range_min * std::pow(fit.range_max / fit.range_min, (u + 1) / 2);
+}
+
+double place_of(const TimeFit& fit, double cell_size) {
+    return 2 * std::log(cell_size / fit.range_min) / std::log(fit.range_max / fit.range_min) - 1;
+}
+
+// The fit of least leave-one-out error; sets degree, coefficients, r_squared and prediction_error.
+void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFit& fit) {
+    const std::size_t count = u.size();
+    Basis last, before;
+    last.values.assign(count, 1);
+    last.powers[0] = 1;
+    last.scale(1 / std::sqrt(double(count)));
+    before.values.assign(count, 0);
+
+    // The residual of a point had the fit not seen it is residual / (1 - leverage).
+    std::vector<double> residual(y.begin(), y.end()), leverage(count, 0);
+    double series[max_fit_degree + 1] = {};
+    double spread = 0; // sum of squares about the mean
+    double least = -1;
+    const std::size_t max_degree = std::min(max_fit_degree, count_distinct(u) - 2);
+    for (std::size_t degree = 0; degree <= max_degree; ++degree) {
+        const double weight = dot(residual, last.values);
+        for (std::size_t i = 0; i < count; ++i) {
+            residual[i] -= weight * last.values[i];
+            leverage[i] += last.values[i] * last.values[i];
+        }
+        for (std::size_t k = 0; k <= degree; ++k) series[k] += weight * last.powers[k];
+        const double left = dot(residual, residual);
+        if (degree == 0) spread = left;
+        double squares = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double unseen = residual[i] / (1 - leverage[i]);
+            squares += unseen * unseen;
+        }
+        // A straight line has no minimum inside.
+        if (degree >= 2 && (least < 0 || squares < least)) {
+            least = squares;
+            fit.degree = degree;
+            std::copy(std::begin(series), std::end(series), fit.coefficients);
+            fit.r_squared = spread > 0 ? 1 - left / spread : 1;
+            fit.prediction_error = std::sqrt(squares / double(count));
+        }
+        if (degree == max_degree) break;
+        Basis next = next_basis(u, last, before);
+        before = std::move(last);
+        last = std::move(next);
+    }
+}
+
+// The least value over [-1, 1]: the best of a scan, then the golden section around it.
+double minimiser(const TimeFit& fit) {
+    const auto value = [&](double u) { return power_series(fit.coefficients, fit.degree, u); };
+    constexpr int steps = 1024;
+    const auto scan = [](int i) { return double(2 * i - steps) / steps; };
+    int best = 0;
+    for (int i = 1; i <= steps; ++i)
+        if (value(scan(i)) < value(scan(best))) best = i;
+    double low = scan(std::max(best - 1, 0)), high = scan(std::min(best + 1, steps));
+    const double section = (std::sqrt(5.0) - 1) / 2;
+    while (high - low > 1e-9) {
+        const double left = high - section * (high - low), right = low + section * (high - low);
+        if (value(left) <= value(right))
+            high = right;
+        else
+            low = left;
+    }
+    const double inside = (low + high) / 2;
+    for (const double end : {-1.0, 1.0})
+        if (std::abs(inside - end) < 1e-6) return end;
+    return inside;
+}
+
+// Where the fitted logarithm first passes `limit` on the way from `inside`, where it does not, to `end`.
+double crossing(const TimeFit& fit, double limit, double inside, double end) {
+    const auto over = [&](double u) { return power_series(fit.coefficients, fit.degree, u) > limit; };
+    constexpr int steps = 1024;
+    const double start = inside;
+    double outside = start;
+    for (int i = 1; i <= steps && !over(outside); ++i) {
+        inside = outside;
+        outside = i == steps ? end : start + (end - start) * i / steps;
+    }
+    if (!over(outside)) return end;
+    for (;;) {
+        const double middle = inside + (outside - inside) / 2;
+        if (middle == inside || middle == outside) return inside;
+        (over(middle) ? outside : inside) = middle;
+    }
+}
+
+} // namespace
+
+double TimeFit::at(double size) const {
+    return std::exp(power_series(coefficients, degree, place_of(*this, size)));
+}
+
+TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
+    TimeFit fit;
+    const auto [smallest, largest] = std::minmax_element(cell_sizes.begin(), cell_sizes.end());
+    fit.range_min = *smallest;
+    fit.range_max = *largest;
+    std::vector<double> u, y;
+    for (const double size : cell_sizes) u.push_back(place_of(fit, size));
+    for (const double time : times) y.push_back(std::log(time));
+    fit_polynomial(u, y, fit);
+    const double best = minimiser(fit);
+    fit.cell_size = cell_size_at(fit, best);
+    fit.time = std::exp(power_series(fit.coefficients, fit.degree, best));
+    fit.bracketed = best > -1 && best < 1;
+    return fit;
+}
+
+FitZone fit_zone(const TimeFit& fit, double limit) {
+    const double best = std::clamp(place_of(fit, fit.cell_size), -1.0, 1.0);
+    const double log_limit = std::max(std::log(limit), power_series(fit.coefficients, fit.degree, best));
+    return {std::min(cell_size_at(fit, crossing(fit, log_limit, best, -1)), fit.cell_size),
+            std::max(cell_size_at(fit, crossing(fit, log_limit, best, 1)), fit.cell_size)};
+}
+
+} // namespace vox::sim
