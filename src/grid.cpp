@@ -81,7 +81,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
+      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
       penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -93,8 +93,11 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     if (fresh_slot) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
 
     // Everything that can fail comes first.
-    Mesh mesh(desc, view, &memory_);
+    vox_filter filter = read_filter(desc.filter);
+    if (desc.flags & VOX_MESH_SELF_COLLISION) filter.self_collision = 1;
+    Mesh mesh(desc, view, filter, &memory_);
     if (fast_ && mesh.has_positions()) mesh.make_tiles();
+    if (find_penetrations_) mesh.make_topology();
     if (fresh_slot) {
         grow_capacity(slots_, slots_.size() + 1);
         grow_capacity(free_slots_, slots_.size() + 1);
@@ -126,6 +129,7 @@ void vox_grid::clear() {
     for (std::size_t slot = slots_.size(); slot-- > 0;)
         if (slots_[slot].live) vacate(static_cast<std::uint32_t>(slot));
     contacts_.clear();
+    penetrations_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
     ++epoch_;
@@ -135,8 +139,37 @@ void vox_grid::mark_moved(vox_mesh id) {
     for (fast::Rest::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
 }
 
+void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
+    mesh(id).set_filter(filter);
+    mark_moved(id);
+}
+
+void vox_grid::set_enabled(vox_mesh id, bool enabled) {
+    mesh(id).set_enabled(enabled);
+    mark_moved(id);
+}
+
+void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
+    Mesh &mesh_a = mesh(a), &mesh_b = mesh(b);
+    if (a == b)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("mesh_a and mesh_b are both %u: self-collision is a matter of its filter", a));
+    if (enabled) {
+        mesh_a.remove_exception(b);
+        mesh_b.remove_exception(a);
+    } else {
+        mesh_a.reserve_exception();
+        mesh_b.reserve_exception();
+        mesh_a.add_exception(b);
+        mesh_b.add_exception(a);
+    }
+    mark_moved(a);
+}
+
 void vox_grid::vacate(std::uint32_t slot) noexcept {
     Slot& s = slots_[slot];
+    for (const vox_mesh other : s.mesh.exceptions())
+        slots_[slot_of(other)].mesh.remove_exception(make_id(slot, s.generation));
     vertex_count_ -= s.mesh.vertex_count();
     tet_count_ -= s.mesh.tet_count();
     s.mesh = Mesh(&memory_);
@@ -161,6 +194,7 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     room_for(hits_, contact_count);
     room_for(scratch_, contact_count);
     room_for(contacts_, contact_count);
+    if (find_penetrations_) room_for(penetrations_, contact_count);
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
@@ -217,7 +251,7 @@ void vox_grid::step() {
     vox_counters counters{};
     vox_profile profile{};
     try {
-        gather_bodies();
+        gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);
         else
@@ -225,41 +259,59 @@ void vox_grid::step() {
 
         const std::uint64_t detected = nanoseconds();
         if (carry) counters.carried_contacts = carry_contacts();
-        // Where these are all there were and all there are, they stay as they are.
-        if (counters.carried_contacts != contacts_.size() || hits_.size() != contacts_.size())
-            make_contacts(bodies_, hits_, scratch_, contacts_);
-        profile.contacts_ns = nanoseconds() - detected;
+        // Where these are all there were and all there are, they and what follows from them stay as they are.
+        const bool all_carried =
+            counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
+        if (!all_carried) make_contacts(bodies_, hits_, scratch_, contacts_);
+        std::uint64_t contacts_made = nanoseconds();
+        profile.contacts_ns = contacts_made - detected;
 
-        const std::uint64_t contacts_made = nanoseconds();
+        if (find_penetrations_ && !all_carried) {
+            depth_.find(bodies_, topologies_, hits_, contacts_, &workers_, penetrations_, counters);
+            profile.depth_ns = nanoseconds() - contacts_made;
+            contacts_made += profile.depth_ns;
+        }
+
         events_.update(contacts_, slots_.size(), [this](vox_mesh id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
     } catch (...) {
         contacts_.clear();
+        penetrations_.clear();
         throw;
     }
 
     counters.meshes = static_cast<std::uint32_t>(bodies_.size());
-    counters.vertices = vertex_count_;
-    counters.tets = tet_count_;
+    for (const Body& body : bodies_) {
+        counters.vertices += body.vertex_count;
+        counters.tets += body.tets.size();
+    }
     counters.contacts = contacts_.size();
+    counters.penetrations = penetrations_.size();
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     contacts_hold_ = fast_;
 }
 
-void vox_grid::gather_bodies() {
+void vox_grid::gather_bodies(vox_counters& counters) {
     bodies_.clear();
+    topologies_.clear();
     tiles_.clear();
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         Slot& s = slots_[slot];
+        s.body = Slot::none;
         if (!s.live) continue;
+        if (!s.mesh.is_enabled()) {
+            ++counters.disabled_meshes;
+            continue;
+        }
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
         s.body = static_cast<std::uint32_t>(bodies_.size());
         bodies_.push_back(s.mesh.body(id));
+        topologies_.push_back(&s.mesh.topology());
         if (!fast_) continue;
         s.mesh.make_tiles(); // of meshes that were inserted without positions
         tiles_.push_back(&s.mesh.tiles());
@@ -281,7 +333,7 @@ std::uint64_t vox_grid::carry_contacts() {
     const std::size_t found = hits_.size();
     const auto rests = [this](vox_mesh id) {
         const Slot& s = slots_[slot_of(id)];
-        return s.live && s.generation == generation_of(id) && !fast_engine_.moved(s.body);
+        return s.body != Slot::none && s.generation == generation_of(id) && !fast_engine_.moved(s.body);
     };
     for (const vox_contact& contact : contacts_) {
         if (!rests(contact.mesh_a) || !rests(contact.mesh_b)) continue;

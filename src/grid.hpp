@@ -2,6 +2,7 @@
 #pragma once
 
 #include "events.hpp"
+#include "depth.hpp"
 #include "fast.hpp"
 #include "memory.hpp"
 #include "mesh.hpp"
@@ -15,6 +16,8 @@
 #include <vector>
 
 namespace vox {
+
+class Snapshot;
 
 // Throws Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
@@ -39,6 +42,9 @@ public:
     vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
     void remove(vox_mesh mesh);
     void mark_moved(vox_mesh mesh);
+    void set_filter(vox_mesh mesh, const vox_filter& filter);
+    void set_enabled(vox_mesh mesh, bool enabled);
+    void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
     bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh);
     const vox::Mesh& mesh(vox_mesh mesh) const;
@@ -55,16 +61,19 @@ public:
     const vox_allocator& allocator() const noexcept { return allocator_; }
 
 private:
+    friend class vox::Snapshot;
+
     struct Slot {
         vox::Mesh mesh;
         std::uint32_t generation = 0; // of the mesh that lives here, or of the last one that did
         bool live = false;
-        std::uint32_t body = 0; // in bodies_, during a step
+        static constexpr std::uint32_t none = ~0u;
+        std::uint32_t body = none; // in bodies_; none when it takes no part in the step
     };
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
-    void gather_bodies();
+    void gather_bodies(vox_counters& counters);
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
     std::uint64_t carry_contacts();
     void detect_reference(vox_counters& counters, vox_profile& profile);
@@ -96,6 +105,8 @@ private:
     std::pmr::vector<vox::FastMesh*> tiles_; // of each body, for the fast engine
     vox::Fast fast_engine_;
     vox::Reference reference_;
+    std::pmr::vector<const vox::depth::Topology*> topologies_; // of each body, for the depth stage
+    vox::Depth depth_;
     std::pmr::vector<vox::Hit> hits_;
     std::pmr::vector<vox::Hit> scratch_;
 

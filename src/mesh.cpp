@@ -1,16 +1,27 @@
 #include "mesh.hpp"
 
+#include "error.hpp"
+#include "mesh_check.hpp"
+
+#include <algorithm>
+#include <utility>
+
 namespace vox {
 
-Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, std::pmr::memory_resource* memory)
-    : tets_(view.tets.begin(), view.tets.end(), memory), copied_(memory), tiles_(memory),
+Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
+           std::pmr::memory_resource* memory)
+    : tets_(view.tets.begin(), view.tets.end(), memory), copied_(memory), topology_(memory), tiles_(memory),
       positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
-      flags_(desc.flags) {
-    if ((flags_ & VOX_MESH_COPY_POSITIONS) && positions_.data) {
+      filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) {
         copied_.reserve(vertex_count_);
         for (std::uint32_t v = 0; v < vertex_count_; ++v) copied_.push_back(positions_[v]);
         positions_ = {reinterpret_cast<const std::byte*>(copied_.data()), sizeof(Vec3f)};
     }
+    if (desc.rest_positions)
+        set_rest({static_cast<const std::byte*>(desc.rest_positions),
+                  check_stride(desc.rest_position_byte_stride, vertex_count_, "rest_")});
+    set_filter(filter);
 }
 
 void Mesh::make_tiles() {
@@ -29,7 +40,52 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .vertex_count = vertex_count_,
             .positions = positions_,
             .tets = tets_,
-            .self_collision = (flags_ & VOX_MESH_SELF_COLLISION) != 0};
+            .self_collision = filter_.self_collision != 0,
+            .filter = {filter_.category, filter_.mask, filter_.group},
+            .exceptions = exceptions_,
+            .self_filter =
+                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr};
 }
+
+void Mesh::set_filter(const vox_filter& filter) {
+    if (filter.self_rest_distance > 0 && self_filter_.rest.empty() && vertex_count_ > 0) {
+        if (!has_positions())
+            throw Error(VOX_ERROR_INVALID_STATE,
+                        "self_rest_distance needs a rest pose: the mesh has no positions "
+                        "yet and was inserted without rest_positions");
+        set_rest(positions_);
+    }
+    Rings rings(self_filter_.rings.near.get_allocator().resource());
+    const bool other_rings = filter.self_rings != filter_.self_rings;
+    if (other_rings)
+        rings = Rings(tets_, vertex_count_, filter.self_rings, rings.near.get_allocator().resource());
+    if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
+        Body with_self = body(VOX_NULL_MESH);
+        with_self.self_collision = true;
+        tiles_.prepare(with_self); // more is prepared of bodies with self-collision
+    }
+    if (other_rings) self_filter_.rings = std::move(rings);
+    self_filter_.rest_distance = filter.self_rest_distance;
+    filter_ = filter;
+}
+
+void Mesh::set_rest(const Positions& positions) {
+    check_finite({.vertex_count = vertex_count_, .positions = positions});
+    std::pmr::vector<Vec3f> rest(self_filter_.rest.get_allocator());
+    rest.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertex_count_; ++v) rest.push_back(positions[v]);
+    self_filter_.rest = std::move(rest);
+}
+
+void Mesh::reserve_exception() {
+    if (exceptions_.size() == exceptions_.capacity()) exceptions_.reserve(2 * exceptions_.size() + 2);
+}
+
+void Mesh::add_exception(vox_mesh other) noexcept {
+    const auto place = std::lower_bound(exceptions_.begin(), exceptions_.end(), other);
+    if (place == exceptions_.end() || *place != other) exceptions_.insert(place, other);
+}
+
+void Mesh::remove_exception(vox_mesh other) noexcept { std::erase(exceptions_, other); }
 
 } // namespace vox

@@ -1,7 +1,9 @@
 // One inserted mesh: topology (copied), positions (borrowed or copied), settings.
 #pragma once
 
+#include "depth/topology.hpp"
 #include "fast.hpp"
+#include "filter.hpp"
 #include "scene.hpp"
 
 #include <vox/vox.h>
@@ -15,16 +17,22 @@ class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : tets_(memory), copied_(memory), tiles_(memory) {}
-    // A copy of a checked desc: `view` are its arrays (mesh_check.hpp).
-    Mesh(const vox_mesh_desc& desc, const Body& view, std::pmr::memory_resource* memory);
+        : tets_(memory), copied_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()), self_filter_(memory),
+          exceptions_(memory) {}
+    // A copy of a checked desc: `view` are its arrays (mesh_check.hpp), desc.filter not looked at.
+    Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
+         std::pmr::memory_resource* memory);
 
     Mesh(Mesh&&) noexcept = default;
     Mesh& operator=(Mesh&&) noexcept = default;
 
+    // Prepares the depth stage, once.
+    void make_topology() { depth::make_topology(tets_, vertex_count_, topology_); }
+    const depth::Topology& topology() const noexcept { return topology_; }
+
     // Makes the fast engine's tiles, once; needs positions.
     void make_tiles();
-    const FastMesh& tiles() const noexcept { return tiles_; }
+    FastMesh& tiles() noexcept { return tiles_; }
 
     // Borrows positions; a copy made at insertion is released.
     void bind(const Positions& positions) noexcept;
@@ -34,17 +42,37 @@ public:
     std::uint64_t tet_count() const noexcept { return tets_.size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
 
+    // Takes a checked filter, and takes the rest pose from the positions when it is wanted and not known.
+    // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and leaves all as it was then.
+    void set_filter(const vox_filter& filter);
+    const vox_filter& filter() const noexcept { return filter_; }
+
+    void set_enabled(bool enabled) noexcept { enabled_ = enabled; }
+    bool is_enabled() const noexcept { return enabled_; }
+
+    // Meshes that this one does not collide with, ascending. Room first, so that adding cannot fail.
+    void reserve_exception();
+    void add_exception(vox_mesh other) noexcept;
+    void remove_exception(vox_mesh other) noexcept;
+    std::span<const vox_mesh> exceptions() const noexcept { return exceptions_; }
+
     Body body(vox_mesh id) const noexcept;
 
 private:
+    void set_rest(const Positions& positions);
+
     std::pmr::vector<Tet> tets_;
     std::pmr::vector<Vec3f> copied_;
+    depth::Topology topology_; // empty unless it was made
     FastMesh tiles_;
     bool has_tiles_ = false;
     Positions positions_;
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
-    std::uint32_t flags_ = 0;
+    vox_filter filter_;
+    SelfFilter self_filter_;
+    std::pmr::vector<vox_mesh> exceptions_;
+    bool enabled_ = true;
 };
 
 } // namespace vox

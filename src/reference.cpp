@@ -4,6 +4,7 @@
 
 #include "clock.hpp"
 #include "error.hpp"
+#include "filter.hpp"
 #include "mesh_check.hpp"
 #include "predicates.hpp"
 
@@ -19,6 +20,7 @@ struct Reference::Step {
     std::pmr::vector<Hit>& hits;
     vox_counters& counters;
     vox_profile& profile;
+    bool some_filtered = false; // some bodies may not collide with some others
 };
 
 namespace {
@@ -52,17 +54,19 @@ double cells_between(const CellCoord& min, const CellCoord& max) {
 } // namespace
 
 Reference::Reference(std::pmr::memory_resource* memory)
-    : particles_(memory), first_(memory), boxes_(memory), cells_(memory) {}
+    : particles_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
 
 void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
                        std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
-    counters.exact_tests = counters.skipped_degenerate = 0;
+    counters.exact_tests = counters.filtered = counters.skipped_degenerate = 0;
     profile.bin_ns = profile.broad_ns = profile.narrow_ns = 0;
     candidate_count_ = 0;
 
     Step step{bodies, settings, hits, counters, profile};
+    for (const Body& body : bodies)
+        step.some_filtered |= body.filter != PairFilter{} || !body.exceptions.empty();
     const std::uint64_t start = nanoseconds();
     load_particles(bodies);
     compute_boxes(step);
@@ -198,6 +202,18 @@ void Reference::classify(Step& step, const Lattice& lattice, const Address& addr
     step.counters.fullest_cell = fullest;
 }
 
+// Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its own.
+bool Reference::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
+    const auto is_filtered = [&](std::size_t a) { return a != body && !collide(bodies[a], bodies[body]); };
+    bool any = false;
+    for (std::size_t a = 0; a < bodies.size() && !any; ++a) any = is_filtered(a);
+    if (!any) return false;
+    skipped_.resize(particles_.size());
+    for (std::size_t a = 0; a < bodies.size(); ++a)
+        std::fill(skipped_.begin() + first_[a], skipped_.begin() + first_[a + 1], is_filtered(a));
+    return true;
+}
+
 // ---- pass two -------------------------------------------------------------------------------------
 
 template <class Address>
@@ -208,6 +224,7 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
     const std::uint32_t first_own = first_[body];
     // Particles of the body itself are passed over; where it collides with itself, only the corners are.
     const std::uint32_t own_count = step.bodies[body].self_collision ? 0 : step.bodies[body].vertex_count;
+    const bool filtered = step.some_filtered && filter_particles(step.bodies, body);
     std::uint64_t visited_cells = 0, visited_entries = 0;
 
     for (std::size_t t = 0; t < tets.size(); ++t) {
@@ -218,6 +235,7 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
             visited_entries += cell.count;
             for (std::uint32_t p = cell.first; p != CellLists::none; p = particles[p].next) {
                 if (p - first_own < own_count || !contains(box, particles[p].position)) continue;
+                if (filtered && skipped_[p]) continue;
                 // In the numbering of this body; beyond it for the particles of others.
                 const std::uint32_t v = p - first_own;
                 const std::uint32_t* corner = tets[t].v;
@@ -258,6 +276,7 @@ void Reference::narrow_phase(Step& step, std::uint32_t body) {
     const std::uint64_t start = nanoseconds();
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* own = particles_.data() + first_[body];
+    const SelfFilter* self_filter = step.bodies[body].self_filter;
     for (std::size_t c = 0; c < candidate_count_; ++c) {
         const Candidate& candidate = candidates_[c];
         const Tet& tet = tets[candidate.tet];
@@ -268,6 +287,10 @@ void Reference::narrow_phase(Step& step, std::uint32_t body) {
         // The body of the particle: the last one that does not start after it.
         const auto after = std::upper_bound(first_.begin(), first_.end(), candidate.particle);
         const auto body_a = std::uint32_t(after - first_.begin() - 1);
+        if (body_a == body && self_filter && self_filter->skips(candidate.particle - first_[body_a], tet)) {
+            ++step.counters.filtered;
+            continue;
+        }
         step.hits.push_back({body_a, candidate.particle - first_[body_a], body, candidate.tet & 0x7fffffffu,
                              found == Containment::interior});
     }

@@ -44,6 +44,7 @@ private:
 
     struct Step; // arguments of detect() and what is found on the way
 
+    bool filter_particles(std::span<const Body> bodies, std::uint32_t body);
     void load_particles(std::span<const Body> bodies);
     void compute_boxes(Step& step);
     Lattice prepare_dense(const ReferenceSettings& settings, DenseAddress& address);
@@ -59,6 +60,7 @@ private:
 
     std::pmr::vector<Particle> particles_;  // of all bodies, one after the other
     std::pmr::vector<std::uint32_t> first_; // each body's first particle, and the end
+    std::pmr::vector<std::uint8_t> skipped_; // of each particle: filtered from the body whose tetrahedra are at hand
     std::pmr::vector<Box3f> boxes_;         // of the tetrahedra of all bodies; empty when degenerate
     CellLists cells_;
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full

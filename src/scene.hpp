@@ -37,14 +37,27 @@ struct Positions {
     }
 };
 
+struct SelfFilter;
+
+// Which other meshes a mesh collides with: see vox_filter.
+struct PairFilter {
+    std::uint64_t category = 1, mask = ~std::uint64_t{0};
+    std::int32_t group = 0;
+
+    bool operator==(const PairFilter&) const = default;
+};
+
 // One mesh as the stages see it. mesh_id ascends from body to body, so that the order of body indices is the
 // canonical order of mesh ids.
 struct Body {
     std::uint32_t mesh_id = 0;
     std::uint32_t vertex_count = 0;
-    Positions positions;
-    std::span<const Tet> tets;
+    Positions positions{};
+    std::span<const Tet> tets{};
     bool self_collision = false;
+    PairFilter filter{};
+    std::span<const std::uint32_t> exceptions{}; // ascending mesh_ids that it never collides with, nor they with it
+    const SelfFilter* self_filter = nullptr;     // null: there is none
 };
 
 // A vertex found inside a closed tetrahedron, before canonical order. Bodies by index in the scene.

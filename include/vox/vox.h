@@ -253,6 +253,39 @@ typedef enum vox_mesh_flags {
     VOX_MESH_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_mesh_flags;
 
+#define VOX_MAX_RINGS 8u /* vox_filter.self_rings */
+
+/* What a mesh does not collide with. Contacts that a filter rules out are as if they were not there: the rule of
+ * vox_contact, every tetrahedron with the vertex in its interior or else the lowest on the boundary, holds for the
+ * tetrahedra that are left. No filter changes the order of contacts or allocates in the step. */
+typedef struct vox_filter {
+    uint32_t struct_size;
+    /* Two meshes of the same group, not 0, collide when it is positive and do not when it is negative. Otherwise
+     * they collide when the category of each has a bit in common with the mask of the other. Defaults: 0, 1, all
+     * bits. A mesh and itself: see self_collision. */
+    int32_t group;
+    uint64_t category;
+    uint64_t mask;
+    uint32_t self_collision; /* 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */
+    /* Self-contact: skip tetrahedra with a corner within so many edges of the vertex, as the mesh's tetrahedra
+     * connect them; at most VOX_MAX_RINGS. 0 (the default) skips those alone that own the vertex. Memory for
+     * all vertices within so many edges of each: about 60 bytes a vertex for 1, 260 for 2, 700 for 3. */
+    uint32_t self_rings;
+    /* Self-contact: skip tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
+     * (distance to the closed tetrahedron, computed in double); 0 (the default): none. The rest pose is
+     * vox_mesh_desc.rest_positions, or without those the positions at the time this was first set. */
+    double self_rest_distance;
+} vox_filter;
+
+/* Fills `filter` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_filter_init(vox_filter* filter, uint32_t struct_size);
+
+static inline vox_filter vox_default_filter(void) {
+    vox_filter filter;
+    (void)vox_filter_init(&filter, (uint32_t)sizeof filter);
+    return filter;
+}
+
 /* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its
  * vertices still collide with the tetrahedra of other meshes. */
 typedef struct vox_mesh_desc {
@@ -270,6 +303,10 @@ typedef struct vox_mesh_desc {
     uint64_t user_data; /* the caller's own, given back by vox_mesh_user_data */
     vox_format position_format;
     uint32_t reserved; /* 0 */
+    const vox_filter* filter; /* copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well */
+    /* vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance. */
+    const void* rest_positions;
+    uint64_t rest_position_byte_stride; /* 0: tightly packed */
 } vox_mesh_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -303,6 +340,24 @@ VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const 
 /* Has the next step look at a mesh even if it is at rest (see vox_grid_step). Contacts never need it; it is for
  * measuring steps over positions that stay the same. */
 VOX_API vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh);
+
+/* Sets what the mesh collides with, from the next step on (the filter is copied). Self-collision too: the flag given
+ * at insertion counts no more. Builds what the self-contact filters need, in proportion to the mesh.
+ * Errors: INVALID_ARGUMENT, LIMIT (self_rings), INVALID_STATE (a rest distance, and neither a rest pose nor
+ * positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter);
+
+/* The filter in use: writes the fields that out_filter->struct_size covers (set it first). */
+VOX_API vox_result vox_mesh_filter(const vox_grid* grid, vox_mesh mesh, vox_filter* out_filter);
+
+/* enabled 0: the mesh takes no part in the steps to come, and its positions are not read; 1 (as inserted): it does
+ * again. Its contacts of the last step stay until the next one. Errors: INVALID_ARGUMENT for other numbers. */
+VOX_API vox_result vox_mesh_set_enabled(vox_grid* grid, vox_mesh mesh, uint32_t enabled);
+
+/* enabled 0: the two meshes do not collide in the steps to come, whatever their filters; 1: as their filters say.
+ * Ends with the removal of either mesh. Errors: INVALID_ARGUMENT for other numbers and for mesh_a = mesh_b (see
+ * vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, uint32_t enabled);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
@@ -499,6 +554,25 @@ typedef struct vox_contact_event_view {
  * Errors: INVALID_STATE on other grids. */
 VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view);
 
+/* ---- snapshots -------------------------------------------------------------------------------- */
+
+/* Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings,
+ * meshes under their ids, their positions, and what events are counted from. Positions are read during the call,
+ * borrowed ones too. Not in it: allocator, log, task system, worker count, byte budget, and the results of the last
+ * step. *out_size is the number of bytes; `bytes` null asks for it and writes nothing. Allocates nothing.
+ * Errors: INVALID_ARGUMENT when the capacity is too small (gives both numbers). */
+VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size);
+
+/* Creates the grid that a snapshot holds. Ids name the same meshes, the next ids given out are the same, and its
+ * steps find the same contacts and events in the same order, with the same hash and epoch. There are no contacts
+ * until its first step. The meshes own their positions: bind others where they are to move.
+ * Of `desc`, the allocator, log, tasks, worker_count and byte_budget count, and the engine unless it is AUTO; null:
+ * the defaults. The caller owns *out_grid and ends it with vox_grid_destroy.
+ * The bytes need not be trusted: everything in them is checked, and memory is in proportion to `size`.
+ * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
+ * OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* desc, vox_grid** out_grid);
+
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. From `cells` to `skipped_degenerate`, what was taken over from the step before
@@ -527,6 +601,8 @@ typedef struct vox_counters {
     uint64_t edge_tests;         /* tetrahedra that these were followed through */
     uint64_t closest_searches;   /* penetrations that took the closest point of the surface */
     uint64_t closest_tests;      /* triangles whose closest point that took */
+    uint64_t disabled_meshes;    /* beside `meshes`: see vox_mesh_set_enabled */
+    uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -551,7 +627,9 @@ VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profi
 /* ---- cell size -------------------------------------------------------------------------------- */
 
 typedef enum vox_cost_model {
-    VOX_COST_MODEL_PAPER = 0, /* the paper's z(delta), Sect. 4, Eqs. 3-8 */
+    VOX_COST_MODEL_PAPER = 0,     /* the paper's z(delta), Sect. 4, Eqs. 3-8: from means, in cell visits */
+    VOX_COST_MODEL_REFERENCE = 1, /* the reference engine, counted tet by tet: nanoseconds of a step */
+    VOX_COST_MODEL_FAST = 2,      /* the fast engine with this cell size in all windows: nanoseconds of a step */
     VOX_COST_MODEL_FORCE_32_BITS = 0x7fffffff
 } vox_cost_model;
 
@@ -583,6 +661,9 @@ typedef struct vox_suggest_desc {
                                   default 0.05 */
     double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2 */
     double resolution;         /* for rules.resolution (McNeely et al. 1999): the wanted detail; 0: none */
+    uint64_t byte_budget;      /* REFERENCE with dense storage: most bytes of its cells; 0 (the default): no limit */
+    vox_storage storage;       /* REFERENCE: as in vox_grid_desc; AUTO and HASHED are the same here */
+    uint32_t reserved;         /* 0 */
 } vox_suggest_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -632,8 +713,18 @@ typedef struct vox_cost_sample {
 } vox_cost_sample;
 
 #define VOX_COST_CURVE_CAPACITY 64u
+#define VOX_COST_TERM_CAPACITY 12u
+#define VOX_CELL_SIZE_LEVEL_CAPACITY 4u
 
-/* A cell size and why. Costs are in visits of one cell per tetrahedron. */
+/* One term of a cost: a piece of work, how often it is done, and what that costs. */
+typedef struct vox_cost_share {
+    char name[24]; /* what is done, e.g. "visit a cell"; ends in a zero */
+    double count;
+    double cost;  /* count times the weight */
+    double share; /* of the whole cost, 0 to 1 */
+} vox_cost_share;
+
+/* A cell size and why. Costs are in visits of one cell per tetrahedron (PAPER), or nanoseconds of a step. */
 typedef struct vox_suggestion {
     uint32_t struct_size;
     vox_cost_model model;
@@ -646,18 +737,131 @@ typedef struct vox_suggestion {
     vox_geometry_stats stats;
     vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* ascending in cell_size, evenly spaced in its logarithm */
     uint32_t curve_count;
+    uint32_t term_count;
+    vox_cost_share terms[VOX_COST_TERM_CAPACITY]; /* at cell_size; their costs add up to predicted_cost */
+    vox_cell_size_rules rule_costs; /* predicted cost at the cell size of each rule; 0 where there is none */
+    double budget_cell_size; /* cells must not be smaller, for the byte budget; 0: it does not matter */
+    /* REFERENCE: what one cell size for tetrahedra of all sizes loses: predicted cost over that of a few grids
+     * side by side, each with the cell size that is best for its share of the tetrahedra, less 1. About 0 where
+     * one size is as good as several, and for the other models. */
+    double uniform_loss;
+    double levels[VOX_CELL_SIZE_LEVEL_CAPACITY]; /* those sizes, ascending: level_count of them, the rest 0 */
+    uint32_t level_count;
     uint32_t reserved;
 } vox_suggestion;
 
 /* The cell size that minimises the cost model for these meshes (their positions as they are now).
  * desc null: defaults. Set out->struct_size first; the fields it covers are written.
  * `meshes` is an array whose elements are meshes[0].struct_size bytes apart, a multiple of 8: all of them have that
- * struct_size. Flags and user_data do not matter here. Errors name a mesh by its index in the array.
- * Time and memory (the C++ runtime's heap, for the time of the call) are in proportion to vertices and tets.
+ * struct_size. Of flags VOX_MESH_SELF_COLLISION matters, to REFERENCE and FAST. Errors name a mesh by its index in
+ * the array. Time and memory (the C++ runtime's heap, for the time of the call) are in proportion to vertices and
+ * tets.
  * Errors: INVALID_ARGUMENT (also: no tetrahedron at all, or all of zero size), INVALID_MESH, NON_FINITE, LIMIT,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
                                          uint64_t mesh_count, vox_suggestion* out);
+
+/* The same for the meshes of a grid. desc null: the model of the grid's engine, with its storage and byte budget; the
+ * paper's model takes p_nc from the last step where there was one with contacts and desc is null or has the
+ * default. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE for a mesh without positions. */
+VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
+                                              vox_suggestion* out);
+
+/* A cost at one cell size, term by term. */
+typedef struct vox_cost_prediction {
+    uint32_t struct_size;
+    uint32_t term_count;
+    double cell_size;
+    double cost;
+    vox_cost_share terms[VOX_COST_TERM_CAPACITY];
+} vox_cost_prediction;
+
+/* What desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
+ * vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not finite and above 0. */
+VOX_API vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uint64_t mesh_count,
+                                    double cell_size, vox_cost_prediction* out);
+
+/* What one unit of each piece of work costs on a machine, in nanoseconds: the weights of REFERENCE and FAST. Plain
+ * numbers, to be saved and loaded. All are above 0. */
+typedef struct vox_cost_weights {
+    uint32_t struct_size;
+    uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
+    double reference_classify_vertex;
+    double reference_prepare_tet; /* its box */
+    double reference_visit_cell;
+    double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
+    double reference_read_vertex;
+    double reference_test_box;
+    double reference_test_tet;
+    double reference_clear_bucket;
+    double fast_bin_vertex;
+    double fast_clear_cell;
+    double fast_visit_tile; /* for one window */
+    double fast_visit_row;
+    double fast_read_vertex;
+    double fast_test_vertex; /* one in a tile's box, against its tets */
+} vox_cost_weights;
+
+/* Measures the weights by steps of both engines over a small scene of its own: a few milliseconds at the first call,
+ * from a cache of the process after that. They are then in use, by all suggestions and grids of the process.
+ * out null: only that; else set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY. */
+VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
+
+/* The weights in use: those calibrated or set last, else those shipped. Any thread. */
+VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
+/* Uses weights that were saved; fields that struct_size does not cover are those shipped. Null: those shipped. Any
+ * thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
+VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
+
+/* ---- the method for any algorithm ------------------------------------------------------------- */
+
+/* Cost at a cell size. What is not a finite number counts as infinitely dear. */
+typedef double vox_cost_function(double cell_size, void* user);
+
+/* coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them. */
+typedef struct vox_cost_term {
+    double coefficient;
+    double power;
+} vox_cost_term;
+
+/* Cell sizes to choose from, and how wide the zone is. */
+typedef struct vox_cost_bounds {
+    uint32_t struct_size;
+    uint32_t reserved;  /* 0 */
+    double min;         /* 0 < min <= max, finite */
+    double max;
+    double zone_loss;   /* as vox_suggest_desc.zone_loss; default 0.05 */
+} vox_cost_bounds;
+
+/* Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and must be set. */
+VOX_API vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size);
+
+static inline vox_cost_bounds vox_default_cost_bounds(void) {
+    vox_cost_bounds bounds;
+    (void)vox_cost_bounds_init(&bounds, (uint32_t)sizeof bounds);
+    return bounds;
+}
+
+typedef struct vox_cost_minimum {
+    uint32_t struct_size;
+    uint32_t curve_count;
+    double cell_size;
+    double cost;
+    double zone_min; /* around cell_size, where the cost is at most (1 + zone_loss) times the least; in the bounds */
+    double zone_max;
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* over the bounds, evenly spaced in the logarithm */
+} vox_cost_minimum;
+
+/* The cell size of least cost within the bounds, for a cost function of one's own: a scan that is even in the
+ * logarithm of the cell size, then a golden-section search around its best place. `cost` is called on this thread,
+ * some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also: no finite cost anywhere it was looked
+ * at, or a least cost that is negative). */
+VOX_API vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost_bounds* bounds,
+                                     vox_cost_minimum* out);
+
+/* The same for the sum of `term_count` terms. */
+VOX_API vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
+                                           const vox_cost_bounds* bounds, vox_cost_minimum* out);
 
 /* Eq. 9: how far cells-per-axis `n` lies from the optimum, in units of the optimal zone
  * [n_min, n_max]; 0 at n = n_opt, below 1 inside the zone. All in cells per axis, > 0, n_min <= n_opt <= n_max.

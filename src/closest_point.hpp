@@ -1,0 +1,18 @@
+// Closest points, in double (C. Ericson, Real-Time Collision Detection, 2005, Sect. 5.1). Any float
+// coordinates are small enough for their squares and products not to overflow.
+#pragma once
+
+#include "scene.hpp"
+
+namespace vox {
+
+// A point of a triangle: its weights for the corners, and the squared distance to it.
+struct ClosestPoint {
+    double squared_distance;
+    double weight[3];
+};
+
+// The point of the closed triangle abc closest to p; abc may be an edge or a point.
+ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
+
+} // namespace vox
