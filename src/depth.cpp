@@ -1,0 +1,176 @@
+#include "depth.hpp"
+
+#include "depth/consistent.hpp"
+#include "depth/vectors.hpp"
+#include "parallel.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace vox {
+
+using namespace depth;
+
+namespace depth {
+
+Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
+    const std::uint32_t* v = solid.tets[tet].v;
+    const auto& corner = facet_corners[i];
+    const Vec3d a = vec(solid.positions[v[corner[0]]]), b = vec(solid.positions[v[corner[1]]]),
+                c = vec(solid.positions[v[corner[2]]]), d = vec(solid.positions[v[i]]);
+    const Vec3d normal = normalised(cross(b - a, c - a));
+    if (!(length(normal) > 0)) return {0, 0, 1};
+    return dot(normal, d - a) > 0 ? -1.0 * normal : normal;
+}
+
+} // namespace depth
+
+Depth::Worker::Worker(std::pmr::memory_resource* memory)
+    : number(memory), queue(memory), normals(memory), tree(memory) {}
+
+Depth::Depth(std::pmr::memory_resource* memory)
+    : starts_(memory), points_(memory), pairs_(memory), rest_(memory), rest_of_(memory), workers_(memory) {}
+
+Solid Depth::Scene::solid(std::uint32_t body) const {
+    return {topologies[body], bodies[body].tets, bodies[body].positions};
+}
+
+void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
+                 std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
+                 std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
+    penetrations.clear();
+    if (hits.empty()) return;
+    const Scene scene{bodies, topologies, hits};
+    list_points(scene, contacts);
+
+    const std::size_t worker_count = workers ? workers->count() : 1;
+    workers_.reserve(worker_count);
+    while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
+    for (Worker& worker : workers_) worker.counts = {};
+    // Points that are worth a task of their own.
+    constexpr std::size_t least = 512;
+    const auto for_each = [&](std::span<const Range> ranges, std::size_t points, auto&& function) {
+        const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+            for (std::size_t i = begin; i < end; ++i) function(ranges[i], workers_[worker]);
+        };
+        if (!workers || points <= least)
+            run(0, ranges.size(), 0);
+        else
+            workers->for_ranges(ranges.size(), std::max<std::size_t>(ranges.size() * least / points, 1), run);
+    };
+    for_each(pairs_, points_.size(),
+             [&](const Range& pair, Worker& worker) { find_consistent(scene, pair, worker); });
+    list_rest(scene);
+    for_each(rest_of_, rest_.size(),
+             [&](const Range& rest, Worker& worker) { find_closest(scene, rest, worker); });
+
+    penetrations.resize(points_.size());
+    for (const Point& point : points_) {
+        const vox_contact& contact = contacts[point.hit];
+        const double depth = std::min<double>(point.depth, std::numeric_limits<float>::max());
+        penetrations[point.place] = {contact.mesh_a,
+                                     contact.vertex,
+                                     contact.mesh_b,
+                                     point.state,
+                                     point.hit,
+                                     static_cast<float>(depth),
+                                     {static_cast<float>(point.direction.x),
+                                      static_cast<float>(point.direction.y),
+                                      static_cast<float>(point.direction.z)}};
+    }
+    counters.closest_searches = rest_.size();
+    for (const Worker& worker : workers_) {
+        counters.leaving_edges += worker.counts.leaving_edges;
+        counters.edge_tests += worker.counts.edge_tests;
+        counters.closest_tests += worker.counts.closest_tests;
+    }
+}
+
+// Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
+void Depth::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
+    points_.clear();
+    pairs_.clear();
+    const std::span<const Hit> hits = scene.hits;
+    const auto before = [](const Start& x, const Start& y) {
+        return std::tie(x.body_b, x.place) < std::tie(y.body_b, y.place);
+    };
+    for (std::size_t first = 0, last; first < hits.size(); first = last) {
+        starts_.clear();
+        for (last = first; last < hits.size() && hits[last].body_a == hits[first].body_a; ++last)
+            if (last == first || hits[last].vertex != hits[last - 1].vertex ||
+                hits[last].body_b != hits[last - 1].body_b)
+                starts_.push_back({hits[last].body_b, last, points_.size() + starts_.size()});
+        if (!std::is_sorted(starts_.begin(), starts_.end(), before))
+            std::sort(starts_.begin(), starts_.end(), before);
+        for (std::size_t i = 0; i < starts_.size(); ++i) {
+            if (i == 0 || starts_[i].body_b != starts_[i - 1].body_b)
+                pairs_.push_back({points_.size(), points_.size()});
+            const Hit& hit = hits[starts_[i].hit];
+            Point& point = points_.emplace_back();
+            point.hit = starts_[i].hit;
+            point.place = starts_[i].place;
+            point.vertex = hit.vertex;
+            point.tet = hit.tet;
+            const float* weight = contacts[point.hit].barycentric; // within 2^-20 of the true ones
+            point.interior = *std::min_element(weight, weight + 4) > 0x1p-19f;
+            pairs_.back().last = points_.size();
+        }
+    }
+}
+
+void Depth::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
+    const Hit& hit = scene.hits[points_[range.first].hit];
+    const std::size_t count = range.last - range.first, vertices = scene.bodies[hit.body_a].vertex_count;
+    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
+    if (worker.queue.size() < count) worker.queue.resize(count);
+    const Pair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions, scene.solid(hit.body_b),
+                    hit.body_a == hit.body_b};
+    find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,
+                           worker.normals, worker.counts);
+}
+
+void Depth::list_rest(const Scene& scene) {
+    rest_.clear();
+    rest_of_.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        if (points_[i].state == VOX_PENETRATION_ENCLOSED || points_[i].state == VOX_PENETRATION_CROSSING)
+            rest_.push_back({scene.hits[points_[i].hit].body_b, i});
+    const auto before = [](const Rest& x, const Rest& y) {
+        return std::tie(x.body_b, x.point) < std::tie(y.body_b, y.point);
+    };
+    if (!std::is_sorted(rest_.begin(), rest_.end(), before)) std::sort(rest_.begin(), rest_.end(), before);
+    for (std::size_t i = 0; i < rest_.size(); ++i) {
+        if (i == 0 || rest_[i].body_b != rest_[i - 1].body_b) rest_of_.push_back({i, i});
+        rest_of_.back().last = i + 1;
+    }
+}
+
+void Depth::find_closest(const Scene& scene, const Range& range, Worker& worker) {
+    const std::uint32_t b = rest_[range.first].body_b;
+    const Solid solid = scene.solid(b);
+    const bool has_surface = !solid.topology->triangles.empty();
+    if (has_surface) worker.tree.build(solid);
+    for (std::size_t i = range.first; i < range.last; ++i) {
+        Point& point = points_[rest_[i].point];
+        const std::uint32_t a = scene.hits[point.hit].body_a;
+        const Vec3d p = vec(scene.bodies[a].positions[point.vertex]);
+        Closest closest;
+        bool found = false;
+        if (has_surface && a == b) {
+            Fold fold{point.vertex, point.tet, true};
+            found = worker.tree.find(p, &fold, closest, worker.counts.closest_tests);
+            fold.only_straight = false;
+            if (!found) found = worker.tree.find(p, &fold, closest, worker.counts.closest_tests);
+        } else if (has_surface) {
+            found = worker.tree.find(p, nullptr, closest, worker.counts.closest_tests);
+        }
+        point.depth = found ? length(closest.way) : 0;
+        if (point.depth > 0)
+            point.direction = (1 / point.depth) * closest.way;
+        else
+            point.direction = facet_normal(solid, point.tet, 0);
+    }
+}
+
+} // namespace vox

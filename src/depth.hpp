@@ -1,0 +1,79 @@
+// The depth stage: from contacts to penetrations, one for each vertex of a body in another. See
+// docs/depth.md; each part is a file in depth/.
+#pragma once
+
+#include "depth/closest.hpp"
+#include "depth/normals.hpp"
+#include "depth/points.hpp"
+#include "depth/topology.hpp"
+#include "scene.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class Workers;
+
+// The stage's buffers live here from step to step, so that the steady state allocates nothing (with several
+// workers: once each has met the largest body).
+class Depth {
+public:
+    explicit Depth(std::pmr::memory_resource* memory);
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+
+    // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
+    // order (make_contacts), and `topologies` that of each body. Sets the counters from `leaving_edges` to
+    // `closest_tests`. Nothing depends on the workers; null: none.
+    void find(std::span<const Body> bodies, std::span<const depth::Topology* const> topologies,
+              std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
+              std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
+
+private:
+    struct Range {
+        std::size_t first, last;
+    };
+    struct Start { // a vertex of the body at hand in another
+        std::uint32_t body_b;
+        std::size_t hit;
+        std::size_t place; // in the answer
+    };
+    struct Rest { // a point that takes the closest point of the surface
+        std::uint32_t body_b;
+        std::size_t point;
+    };
+    struct alignas(64) Worker {
+        explicit Worker(std::pmr::memory_resource* memory);
+
+        std::pmr::vector<std::uint32_t> number, queue;
+        depth::Normals normals;
+        depth::SurfaceTree tree;
+        depth::Counts counts;
+    };
+    struct Scene {
+        std::span<const Body> bodies;
+        std::span<const depth::Topology* const> topologies;
+        std::span<const Hit> hits;
+
+        depth::Solid solid(std::uint32_t body) const;
+    };
+
+    void list_points(const Scene& scene, std::span<const vox_contact> contacts);
+    void list_rest(const Scene& scene);
+    void find_consistent(const Scene& scene, const Range& pair, Worker& worker);
+    void find_closest(const Scene& scene, const Range& rest, Worker& worker);
+
+    std::pmr::vector<Start> starts_;
+    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
+    std::pmr::vector<Range> pairs_;         // in points_
+    std::pmr::vector<Rest> rest_;           // body_b after body_b
+    std::pmr::vector<Range> rest_of_;       // one body_b, in rest_
+    std::pmr::vector<Worker> workers_;
+};
+
+} // namespace vox

@@ -1,0 +1,168 @@
+// A tree of boxes over the triangles in the order of the cells of a grid along a Z-shaped curve (Morton 1966;
+// Lauterbach et al., "Fast BVH construction on GPUs", Computer Graphics Forum 28, 2009), searched nearest box
+// first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
+#include "closest.hpp"
+
+#include "../closest_point.hpp"
+#include "points.hpp"
+#include "vectors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <utility>
+
+namespace vox::depth {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int axis_bits = 10; // cells of the curve's grid an axis
+constexpr int digit_bits = 10;
+
+// Every third bit.
+std::uint32_t spread(std::uint32_t cell) {
+    cell = (cell | cell << 16) & 0x030000ffu;
+    cell = (cell | cell << 8) & 0x0300f00fu;
+    cell = (cell | cell << 4) & 0x030c30c3u;
+    return (cell | cell << 2) & 0x09249249u;
+}
+
+// Of [min, max], which may be empty.
+std::uint32_t cell_of(double x, double min, double max) {
+    constexpr double cells = 1 << axis_bits;
+    const double cell = max > min ? (x - min) / (max - min) * cells : 0;
+    return static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1));
+}
+
+double outside(double x, double min, double max) { return std::max({min - x, x - max, 0.0}); }
+
+} // namespace
+
+Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
+    const std::uint32_t* v = solid.topology->triangles[triangle].v;
+    // Seen from p, so that rounding errors are those of distances, not of coordinates.
+    const Vec3d a = vec(solid.positions[v[0]]) - p, b = vec(solid.positions[v[1]]) - p,
+                c = vec(solid.positions[v[2]]) - p;
+    const auto [squared, weight] = closest_on_triangle({0, 0, 0}, a, b, c);
+    const Vec3d way = weight[0] * a + weight[1] * b + weight[2] * c;
+    return {{triangle, {weight[0], weight[1], weight[2]}, p + way}, way, squared};
+}
+
+SurfaceTree::Box SurfaceTree::box_of(std::uint32_t triangle) const {
+    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
+    const Vec3d a = vec(solid_.positions[v[0]]), b = vec(solid_.positions[v[1]]),
+                c = vec(solid_.positions[v[2]]);
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+}
+
+namespace {
+
+template <class Box>
+Box joined(const Box& a, const Box& b) {
+    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
+            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+}
+
+template <class Box>
+double squared_distance(const Vec3d& p, const Box& box) {
+    const double x = outside(p.x, box.min.x, box.max.x), y = outside(p.y, box.min.y, box.max.y),
+                 z = outside(p.z, box.min.z, box.max.z);
+    return x * x + y * y + z * z;
+}
+
+} // namespace
+
+void SurfaceTree::sort_along_curve() {
+    const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
+    Box all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    for (std::uint32_t t = 0; t < count; ++t) all = joined(all, box_of(t));
+    order_.resize(count);
+    scratch_.resize(count);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const Box box = box_of(t);
+        order_[t] = {spread(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x)) |
+                         spread(cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y)) << 1 |
+                         spread(cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z)) << 2,
+                     t};
+    }
+    std::array<std::uint32_t, 1 << digit_bits> place;
+    for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
+        const auto digit = [shift](const Key& key) { return key.code >> shift & ((1u << digit_bits) - 1); };
+        place.fill(0);
+        for (const Key& key : order_) ++place[digit(key)];
+        std::uint32_t sum = 0;
+        for (std::uint32_t& p : place) sum += std::exchange(p, sum);
+        for (const Key& key : order_) scratch_[place[digit(key)]++] = key;
+        order_.swap(scratch_);
+    }
+}
+
+void SurfaceTree::build(const Solid& solid) {
+    solid_ = solid;
+    sort_along_curve();
+    const auto count = static_cast<std::uint32_t>(order_.size());
+    leaves_ = std::bit_ceil(std::max(count / leaf_size + (count % leaf_size != 0), 1u));
+    boxes_.assign(2 * std::size_t{leaves_} - 1,
+                  {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Box& leaf = boxes_[std::size_t{leaves_} - 1 + i / leaf_size];
+        leaf = joined(leaf, box_of(order_[i].triangle));
+    }
+    for (std::size_t i = leaves_ - 1; i-- > 0;) boxes_[i] = joined(boxes_[2 * i + 1], boxes_[2 * i + 2]);
+}
+
+bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
+    if (has_corner(solid_.topology->triangles[found.at.triangle], fold.vertex)) return false;
+    if (!fold.only_straight || found.squared == 0) return true;
+    // To a point as far again, so that rounding does not end the walk too early.
+    SurfacePoint out;
+    std::uint64_t tets = 0;
+    if (!walk_out(solid_, fold.tet, p, p + 2.0 * found.way, out, tets)) return false;
+    const Vec3d way = out.point - p, rest = out.point - found.at.point;
+    constexpr double rounding = 1e-12; // squared
+    return !has_corner(solid_.topology->triangles[out.triangle], fold.vertex) &&
+           dot(rest, rest) <= rounding * dot(way, way);
+}
+
+bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) const {
+    struct Node {
+        double squared;
+        std::size_t box;
+    };
+    bool found = false;
+    double best = infinity;
+    std::array<Node, 64> stack; // one box waits at each level
+    std::size_t waiting = 0;
+    for (Node node{squared_distance(p, boxes_[0]), 0};;) {
+        if (node.squared <= best && node.squared < infinity) {
+            const std::size_t child = 2 * node.box + 1;
+            if (child < boxes_.size()) {
+                Node near{squared_distance(p, boxes_[child]), child},
+                    far{squared_distance(p, boxes_[child + 1]), child + 1};
+                if (far.squared < near.squared) std::swap(near, far);
+                stack[waiting++] = far;
+                node = near;
+                continue;
+            }
+            const std::size_t first = (node.box - (leaves_ - 1)) * leaf_size;
+            for (std::size_t i = first; i < std::min(first + leaf_size, order_.size()); ++i) {
+                ++visited;
+                const Closest candidate = closest_point(solid_, order_[i].triangle, p);
+                if (candidate.squared > best ||
+                    (candidate.squared == best && found && candidate.at.triangle > out.at.triangle))
+                    continue;
+                if (fold && !accept(p, *fold, candidate)) continue;
+                found = true;
+                best = candidate.squared;
+                out = candidate;
+            }
+        }
+        if (waiting == 0) return found;
+        node = stack[--waiting];
+    }
+}
+
+} // namespace vox::depth

@@ -1,0 +1,60 @@
+// The closest point of a surface.
+#pragma once
+
+#include "walk.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox::depth {
+
+struct Closest {
+    SurfacePoint at;
+    Vec3d way;      // from the point asked for
+    double squared; // its length
+};
+
+// The closest point of one triangle.
+Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p);
+
+// For self-contact: the vertex that asks, and a tetrahedron of the fold that it is in.
+struct Fold {
+    std::uint32_t vertex;
+    std::uint32_t tet;
+    bool only_straight; // only points to which a straight line leads inside the mesh from `tet` on
+};
+
+class SurfaceTree {
+public:
+    explicit SurfaceTree(std::pmr::memory_resource* memory)
+        : order_(memory), scratch_(memory), boxes_(memory) {}
+
+    // Of all triangles of the solid, in time linear in them.
+    void build(const Solid& solid);
+
+    // The closest point to p, of points equally far that of the lowest triangle. `fold` may be null;
+    // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
+    // to `visited`.
+    bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) const;
+
+private:
+    struct Box {
+        Vec3d min, max;
+    };
+    struct Key {
+        std::uint32_t code, triangle;
+    };
+    static constexpr std::uint32_t leaf_size = 4;
+
+    Box box_of(std::uint32_t triangle) const;
+    void sort_along_curve();
+    bool accept(const Vec3d& p, const Fold& fold, const Closest& found) const;
+
+    Solid solid_{};
+    std::pmr::vector<Key> order_, scratch_;
+    std::pmr::vector<Box> boxes_; // of a complete binary tree: the children of i are 2i + 1 and 2i + 2
+    std::uint32_t leaves_ = 0;    // the last boxes, each of leaf_size triangles in order_
+};
+
+} // namespace vox::depth

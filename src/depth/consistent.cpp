@@ -1,0 +1,235 @@
+// Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation for Deformable
+// Collision Response", Vision, Modeling, Visualization 2004: stages 2 to 4. What differs, and why:
+// docs/depth.md.
+#include "consistent.hpp"
+
+#include "../predicates.hpp"
+#include "closest.hpp"
+#include "vectors.hpp"
+
+#include <cstddef>
+
+namespace vox::depth {
+
+namespace {
+
+// Unit vectors whose mean is shorter than this point to opposite sides rather than to one.
+constexpr double least_mean = 0.25;
+// A squared distance below this is none; its inverse still is a number.
+constexpr double no_distance = 1e-290;
+
+// Weighted means of depths and unit vectors.
+struct Mean {
+    double weights = 0, depth = 0;
+    Vec3d direction{0, 0, 0};
+
+    void add(double weight, double d, const Vec3d& r) {
+        weights += weight;
+        depth += weight * d;
+        direction = direction + weight * r;
+    }
+
+    // False when they are of no use.
+    bool write(Point& point) const {
+        const double mean = length(direction);
+        if (!(depth > 0) || !(mean >= least_mean * weights)) return false;
+        point.depth = depth / weights;
+        point.direction = (1 / mean) * direction;
+        return true;
+    }
+};
+
+class Stages {
+public:
+    Stages(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+           std::span<std::uint32_t> queue, Normals& normals, Counts& counts)
+        : pair_(pair), points_(points), number_(number), queue_(queue), normals_(normals), counts_(counts) {}
+
+    void run() {
+        normals_.begin(pair_.b); // all that can fail
+        for (std::uint32_t i = 0; i < points_.size(); ++i) number_[points_[i].vertex] = i + 1;
+        find_border();
+        propagate();
+        name_the_rest();
+        for (const Point& point : points_) number_[point.vertex] = 0;
+    }
+
+private:
+    Vec3d position(std::uint32_t vertex) const { return vec(pair_.positions_a[vertex]); }
+    std::span<const std::uint32_t> neighbours(const Point& point) const {
+        return pair_.topology_a->neighbours_of(point.vertex);
+    }
+    // The colliding vertex, or null.
+    Point* colliding(std::uint32_t vertex) const {
+        const std::uint32_t number = number_[vertex];
+        return number == 0 ? nullptr : &points_[number - 1];
+    }
+    void push(const Point& point) { queue_[queued_++] = static_cast<std::uint32_t>(&point - points_.data()); }
+
+    void find_border();
+    bool is_coincident(Point& point) const;
+    void follow_edges(Point& point);
+    void propagate();
+    void take_mean(Point& point) const;
+    void name_the_rest();
+
+    const Pair& pair_;
+    std::span<Point> points_;
+    std::span<std::uint32_t> number_; // of each vertex of body a: its place in points_, from 1 on
+    std::span<std::uint32_t> queue_;
+    std::size_t queued_ = 0;
+    Normals& normals_;
+    Counts& counts_;
+};
+
+// Points with an edge that leads out are the first wave.
+void Stages::find_border() {
+    for (Point& point : points_) {
+        const bool coincident = !point.interior && is_coincident(point);
+        bool border = false;
+        for (const std::uint32_t q : neighbours(point)) border |= number_[q] == 0;
+        if (!border) continue;
+        if (!coincident) follow_edges(point);
+        point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
+        push(point);
+    }
+}
+
+// A point that may be on the boundary of its tetrahedron: on the surface, too, when the corners whose weights
+// are not zero are corners of a triangle of the surface. Sets the state, depth and direction then.
+bool Stages::is_coincident(Point& point) const {
+    const Solid& b = pair_.b;
+    const Tet& tet = b.tets[point.tet];
+    const Vec3f p = pair_.positions_a[point.vertex];
+    std::uint32_t support[4], count = 0;
+    int on = 0; // a facet that holds it
+    std::uint64_t exact_tests = 0;
+    for (int i = 0; i < 4; ++i) {
+        const auto& [x, y, z] = facet_corners[i];
+        if (orientation(b.positions[tet.v[x]], b.positions[tet.v[y]], b.positions[tet.v[z]], p,
+                        exact_tests) != 0)
+            support[count++] = tet.v[i];
+        else
+            on = i;
+    }
+    point.interior = count == 4;
+    if (count == 0 || count == 4) return false;
+    bool on_surface = false;
+    for (const std::uint32_t t : b.topology->ring_of(support[0])) {
+        const Triangle& triangle = b.topology->triangles[t];
+        if (pair_.self && has_corner(triangle, point.vertex)) continue;
+        if (count > 1 && !has_corner(triangle, support[1])) continue;
+        if (count > 2 && !has_corner(triangle, support[2])) continue;
+        on_surface = true;
+        const Closest closest = closest_point(b, t, vec(p));
+        point.direction = normals_.at(closest.at, closest.at.point - vec(b.positions[triangle.apex]));
+        if (length(point.direction) > 0) break;
+    }
+    if (!on_surface) return false;
+    if (!(length(point.direction) > 0))
+        point.direction = facet_normal(b, point.tet, on); // triangles without area
+    point.state = VOX_PENETRATION_COINCIDENT;
+    return true;
+}
+
+void Stages::follow_edges(Point& point) {
+    const Vec3d p = position(point.vertex);
+    Vec3d inside = p;
+    if (!point.interior) { // from where no facet and edge can be missed
+        const std::uint32_t* v = pair_.b.tets[point.tet].v;
+        const Vec3d middle = 0.25 * ((vec(pair_.b.positions[v[0]]) + vec(pair_.b.positions[v[1]])) +
+                                     (vec(pair_.b.positions[v[2]]) + vec(pair_.b.positions[v[3]])));
+        inside = p + 0x1p-20 * (middle - p);
+    }
+    Mean mean;
+    bool lost = false;
+    for (const std::uint32_t neighbour : neighbours(point)) {
+        if (number_[neighbour] != 0) continue;
+        ++counts_.leaving_edges;
+        const Vec3d q = position(neighbour);
+        SurfacePoint crossing;
+        Vec3d normal{0, 0, 0};
+        if (walk_out(pair_.b, point.tet, inside, q, crossing, counts_.edge_tests) &&
+            !(pair_.self && has_corner(pair_.b.topology->triangles[crossing.triangle], point.vertex)))
+            normal = normals_.at(crossing, q - p);
+        if (!(length(normal) > 0)) {
+            lost = true;
+            continue;
+        }
+        const Vec3d way = crossing.point - p;
+        const double squared = dot(way, way);
+        if (!(squared > no_distance)) {
+            point.state = VOX_PENETRATION_COINCIDENT;
+            point.direction = normal;
+            return;
+        }
+        mean.add(1 / squared, dot(way, normal), normal);
+    }
+    point.state = !lost && mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
+}
+
+// Wave after wave, each from all points of those before it.
+void Stages::propagate() {
+    std::size_t first = 0;
+    for (std::uint32_t wave = 2; first < queued_; ++wave) {
+        const std::size_t last = queued_;
+        for (; first < last; ++first) {
+            const Point& from = points_[queue_[first]];
+            if (from.wave == Point::unusable) continue;
+            for (const std::uint32_t neighbour : neighbours(from)) {
+                Point* to = colliding(neighbour);
+                if (!to || to->wave != Point::unreached) continue;
+                to->wave = wave;
+                push(*to);
+            }
+        }
+        for (std::size_t i = last; i < queued_; ++i)
+            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(points_[queue_[i]]);
+        // Only now, so that points of one wave do not see each other.
+        for (std::size_t i = last; i < queued_; ++i) {
+            Point& point = points_[queue_[i]];
+            if (point.state == VOX_PENETRATION_CROSSING) point.wave = Point::unusable;
+        }
+    }
+}
+
+void Stages::take_mean(Point& point) const {
+    const Vec3d p = position(point.vertex);
+    Mean mean;
+    for (const std::uint32_t neighbour : neighbours(point)) {
+        const Point* from = colliding(neighbour);
+        if (!from || from->wave >= point.wave || from->wave == Point::unreached) continue;
+        const Vec3d way = position(neighbour) - p;
+        const double squared = dot(way, way);
+        if (!(squared > no_distance)) { // in the same place
+            mean = {1, from->depth, from->direction};
+            break;
+        }
+        mean.add(1 / squared, dot(way, from->direction) + from->depth, from->direction);
+    }
+    point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
+}
+
+// Points that no wave reached are CROSSING when they are connected with such a point, else ENCLOSED.
+void Stages::name_the_rest() {
+    queued_ = 0;
+    for (const Point& point : points_)
+        if (point.wave == Point::unusable) push(point);
+    for (std::size_t first = 0; first < queued_; ++first)
+        for (const std::uint32_t neighbour : neighbours(points_[queue_[first]])) {
+            Point* to = colliding(neighbour);
+            if (!to || to->wave != Point::unreached) continue;
+            to->wave = Point::unusable;
+            if (to->state != VOX_PENETRATION_COINCIDENT) to->state = VOX_PENETRATION_CROSSING;
+            push(*to);
+        }
+}
+
+} // namespace
+
+void find_consistent_depths(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+                            std::span<std::uint32_t> queue, Normals& normals, Counts& counts) {
+    Stages(pair, points, number, queue, normals, counts).run();
+}
+
+} // namespace vox::depth

@@ -1,0 +1,77 @@
+// The normal at a corner is the sum of the normals of the triangles around it, weighted by sin(angle) over
+// the lengths of the two edges, which is exact for corners on a sphere (Max, "Weights for computing vertex
+// normals from facet normals", Journal of Graphics Tools 4, 1999). Triangles that form an edge of more than
+// 60 degrees with the one that asks are left out, so that the faces of a box stay flat.
+#include "normals.hpp"
+
+#include "vectors.hpp"
+
+#include <algorithm>
+
+namespace vox::depth {
+
+void Normals::begin(const Solid& solid) {
+    solid_ = solid;
+    const std::size_t count = solid.topology->triangles.size();
+    if (count > faces_.size()) {
+        faces_.resize(count);
+        corners_.resize(count);
+    }
+    if (++age_ == 0) { // after 2^32 of them
+        std::fill(faces_.begin(), faces_.end(), Face{});
+        age_ = 1;
+    }
+}
+
+Normals::Face& Normals::face(std::uint32_t triangle) {
+    Face& face = faces_[triangle];
+    if (face.age == age_) return face;
+    face.age = age_;
+    face.has_corners = false;
+    const Triangle& t = solid_.topology->triangles[triangle];
+    const Vec3d a = vec(solid_.positions[t.v[0]]), b = vec(solid_.positions[t.v[1]]),
+                c = vec(solid_.positions[t.v[2]]);
+    const Vec3d ab = b - a, bc = c - b, ca = a - c;
+    const Vec3d doubled = cross(ab, c - a);
+    const double area = length(doubled);
+    face.normal = normalised(doubled);
+    // |cross| is the same at all corners: sin(angle) * e * f.
+    const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
+    const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0; };
+    face.corner_weight[0] = weight(lab, lca);
+    face.corner_weight[1] = weight(lab, lbc);
+    face.corner_weight[2] = weight(lbc, lca);
+    return face;
+}
+
+const Normals::Corners& Normals::corners(std::uint32_t triangle) {
+    constexpr double crease = 0.5; // cosine
+    Corners& made = corners_[triangle];
+    Face& asking = face(triangle);
+    if (asking.has_corners) return made;
+    asking.has_corners = true;
+    const Triangle& t = solid_.topology->triangles[triangle];
+    for (int i = 0; i < 3; ++i) {
+        Vec3d sum{0, 0, 0};
+        for (const std::uint32_t other : solid_.topology->ring_of(t.v[i])) {
+            const Face& f = face(other);
+            const double cosine = dot(f.normal, asking.normal);
+            if (std::abs(cosine) < crease) continue;
+            const std::uint32_t* v = solid_.topology->triangles[other].v;
+            const double weight = f.corner_weight[v[0] == t.v[i] ? 0 : v[1] == t.v[i] ? 1 : 2];
+            // Seen from one side, however the other's tetrahedron is wound.
+            sum = sum + (cosine < 0 ? -weight : weight) * f.normal;
+        }
+        made.normal[i] = normalised(sum);
+    }
+    return made;
+}
+
+Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
+    const Corners& c = corners(point.triangle);
+    const Vec3d normal = normalised(point.weight[0] * c.normal[0] + point.weight[1] * c.normal[1] +
+                                    point.weight[2] * c.normal[2]);
+    return dot(faces_[point.triangle].normal, outward) < 0 ? -1.0 * normal : normal;
+}
+
+} // namespace vox::depth

@@ -1,0 +1,43 @@
+// Smooth normals of a surface where they are asked for, each made once.
+#pragma once
+
+#include "walk.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox::depth {
+
+class Normals {
+public:
+    explicit Normals(std::pmr::memory_resource* memory) : faces_(memory), corners_(memory) {}
+
+    // To be called before at(), for another solid or when positions have changed.
+    void begin(const Solid& solid);
+
+    // The unit normal at a point of the surface, interpolated from normals at the corners, on the side of the
+    // triangle to which `outward` points. Zero where the triangle has no area.
+    Vec3d at(const SurfacePoint& point, const Vec3d& outward);
+
+private:
+    struct Face {
+        std::uint32_t age = 0;
+        bool has_corners = false;
+        Vec3d normal;            // unit, or zero
+        double corner_weight[3]; // of the normal in that of a corner
+    };
+    struct Corners {
+        Vec3d normal[3];
+    };
+
+    Face& face(std::uint32_t triangle);
+    const Corners& corners(std::uint32_t triangle);
+
+    Solid solid_{};
+    std::uint32_t age_ = 0;
+    std::pmr::vector<Face> faces_;
+    std::pmr::vector<Corners> corners_;
+};
+
+} // namespace vox::depth

@@ -1,0 +1,26 @@
+// Vectors of doubles, each operation in one fixed order.
+#pragma once
+
+#include "../scene.hpp"
+
+#include <cmath>
+
+namespace vox::depth {
+
+inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, double{p.z}}; }
+inline Vec3d operator+(const Vec3d& a, const Vec3d& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3d operator-(const Vec3d& a, const Vec3d& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3d operator*(double s, const Vec3d& a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vec3d& a, const Vec3d& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3d cross(const Vec3d& a, const Vec3d& b) noexcept {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
+
+// Of length 1 to rounding; zero when `a` is.
+inline Vec3d normalised(const Vec3d& a) noexcept {
+    const double l = length(a);
+    return l > 0 ? Vec3d{a.x / l, a.y / l, a.z / l} : Vec3d{0, 0, 0};
+}
+
+} // namespace vox::depth

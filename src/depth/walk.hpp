@@ -1,0 +1,33 @@
+// Where a segment that begins inside a mesh leaves it.
+#pragma once
+
+#include "topology.hpp"
+
+#include "../scene.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace vox::depth {
+
+// A mesh that others penetrate.
+struct Solid {
+    const Topology* topology;
+    std::span<const Tet> tets;
+    Positions positions;
+};
+
+// A point of a triangle of a surface.
+struct SurfacePoint {
+    std::uint32_t triangle;
+    double weight[3]; // of its corners, the sum 1 to rounding
+    Vec3d point;
+};
+
+// Follows the segment from p, in the closed tetrahedron `tet`, to q from tetrahedron to tetrahedron through
+// the mesh. True when it gets out between the two: then `out` is where. False when it does not, or meets a
+// facet across which nothing can be told. Adds the tetrahedra it has been in to `visited`.
+bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d& q, SurfacePoint& out,
+              std::uint64_t& visited);
+
+} // namespace vox::depth
