@@ -38,6 +38,9 @@ public:
         compare(contacts);
     }
 
+    // The same of a step whose contacts are those of the last one.
+    void repeat();
+
     // Room for what so many contacts need, and the pairs of so many meshes (eight each).
     void reserve(std::size_t mesh_count, std::size_t contact_count);
 
@@ -52,6 +55,8 @@ public:
     vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) where they are not wanted
 
 private:
+    friend class Snapshot;
+
     // A vertex in some mesh.
     struct Inside {
         vox_mesh mesh_a;

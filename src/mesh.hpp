@@ -59,6 +59,8 @@ public:
     Body body(vox_mesh id) const noexcept;
 
 private:
+    friend class Snapshot;
+
     void set_rest(const Positions& positions);
 
     std::pmr::vector<Tet> tets_;

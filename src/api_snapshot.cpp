@@ -1,0 +1,56 @@
+// The C border of snapshots.
+
+#include "border.hpp"
+#include "grid.hpp"
+#include "snapshot.hpp"
+#include "structs.hpp"
+
+#include <memory>
+
+using namespace vox;
+
+namespace {
+
+// Calls of the public interface from behind it.
+void check(vox_result result) {
+    if (result != VOX_OK) throw Error(result, vox_last_error());
+}
+
+struct Destroy {
+    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
+};
+
+} // namespace
+
+vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_size, "out_size");
+        const std::uint64_t size = snapshot_size(*grid);
+        if (bytes) {
+            if (capacity < size)
+                throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                            format("capacity is %llu, the snapshot has %llu bytes",
+                                   static_cast<unsigned long long>(capacity),
+                                   static_cast<unsigned long long>(size)));
+            (void)save_snapshot(*grid, static_cast<std::byte*>(bytes));
+        }
+        *out_size = size;
+    });
+}
+
+vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* desc, vox_grid** out_grid) {
+    return border([&] {
+        require(bytes, "bytes");
+        require(out_grid, "out_grid");
+        const vox_grid_desc defaults = vox_default_grid_desc();
+        const vox_grid_desc machine = desc ? read_struct(desc, defaults, "desc") : defaults;
+        const SnapshotReader in({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
+        const vox_grid_desc settings = snapshot_settings(in, machine);
+        vox_grid* created = nullptr;
+        check(vox_grid_create(&settings, &created));
+        std::unique_ptr<vox_grid, Destroy> grid(created);
+        load_snapshot(in, *grid);
+        *out_grid = grid.release();
+    });
+}
