@@ -179,6 +179,13 @@ vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* po
     });
 }
 
+vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh) {
+    return border([&] {
+        require(grid, "grid");
+        grid->mark_moved(mesh);
+    });
+}
+
 // ---- step and results -----------------------------------------------------------------------------
 
 vox_result vox_grid_step(vox_grid* grid) {

@@ -4,6 +4,7 @@
 
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
+#include "fast/rest.hpp"
 #include "fast/stream.hpp"
 #include "fast/surface.hpp"
 #include "fast/tile_sides.hpp"
@@ -23,11 +24,14 @@ namespace vox {
 
 class Workers;
 
-// What the engine prepares of a mesh's topology, once. An empty one is prepared for an empty mesh.
+// What the engine prepares of a mesh's topology, once, and keeps of its positions. An empty one is prepared
+// for an empty mesh.
 struct FastMesh : fast::Tiles {
-    explicit FastMesh(std::pmr::memory_resource* memory) noexcept : Tiles(memory), surface(memory) {}
+    explicit FastMesh(std::pmr::memory_resource* memory) noexcept
+        : Tiles(memory), surface(memory), rest(memory) {}
 
     fast::Surface surface; // of bodies with self-collision
+    fast::Rest rest;       // the positions of the last step
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
     // (or what the memory throws) and leaves this as it was then.
@@ -38,6 +42,10 @@ struct FastSettings {
     double cell_size = 0;       // 0: chosen for each window of cells from the tiles that query it
     bool winding = true;        // cull self-collision by winding numbers where it pays
     Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
+    // Leave out what cannot have changed: pairs of bodies neither of which moved since the last step, whose
+    // hits the caller has. For the same engine and FastMeshes as in the last step, meshes that are new or
+    // gone excepted, and not after a step that failed.
+    bool carry = false;
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing (with several
@@ -54,9 +62,12 @@ public:
     // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone, of the worker that took
     // longest over them). Nothing but times and the order of hits depends on the workers. With more than one,
     // the memory given to the constructor and that of `hits` are used by many threads at once.
-    void detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
+    void detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
+
+    // Whether a body of the last step had to be looked at: all of them unless FastSettings::carry.
+    bool moved(std::size_t body) const noexcept { return states_[body].moved; }
 
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }
@@ -67,6 +78,7 @@ private:
         std::uint32_t first_super; // in super_boxes_
         std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
         std::uint32_t first_block; // in block_boxes_
+        bool moved;                // or may have, since the last step
         bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
         bool tiles_known;          // all of tile_boxes_ are
         bool self;                 // some vertices of the window may be in tets of the same body
@@ -100,15 +112,15 @@ private:
         std::pmr::vector<std::uint32_t> cell_of;
         std::pmr::vector<fast::Source> sources, near; // of a piece of a body, and of a super-tile
         std::pmr::vector<std::uint32_t> stamps;
-        std::pmr::vector<fast::QueryScratch> scratch;   // one, once it is needed
-        std::uint64_t exact_tests = 0, decision_ns = 0; // of the step
+        std::pmr::vector<fast::QueryScratch> scratch;                 // one, once it is needed
+        std::uint64_t exact_tests = 0, filtered = 0, decision_ns = 0; // of the step
     };
     struct Step;
     class Decide;
 
     void prepare(Step& step);
     void stream(Step& step);
-    bool stream(const Step& step, const Piece& piece, fast::Box& box);
+    bool stream(const Step& step, const Piece& piece, fast::Box& box, std::uint8_t& moved);
     void find_reaches(Step& step);
     void shrink_to_blocks(const Step& step, Reach& reach) const;
     void shrink_to_tiles(const Step& step, Reach& reach) const;
@@ -124,12 +136,12 @@ private:
     void sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides);
     void query(Step& step, const Piece& piece, Worker& worker);
 
-    std::pmr::vector<float> packed_; // positions of bodies whose own are strided
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
     std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
     std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
+    std::pmr::vector<std::uint8_t> piece_moved_;
     fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_;
     std::pmr::vector<Reach> reaches_;            // sorted by a, then b

@@ -272,7 +272,10 @@ void vox_grid::step() {
             contacts_made += profile.depth_ns;
         }
 
-        events_.update(contacts_, slots_.size(), [this](vox_mesh id) { return mesh(id).user_data(); });
+        if (carry && all_carried)
+            events_.repeat();
+        else
+            events_.update(contacts_, slots_.size(), [this](vox_mesh id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
     } catch (...) {
         contacts_.clear();

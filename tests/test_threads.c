@@ -99,6 +99,7 @@ static void threaded_finish(void* handle, void* user) {
 
 enum { small_bodies = 40 };
 static body large[2], small[small_bodies];
+static vox_mesh meshes[2 + small_bodies]; /* of the last scene */
 
 static void make_bodies(void) {
     large[0] = make_box(12, 0.17f, 0, 0, 0);
@@ -116,12 +117,11 @@ static void free_bodies(void) {
 
 static vox_grid* new_scene(const vox_grid_desc* desc) {
     vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
     ck_ok(vox_grid_create(desc, &grid));
     for (int i = 0; i < 2 + small_bodies; ++i) {
         vox_mesh_desc mesh_desc = body_desc(i < 2 ? &large[i] : &small[i - 2]);
         mesh_desc.flags = i % 3 == 0 ? VOX_MESH_SELF_COLLISION : 0;
-        ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+        ck_ok(vox_mesh_insert(grid, &mesh_desc, &meshes[i]));
     }
     return grid;
 }
@@ -142,12 +142,31 @@ static void check_same_counters(const vox_counters* a, const vox_counters* b) {
     ck_assert_mem_eq(&x, &y, sizeof x);
 }
 
+/* As if all meshes had moved, to where they are. */
+static void mark_all(vox_grid* grid) {
+    for (int i = 0; i < 2 + small_bodies; ++i) ck_ok(vox_mesh_mark_moved(grid, meshes[i]));
+}
+
 /* ---- tests ---- */
 
 static const struct {
     void* (*enqueue)(vox_task*, uint64_t, uint64_t, void*, void*);
     void (*finish)(void*, void*);
 } systems[] = {{inline_enqueue, inline_finish}, {late_enqueue, late_finish}, {late_enqueue, threaded_finish}};
+enum { runs_inline = 0, runs_late = 1, runs_threads = 2 };
+
+/* A grid of this engine whose tasks a scheduler of that kind runs. */
+static vox_grid_desc scheduled(vox_engine engine, scheduler* s, int kind, uint32_t workers) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    memset(s, 0, sizeof *s);
+    s->worker_count = workers;
+    desc.engine = engine;
+    desc.worker_count = workers;
+    desc.tasks.enqueue = systems[kind].enqueue;
+    desc.tasks.finish = systems[kind].finish;
+    desc.tasks.user = s;
+    return desc;
+}
 
 START_TEST(same_for_any_task_system) {
     scheduler s;
@@ -160,16 +179,13 @@ START_TEST(same_for_any_task_system) {
     ck_assert_uint_gt(serial.contacts, 1000);
     vox_grid_destroy(grid);
 
-    for (size_t k = 0; k < sizeof systems / sizeof *systems; ++k)
+    for (int kind = runs_inline; kind <= runs_threads; ++kind)
         for (uint32_t workers = 1; workers <= 8; workers += workers < 3 ? 1 : 5) {
-            memset(&s, 0, sizeof s);
-            s.worker_count = desc.worker_count = workers;
-            desc.tasks.enqueue = systems[k].enqueue;
-            desc.tasks.finish = systems[k].finish;
-            desc.tasks.user = &s;
+            desc = scheduled(suite_engine, &s, kind, workers);
             grid = new_scene(&desc);
             for (int step = 0; step < 2; ++step) {
                 s.enqueued = 0;
+                mark_all(grid);
                 ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
                 ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
                 if (workers > 1 && suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
@@ -191,6 +207,7 @@ START_TEST(same_for_any_worker_count) {
     for (uint32_t workers = 0; workers <= 4; ++workers) {
         ck_ok(vox_grid_set_worker_count(grid, workers));
         for (int step = 0; step < 2; ++step) {
+            mark_all(grid);
             ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
             check_same_counters(&counters, &serial);
         }
@@ -204,13 +221,7 @@ END_TEST
 
 START_TEST(non_finite_is_the_same_vertex) {
     scheduler s;
-    vox_grid_desc desc = vox_default_grid_desc();
-    memset(&s, 0, sizeof s);
-    desc.engine = suite_engine;
-    s.worker_count = desc.worker_count = 4;
-    desc.tasks.enqueue = late_enqueue;
-    desc.tasks.finish = threaded_finish;
-    desc.tasks.user = &s;
+    const vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const float zero = 0;
@@ -230,15 +241,9 @@ START_TEST(large_bodies_are_shared) {
     vox_grid* grid = NULL;
     vox_mesh mesh = 0;
     uint64_t expected = 0;
-    vox_grid_desc desc = vox_default_grid_desc();
     body bodies[2] = {make_box(30, 0.0625f, 0, 0, 0), make_box(8, 0.0625f, 1.75f, 1.75f, 1.75f)};
-    memset(&s, 0, sizeof s);
-    desc.engine = VOX_ENGINE_FAST;
-    desc.tasks.enqueue = late_enqueue;
-    desc.tasks.finish = threaded_finish;
-    desc.tasks.user = &s;
     for (uint32_t workers = 1; workers <= 4; workers += 3) {
-        s.worker_count = desc.worker_count = workers;
+        const vox_grid_desc desc = scheduled(VOX_ENGINE_FAST, &s, runs_threads, workers);
         ck_ok(vox_grid_create(&desc, &grid));
         for (int i = 0; i < 2; ++i) {
             vox_mesh_desc mesh_desc = body_desc(&bodies[i]);
@@ -262,13 +267,7 @@ START_TEST(budget_that_ends_in_a_task) {
     vox_counters inserted, full;
     vox_contact_view view;
     uint32_t failures = 0;
-    vox_grid_desc desc = vox_default_grid_desc();
-    memset(&s, 0, sizeof s);
-    desc.engine = suite_engine;
-    s.worker_count = desc.worker_count = 4;
-    desc.tasks.enqueue = late_enqueue;
-    desc.tasks.finish = threaded_finish;
-    desc.tasks.user = &s;
+    vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     inserted.struct_size = sizeof inserted;
@@ -310,15 +309,9 @@ START_TEST(defective_task_systems) {
     /* A scheduler that loses work or lies is told so; nothing is silently missing. */
     static const char* const words[] = {"items", "worker 4 of 4", "items"};
     scheduler s;
-    vox_grid_desc desc = vox_default_grid_desc();
     make_bodies();
     for (uint32_t defect = loses_items; defect <= wrong_range; ++defect) {
-        memset(&s, 0, sizeof s);
-        s.worker_count = desc.worker_count = 4;
-        desc.engine = VOX_ENGINE_FAST;
-        desc.tasks.enqueue = inline_enqueue;
-        desc.tasks.finish = inline_finish;
-        desc.tasks.user = &s;
+        const vox_grid_desc desc = scheduled(VOX_ENGINE_FAST, &s, runs_inline, 4);
         vox_grid* grid = new_scene(&desc);
         vox_counters counters;
         s.defect = defect;

@@ -74,7 +74,7 @@ void run(const Options& options) {
     }
     std::vector<vox_mesh> ids;
     const Grid grid = make_grid(options.grid, bodies, options.self, ids);
-    const vox_profile profile = measure_steps(grid.get(), options.repeat);
+    const vox_profile profile = measure_steps(grid.get(), ids, options.repeat);
     if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
     Json json = {{"meshes", body_list(bodies)}};
     add_collision(json, grid.get(), ids, profile);

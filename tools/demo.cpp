@@ -92,7 +92,7 @@ void measure_frame(std::span<Contender> rules) {
     for (std::size_t round = 0; round < rounds; ++round)
         for (std::size_t turn = 0; turn < rules.size(); ++turn) {
             const std::size_t i = (turn + round) % rules.size();
-            check(vox_grid_step(rules[i].grid.get()));
+            step_anew(rules[i].grid.get(), rules[i].ids);
             profiles[i].push_back(profile_of(rules[i].grid.get()));
         }
     for (std::size_t i = 0; i < rules.size(); ++i) rules[i].frames.push_back(median(profiles[i]));

@@ -51,13 +51,18 @@ vox_profile median(std::span<const vox_profile> profiles) {
     return result;
 }
 
-vox_profile measure_steps(vox_grid* grid, std::uint32_t repeat) {
+void step_anew(vox_grid* grid, std::span<const vox_mesh> ids) {
+    for (const vox_mesh id : ids) check(vox_mesh_mark_moved(grid, id));
+    check(vox_grid_step(grid));
+}
+
+vox_profile measure_steps(vox_grid* grid, std::span<const vox_mesh> ids, std::uint32_t repeat) {
     Progress progress;
     check(vox_grid_step(grid));
     std::vector<vox_profile> profiles;
     for (std::uint32_t i = 0; i < repeat; ++i) {
         progress.show("step " + std::to_string(i + 1) + " of " + std::to_string(repeat));
-        check(vox_grid_step(grid));
+        step_anew(grid, ids);
         profiles.push_back(profile_of(grid));
     }
     return median(profiles);

@@ -35,7 +35,10 @@ inline vox_contact contact_at(const vox_contact_view& view, std::uint64_t index)
 // The median of each time by itself. At least one profile.
 vox_profile median(std::span<const vox_profile> profiles);
 
+// A step to be timed: it looks at all meshes, although none moved since the one before.
+void step_anew(vox_grid* grid, std::span<const vox_mesh> ids);
+
 // One step to warm up, then the median of `repeat` more.
-vox_profile measure_steps(vox_grid* grid, std::uint32_t repeat);
+vox_profile measure_steps(vox_grid* grid, std::span<const vox_mesh> ids, std::uint32_t repeat);
 
 } // namespace tool

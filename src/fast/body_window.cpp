@@ -32,9 +32,9 @@ bool is_large(const Body& body) { return body.self_collision && body.tets.size()
 // the first part of each.
 void Fast::make_windows(Step& step) {
     std::size_t vertices = 0, large = 0;
-    for (const Body& body : step.bodies) {
-        vertices += body.vertex_count;
-        large += is_large(body);
+    for (std::size_t a = 0; a < step.bodies.size(); ++a) {
+        vertices += step.bodies[a].vertex_count;
+        large += states_[a].moved && is_large(step.bodies[a]);
     }
     const bool share = large < step.worker_count() && large <= most_shared;
     for (std::uint32_t g = 0; large && share && g < groups_.size(); ++g)
@@ -112,7 +112,7 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
                        Workers* helpers) {
     const Body& body = step.bodies[a];
     BodyState& state = states_[a];
-    const bool self = body.self_collision && !body.tets.empty();
+    const bool self = body.self_collision && state.moved && !body.tets.empty();
     const std::span<const Reach> reaches =
         std::span(reaches_).subspan(first_of_a_[a], first_of_a_[a + 1] - first_of_a_[a]);
     if (body.vertex_count == 0 || (reaches.empty() && !self)) return;

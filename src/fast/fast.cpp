@@ -6,6 +6,7 @@
 
 #include "clock.hpp"
 #include "error.hpp"
+#include "filter.hpp"
 #include "mesh_check.hpp"
 #include "predicates.hpp"
 #include "step.hpp"
@@ -28,11 +29,6 @@ constexpr std::uint32_t piece_supers = 8;
 // on.
 constexpr std::size_t min_winding_tets = 2000;
 constexpr std::size_t max_surface = 8;
-
-bool is_packed(const Body& body) {
-    return body.positions.byte_stride == sizeof(Vec3f) &&
-           reinterpret_cast<std::uintptr_t>(body.positions.data) % alignof(float) == 0;
-}
 
 template <class Pieces>
 void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pieces& pieces) {
@@ -57,6 +53,8 @@ void FastMesh::prepare(const Body& body) {
             body.tets.size() < min_winding_tets)
             made.surface = fast::Surface(surface.triangles.get_allocator().resource());
     }
+    made.rest.positions.resize(std::size_t{body.vertex_count} * 3);
+    made.rest.parts.resize((made.block_count() + piece_blocks - 1) / piece_blocks);
     *this = std::move(made);
 }
 
@@ -64,7 +62,8 @@ void FastMesh::prepare(const Body& body) {
 class Fast::Decide final : public fast::Findings {
 public:
     Decide(Fast& engine, Step& step, std::uint32_t body, Worker& worker)
-        : engine_(engine), step_(step), body_(body), worker_(worker) {}
+        : engine_(engine), step_(step), body_(body), worker_(worker), tets_(step.bodies[body].tets),
+          self_filter_(step.bodies[body].self_filter) {}
 
     void take(std::span<const fast::Finding> findings) override {
         const std::uint64_t start = nanoseconds();
@@ -75,6 +74,10 @@ public:
             if (!f.certain) {
                 where = decide(f);
                 if (where == Containment::degenerate || where == Containment::outside) continue;
+            }
+            if (f.body == body_ && self_filter_ && self_filter_->skips(f.vertex, tets_[f.tet])) {
+                ++worker_.filtered;
+                continue;
             }
             Hit hit{};
             hit.body_a = f.body;
@@ -94,7 +97,7 @@ public:
 
 private:
     Containment decide(const fast::Finding& f) {
-        const Tet& tet = step_.bodies[body_].tets[f.tet];
+        const Tet& tet = tets_[f.tet];
         const Positions& q = step_.bodies[body_].positions;
         const Containment where = locate(step_.bodies[f.body].positions[f.vertex], q[tet.v[0]], q[tet.v[1]],
                                          q[tet.v[2]], q[tet.v[3]], worker_.exact_tests);
@@ -116,6 +119,8 @@ private:
     Step& step_;
     std::uint32_t body_; // of the tets
     Worker& worker_;
+    std::span<const Tet> tets_;
+    const SelfFilter* self_filter_;
 };
 
 Fast::Worker::Worker(std::pmr::memory_resource* memory)
@@ -123,13 +128,13 @@ Fast::Worker::Worker(std::pmr::memory_resource* memory)
       stamps(memory), scratch(memory) {}
 
 Fast::Fast(std::pmr::memory_resource* memory)
-    : packed_(memory), states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory),
-      tile_boxes_(memory), tile_known_(memory), block_pieces_(memory), super_pieces_(memory),
-      piece_boxes_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
+    : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
+      tile_known_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
+      piece_moved_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
       first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
       degenerate_(memory) {}
 
-void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const> prepared,
+void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                   vox_profile& profile) {
     Step step{bodies, prepared, settings, hits};
@@ -152,7 +157,8 @@ void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const>
     // Sums, and largest ones: which worker did what does not matter.
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
-    counters.exact_tests = 0;
+    counters.exact_tests = counters.filtered = counters.moved_meshes = 0;
+    for (const BodyState& state : states_) counters.moved_meshes += state.moved;
     profile.bin_ns = (streamed - start) + (binned - reached);
     profile.narrow_ns = 0;
     for (const fast::Bins& bins : bins_) {
@@ -162,6 +168,7 @@ void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const>
     }
     for (const Worker& worker : workers_) {
         counters.exact_tests += worker.exact_tests;
+        counters.filtered += worker.filtered;
         profile.narrow_ns = std::max(profile.narrow_ns, worker.decision_ns);
         if (worker.scratch.empty()) continue;
         const fast::QueryCounters& counted = worker.scratch[0].counters;
@@ -179,14 +186,14 @@ void Fast::detect(std::span<const Body> bodies, std::span<const FastMesh* const>
 void Fast::prepare(Step& step) {
     while (workers_.size() < step.worker_count()) workers_.emplace_back(workers_.get_allocator().resource());
     for (Worker& worker : workers_) {
-        worker.exact_tests = worker.decision_ns = 0;
+        worker.exact_tests = worker.filtered = worker.decision_ns = 0;
         if (worker.scratch.empty()) continue;
         worker.scratch[0].finding_count = 0;
         worker.scratch[0].counters = {};
     }
     degenerate_.clear();
 
-    std::size_t blocks = 0, supers = 0, tiles = 0, strided = 0;
+    std::size_t blocks = 0, supers = 0, tiles = 0;
     states_.resize(step.bodies.size());
     groups_.clear();
     std::size_t vertices = group_vertices;
@@ -195,6 +202,10 @@ void Fast::prepare(Step& step) {
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
         const FastMesh& mesh = *step.prepared[b];
         states_[b] = {};
+        states_[b].positions = fast::is_packed(step.bodies[b].positions)
+                                   ? reinterpret_cast<const float*>(step.bodies[b].positions.data)
+                                   : mesh.rest.positions.data();
+        states_[b].moved = !step.settings.carry;
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
@@ -203,7 +214,6 @@ void Fast::prepare(Step& step) {
         tiles += mesh.tiles.size();
         add_pieces(b, mesh.block_count(), piece_blocks, block_pieces_);
         add_pieces(b, mesh.super_tile_count(), piece_supers, super_pieces_);
-        if (!is_packed(step.bodies[b])) strided += step.bodies[b].vertex_count;
         if (vertices >= group_vertices) {
             groups_.push_back({b, b});
             vertices = 0;
@@ -217,52 +227,42 @@ void Fast::prepare(Step& step) {
     super_boxes_.resize(supers);
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
-    packed_.resize(3 * strided);
-    strided = 0;
-    for (std::size_t b = 0; b < step.bodies.size(); ++b) {
-        const Body& body = step.bodies[b];
-        if (is_packed(body)) {
-            states_[b].positions = reinterpret_cast<const float*>(body.positions.data);
-        } else {
-            states_[b].positions = packed_.data() + 3 * strided;
-            strided += body.vertex_count;
-        }
-    }
 }
 
-// Packed positions of the bodies, and their boxes.
+// Packed positions of the bodies, their boxes, and which of them moved.
 void Fast::stream(Step& step) {
     std::atomic<bool> finite{true};
     piece_boxes_.resize(block_pieces_.size());
+    piece_moved_.resize(block_pieces_.size());
     step.for_ranges(block_pieces_.size(), block_boxes_.size(), piece_blocks,
                     [&](std::size_t begin, std::size_t end, std::uint32_t) {
                         for (std::size_t p = begin; p < end; ++p)
-                            if (!stream(step, block_pieces_[p], piece_boxes_[p]))
+                            if (!stream(step, block_pieces_[p], piece_boxes_[p], piece_moved_[p]))
                                 finite.store(false, std::memory_order_relaxed);
                     });
     if (!finite) throw_non_finite(step.bodies);
     body_boxes_.assign(step.bodies.size(), fast::empty_box);
-    for (std::size_t p = 0; p < block_pieces_.size(); ++p)
-        fast::add(body_boxes_[block_pieces_[p].body], piece_boxes_[p]);
+    for (std::size_t p = 0; p < block_pieces_.size(); ++p) {
+        const std::uint32_t body = block_pieces_[p].body;
+        fast::add(body_boxes_[body], piece_boxes_[p]);
+        states_[body].moved |= piece_moved_[p] != 0;
+    }
 }
 
-bool Fast::stream(const Step& step, const Piece& piece, Box& box) {
-    const Body& body = step.bodies[piece.body];
+bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
+    const Positions& positions = step.bodies[piece.body].positions;
     const BodyState& state = states_[piece.body];
+    fast::Rest& rest = step.prepared[piece.body]->rest;
     const std::pmr::vector<std::uint32_t>& first = step.prepared[piece.body]->block_first;
-    if (!is_packed(body)) {
-        float* out =
-            packed_.data() + (state.positions - packed_.data()) + std::size_t{first[piece.first]} * 3;
-        for (std::uint32_t v = first[piece.first]; v < first[piece.last]; ++v) {
-            const Vec3f p = body.positions[v];
-            *out++ = p.x;
-            *out++ = p.y;
-            *out++ = p.z;
-        }
-    }
-    return fast::stream_boxes(state.positions,
-                              std::span(first).subspan(piece.first, piece.last - piece.first + 1),
-                              block_boxes_.data() + state.first_block + piece.first, box);
+    const std::uint32_t begin = first[piece.first], end = first[piece.last];
+    const std::size_t part = piece.first / piece_blocks;
+    const bool packed = fast::is_packed(positions);
+    if (!packed) moved = !fast::copy_strided(rest, part, positions, begin, end);
+    const bool finite = fast::stream_boxes(
+        state.positions, std::span(first).subspan(piece.first, piece.last - piece.first + 1),
+        block_boxes_.data() + state.first_block + piece.first, box);
+    if (packed) moved = !fast::compare_packed(rest, part, state.positions, begin, end, box);
+    return finite;
 }
 
 // Which vertices may be in tets of which other bodies.
@@ -271,7 +271,8 @@ void Fast::find_reaches(Step& step) {
     reaches_.clear();
     if (reaches_.capacity() < pairs_.size()) reaches_.reserve(pairs_.size() + pairs_.size() / 8);
     for (const fast::Pair& pair : pairs_) {
-        if (step.bodies[pair.b].tets.empty()) continue;
+        if (step.bodies[pair.b].tets.empty() || !collide(step.bodies[pair.a], step.bodies[pair.b])) continue;
+        if (!states_[pair.a].moved && !states_[pair.b].moved) continue;
         Reach reach{pair.a, pair.b, body_boxes_[pair.a], {}};
         fast::intersect(reach.region, body_boxes_[pair.b]);
         reaches_.push_back(reach);

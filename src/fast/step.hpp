@@ -12,7 +12,7 @@ namespace vox {
 
 struct Fast::Step {
     std::span<const Body> bodies;
-    std::span<const FastMesh* const> prepared;
+    std::span<FastMesh* const> prepared;
     const FastSettings& settings;
     std::pmr::vector<Hit>& hits;
     std::mutex mutex{}; // of hits and degenerate_

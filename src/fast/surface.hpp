@@ -15,11 +15,12 @@ struct Surface {
     explicit Surface(std::pmr::memory_resource* memory) noexcept
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
-    // The triangles are the boundary of all tets: their facets, where those on different sides cancel. So they
-    // are when every facet belongs to one tet, or to two that lie on different sides of it, and in some other
-    // cases. False: there is no use for the rest, which is empty then.
+    // The triangles are the boundary of all tets: their facets, where those on different sides cancel. So
+    // they are when every facet belongs to one tet, or to two that lie on different sides of it, and in some
+    // other cases. False: there is no use for the rest, which is empty then.
     bool is_closed = false;
-    // Facets with a tet on one side that is not cancelled, counter-clockwise from outside when it is positive.
+    // Facets with a tet on one side that is not cancelled, counter-clockwise from outside when it is
+    // positive.
     std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
     // For each tile, tets to be taken with the last two corners swapped (negative when they were prepared),
     // and tets that name a corner twice and never hold anything.

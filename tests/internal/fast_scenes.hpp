@@ -136,11 +136,11 @@ public:
             tiles_.emplace_back(memory_);
             tiles_.back().prepare(body);
         }
-        for (const vox::FastMesh& tiles : tiles_) prepared_.push_back(&tiles);
+        for (vox::FastMesh& tiles : tiles_) prepared_.push_back(&tiles);
     }
 
     std::vector<vox::Body>& bodies() { return bodies_; }
-    const std::vector<const vox::FastMesh*>& prepared() const { return prepared_; }
+    const std::vector<vox::FastMesh*>& prepared() const { return prepared_; }
 
 private:
     std::pmr::memory_resource* memory_;
@@ -148,7 +148,7 @@ private:
     std::deque<bool> self_;
     std::vector<vox::Body> bodies_;
     std::deque<vox::FastMesh> tiles_;
-    std::vector<const vox::FastMesh*> prepared_;
+    std::vector<vox::FastMesh*> prepared_;
 };
 
 // Hits as comparable numbers, sorted.

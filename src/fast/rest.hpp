@@ -1,0 +1,43 @@
+// Which bodies moved: their positions are compared, bit by bit, with a copy of those of the last step.
+#pragma once
+
+#include "../scene.hpp"
+#include "box.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox::fast {
+
+// What is kept of a body from step to step. Its vertices come in parts, always the same ones.
+struct Rest {
+    explicit Rest(std::pmr::memory_resource* memory) noexcept : positions(memory), parts(memory) {}
+
+    struct Part {
+        Box box = empty_box; // in the last step; empty before the first
+        bool copied = false; // `positions` has those of the last step
+    };
+    std::pmr::vector<float> positions; // packed; room for all
+    std::pmr::vector<Part> parts;
+};
+
+// The caller's positions are an array of packed, aligned floats.
+inline bool is_packed(const Positions& positions) noexcept {
+    return positions.byte_stride == sizeof(Vec3f) &&
+           reinterpret_cast<std::uintptr_t>(positions.data) % alignof(float) == 0;
+}
+
+// Copies the vertices [first, last) of a part that is not packed; returns whether they are those of the last
+// step, bit by bit.
+bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+                  std::uint32_t last) noexcept;
+
+// Returns whether the packed vertices [first, last) of a part, `box` around them, are those of the last step,
+// bit by bit. That is known of parts that were copied: when they are new, and when their box stays the same,
+// so that what moves in every step is not copied in every step.
+bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
+                    std::uint32_t last, const Box& box) noexcept;
+
+} // namespace vox::fast

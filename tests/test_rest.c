@@ -1,0 +1,402 @@
+/* Meshes at rest: contacts taken over from the last step are those that a fresh grid finds. */
+#include <math.h>
+#include <string.h>
+
+#include "bodies.h"
+#include "suite.h"
+
+static uint64_t random_state;
+
+/* splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 */
+static uint32_t below(uint32_t count) {
+    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (uint32_t)((z ^ (z >> 31)) % count);
+}
+
+enum { most_bodies = 12 };
+
+/* Some bodies and the grid they are stepped in. */
+typedef struct scene {
+    body bodies[most_bodies];
+    float* strided[most_bodies]; /* four floats a vertex, where the grid reads that; else null */
+    vox_mesh ids[most_bodies];   /* 0: not in the grid */
+    uint32_t self[most_bodies];
+    vox_grid* grid;
+} scene;
+
+/* Multiples of 1/16: vertices on facets, edges and corners are common. */
+static float somewhere(void) { return (float)below(48) * 0.0625f; }
+
+static void insert(scene* s, int i) {
+    vox_mesh_desc desc = body_desc(&s->bodies[i]);
+    if (s->strided[i]) {
+        desc.positions = s->strided[i];
+        desc.position_byte_stride = 4 * sizeof(float);
+    }
+    if (s->self[i]) desc.flags = VOX_MESH_SELF_COLLISION;
+    ck_ok(vox_mesh_insert(s->grid, &desc, &s->ids[i]));
+}
+
+/* The strided copy follows. */
+static void moved(scene* s, int i) {
+    if (!s->strided[i]) return;
+    for (uint32_t v = 0; v < s->bodies[i].vertex_count; ++v)
+        memcpy(s->strided[i] + 4 * v, s->bodies[i].positions + 3 * v, 3 * sizeof(float));
+}
+
+static void make_scene(scene* s, uint32_t count, const vox_grid_desc* desc) {
+    memset(s, 0, sizeof *s);
+    ck_ok(vox_grid_create(desc, &s->grid));
+    for (uint32_t i = 0; i < count; ++i) {
+        const float x = somewhere(), y = somewhere(), z = somewhere();
+        s->bodies[i] = make_box(2 + below(4), 0.25f, x, y, z);
+        s->self[i] = below(2);
+        if (below(3) == 0) {
+            s->strided[i] = (float*)malloc(4 * sizeof(float) * s->bodies[i].vertex_count);
+            moved(s, (int)i);
+        }
+        insert(s, (int)i);
+    }
+}
+
+static void free_scene(scene* s) {
+    vox_grid_destroy(s->grid);
+    for (int i = 0; i < most_bodies; ++i) {
+        free_body(&s->bodies[i]);
+        free(s->strided[i]);
+    }
+}
+
+/* Moves a whole body, one vertex of it, or folds some of it. */
+static void move_body(scene* s, int i) {
+    float* p = s->bodies[i].positions;
+    const uint32_t vertices = s->bodies[i].vertex_count, how = below(3);
+    const float by = 0.0625f * ((float)below(8) - 3.5f);
+    if (how == 0)
+        for (uint32_t v = 0; v < vertices; ++v) p[3 * v + 1] += by;
+    else if (how == 1)
+        p[3 * below(vertices) + below(3)] += by;
+    else
+        for (uint32_t v = 0; v < vertices; v += 3) p[3 * v] = p[3 * (vertices - 1 - v)];
+    moved(s, i);
+}
+
+static vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters;
+    counters.struct_size = sizeof counters;
+    ck_ok(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
+/* Steps, and compares the contacts with those of a new grid over the same meshes in the same order. */
+static vox_counters check_step(scene* s) {
+    vox_contact_view mine, fresh;
+    vox_mesh id_of[most_bodies] = {0};
+    vox_grid* grid = NULL;
+    ck_ok(vox_grid_step(s->grid));
+    ck_ok(vox_grid_contacts(s->grid, &mine));
+    ck_ok(vox_grid_create(NULL, &grid));
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < most_bodies; ++k) { /* in the order of their ids */
+        int next = -1;
+        for (int i = 0; i < most_bodies; ++i)
+            if (s->ids[i] && (count == 0 || s->ids[i] > id_of[count - 1]) &&
+                (next < 0 || s->ids[i] < s->ids[next]))
+                next = i;
+        if (next < 0) break;
+        vox_mesh_desc desc = body_desc(&s->bodies[next]);
+        vox_mesh mesh = 0;
+        if (s->self[next]) desc.flags = VOX_MESH_SELF_COLLISION;
+        ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+        id_of[count++] = s->ids[next];
+    }
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &fresh));
+    ck_assert_uint_eq(mine.count, fresh.count);
+    for (uint64_t c = 0; c < mine.count; ++c) {
+        vox_contact expected = fresh.data[c]; /* slots of the new grid are 0, 1, ... */
+        expected.mesh_a = id_of[expected.mesh_a >> 12];
+        expected.mesh_b = id_of[expected.mesh_b >> 12];
+        ck_assert_mem_eq(&mine.data[c], &expected, sizeof expected);
+    }
+    vox_grid_destroy(grid);
+    const vox_counters counters = counters_of(s->grid);
+    ck_assert_uint_eq(counters.contacts, mine.count);
+    ck_assert_uint_le(counters.carried_contacts, mine.count);
+    return counters;
+}
+
+/* Two steps to see that a body stays where it is, and one that knows. */
+static void come_to_rest(scene* s) {
+    for (int step = 0; step < 2; ++step) (void)check_step(s);
+    ck_assert_uint_eq(check_step(s).moved_meshes, 0);
+}
+
+START_TEST(some_move) {
+    uint64_t carried = 0, found = 0;
+    random_state = 1;
+    for (int round = 0; round < 12; ++round) {
+        scene s;
+        make_scene(&s, 2 + below(most_bodies - 1), NULL);
+        for (int step = 0; step < 12; ++step) {
+            uint32_t moving = 0, present = 0;
+            for (int i = 0; i < most_bodies; ++i) {
+                if (!s.ids[i]) continue;
+                ++present;
+                if (below(4) != 0) continue;
+                move_body(&s, i);
+                ++moving;
+            }
+            const vox_counters counters = check_step(&s);
+            ck_assert_uint_eq(counters.meshes, present);
+            if (step == 0) ck_assert_uint_eq(counters.moved_meshes, present);
+            carried += counters.carried_contacts;
+            found += counters.contacts - counters.carried_contacts;
+        }
+        free_scene(&s);
+    }
+    ck_assert_uint_gt(carried, 10000);
+    ck_assert_uint_gt(found, 10000);
+}
+END_TEST
+
+START_TEST(nothing_moves) {
+    scene s;
+    random_state = 2;
+    make_scene(&s, 8, NULL);
+    vox_counters counters = check_step(&s);
+    const uint64_t contacts = counters.contacts;
+    ck_assert_uint_gt(contacts, 20);
+    ck_assert_uint_eq(counters.moved_meshes, 8);
+    ck_assert_uint_eq(counters.carried_contacts, 0);
+    for (int step = 0; step < 3; ++step) {
+        counters = check_step(&s);
+        ck_assert_uint_eq(counters.moved_meshes, 0);
+        ck_assert_uint_eq(counters.carried_contacts, contacts);
+        ck_assert_uint_eq(counters.candidates, 0);
+        ck_assert_uint_eq(counters.visited_cells, 0);
+    }
+    /* Bodies that moved all together come to rest: one step more to know it. */
+    for (int step = 0; step < 3; ++step) {
+        for (int i = 0; i < 8; ++i) {
+            for (uint32_t v = 0; v < s.bodies[i].vertex_count; ++v) s.bodies[i].positions[3 * v] += 0.25f;
+            moved(&s, i);
+        }
+        counters = check_step(&s);
+        ck_assert_uint_eq(counters.moved_meshes, 8);
+    }
+    come_to_rest(&s);
+    free_scene(&s);
+}
+END_TEST
+
+/* Positions are compared as bits: what is equal as a number, or by a box, is not the same. */
+START_TEST(small_and_hidden_moves) {
+    scene s;
+    random_state = 3;
+    make_scene(&s, 2, NULL);
+    (void)check_step(&s);
+    for (int i = 0; i < 2; ++i) {
+        float* const p = s.bodies[i].positions;
+        const uint32_t inner = s.bodies[i].vertex_count / 2; /* no corner of the box */
+        p[3 * inner] = 0;
+        moved(&s, i);
+        come_to_rest(&s);
+        p[3 * inner] = -0.0f;
+        moved(&s, i);
+        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+        come_to_rest(&s);
+        p[3 * inner] = nextafterf(p[3 * inner + 1], 9); /* inside the box */
+        moved(&s, i);
+        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+        /* There and back again: at rest, but not since the last step. */
+        const float was = p[3 * inner + 1];
+        p[3 * inner + 1] = somewhere();
+        moved(&s, i);
+        (void)check_step(&s);
+        p[3 * inner + 1] = was;
+        moved(&s, i);
+        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    }
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(failed_steps) {
+    scene s;
+    vox_contact_view view;
+    random_state = 4;
+    make_scene(&s, 6, NULL);
+    for (int i = 0; i < 6; ++i) {
+        (void)check_step(&s);
+        ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+        float* const p = &s.bodies[i].positions[3 * below(s.bodies[i].vertex_count)];
+        const float was = *p;
+        *p = i % 2 ? NAN : INFINITY;
+        moved(&s, i);
+        move_body(&s, (i + 1) % 6); /* and this one moves in the failing step only */
+        for (int again = 0; again < 2; ++again) {
+            ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "vertex");
+            ck_ok(vox_grid_contacts(s.grid, &view));
+            ck_assert_uint_eq(view.count, 0);
+        }
+        *p = was;
+        moved(&s, i);
+        const vox_counters counters = check_step(&s);
+        ck_assert_uint_eq(counters.moved_meshes, 6);
+        ck_assert_uint_eq(counters.carried_contacts, 0);
+    }
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(budget_ends_a_step) {
+    /* Contacts become many from step to step, until there is no room for them: anywhere in a step. Then they
+     * become fewer again. */
+    scene s;
+    uint32_t failures = 0, successes = 0;
+    for (uint64_t part = 0; part < 16; ++part) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        random_state = 5;
+        make_scene(&s, 6, &desc);
+        const uint64_t inserted = counters_of(s.grid).peak_bytes;
+        (void)check_step(&s);
+        const uint64_t stepped = counters_of(s.grid).peak_bytes;
+        free_scene(&s);
+        desc.byte_budget = inserted + (stepped - inserted) * (part + 4) / 16;
+        random_state = 5;
+        make_scene(&s, 6, &desc);
+        for (int step = 0; step < 12; ++step) {
+            /* All but one in the same place or all where they were, one after the other. */
+            float* const p = s.bodies[step % 6].positions;
+            const float by = step < 6 ? p[0] - s.bodies[(step + 1) % 6].positions[0] : 2;
+            for (uint32_t v = 0; v < s.bodies[step % 6].vertex_count; ++v) p[3 * v] -= by;
+            moved(&s, step % 6);
+            if (vox_grid_step(s.grid) != VOX_OK) {
+                ++failures;
+                continue;
+            }
+            ++successes;
+            (void)check_step(&s);
+        }
+        free_scene(&s);
+    }
+    ck_assert_uint_gt(failures, 10);
+    ck_assert_uint_gt(successes, 10);
+}
+END_TEST
+
+START_TEST(meshes_come_and_go) {
+    scene s;
+    random_state = 6;
+    make_scene(&s, 8, NULL);
+    uint64_t carried = 0;
+    for (int step = 0; step < 60; ++step) {
+        const int i = (int)below(8);
+        if (below(3) == 0) move_body(&s, (int)below(8));
+        if (s.ids[i]) {
+            ck_ok(vox_mesh_remove(s.grid, s.ids[i]));
+            s.ids[i] = 0;
+        } else {
+            insert(&s, i); /* in the slot of another, perhaps, and with the positions it had */
+        }
+        carried += check_step(&s).carried_contacts;
+    }
+    ck_assert_uint_gt(carried, 1000);
+    /* The same mesh out and in again is a new one. */
+    vox_mesh old = 0;
+    for (int i = 0; i < 8; ++i)
+        if (s.ids[i]) old = s.ids[i];
+    (void)check_step(&s);
+    for (int i = 0; i < 8; ++i)
+        if (s.ids[i] == old) {
+            ck_ok(vox_mesh_remove(s.grid, old));
+            insert(&s, i);
+        }
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    ck_ok(vox_grid_clear(s.grid));
+    memset(s.ids, 0, sizeof s.ids);
+    ck_assert_uint_eq(check_step(&s).contacts, 0);
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(bound_elsewhere) {
+    scene s;
+    random_state = 7;
+    make_scene(&s, 3, NULL);
+    (void)check_step(&s);
+    /* Other memory, same values: at rest. Other values: moved. */
+    const size_t bytes = 3 * sizeof(float) * s.bodies[0].vertex_count;
+    float* const copy = (float*)malloc(bytes);
+    memcpy(copy, s.bodies[0].positions, bytes);
+    ck_ok(vox_mesh_bind_positions(s.grid, s.ids[0], copy, VOX_FORMAT_FLOAT3, 0));
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    s.bodies[0].positions[0] += 0.5f;
+    memcpy(copy, s.bodies[0].positions, bytes);
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    s.bodies[0].positions[0] += 0.5f;
+    s.bodies[0].positions[7] += 0.5f;
+    ck_ok(vox_mesh_bind_positions(s.grid, s.ids[0], s.bodies[0].positions, VOX_FORMAT_FLOAT3, 0));
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    free(copy);
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(settings_and_marks) {
+    scene s;
+    random_state = 8;
+    make_scene(&s, 5, NULL);
+    (void)check_step(&s);
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_ok(vox_grid_set_cell_size(s.grid, 0.5));
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 5);
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_ok(vox_grid_set_worker_count(s.grid, 2));
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 5);
+    ck_ok(vox_grid_reserve(s.grid, 100, 10000)); /* contacts stay */
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_ok(vox_mesh_mark_moved(s.grid, s.ids[2]));
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_fails(vox_mesh_mark_moved(NULL, s.ids[2]), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_mark_moved(s.grid, 77), VOX_ERROR_INVALID_HANDLE, "mesh id 77");
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(reference_engine_rests_never) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = VOX_ENGINE_REFERENCE;
+    scene s;
+    random_state = 9;
+    make_scene(&s, 4, &desc);
+    for (int step = 0; step < 3; ++step) {
+        const vox_counters counters = check_step(&s);
+        ck_assert_uint_eq(counters.moved_meshes, 4);
+        ck_assert_uint_eq(counters.carried_contacts, 0);
+        ck_assert_uint_gt(counters.candidates, 0);
+    }
+    free_scene(&s);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("rest");
+    TCase* tests = tcase_create("rest");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, some_move);
+    tcase_add_test(tests, nothing_moves);
+    tcase_add_test(tests, small_and_hidden_moves);
+    tcase_add_test(tests, failed_steps);
+    tcase_add_test(tests, budget_ends_a_step);
+    tcase_add_test(tests, meshes_come_and_go);
+    tcase_add_test(tests, bound_elsewhere);
+    tcase_add_test(tests, settings_and_marks);
+    tcase_add_test(tests, reference_engine_rests_never);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
