@@ -18,25 +18,34 @@ constexpr double least_mean = 0.25;
 // A squared distance below this is none; its inverse still is a number.
 constexpr double no_distance = 1e-290;
 
-// Weighted means of depths and unit vectors.
-struct Mean {
-    double weights = 0, depth = 0;
-    Vec3d direction{0, 0, 0};
-
-    void add(double weight, double d, const Vec3d& r) {
-        weights += weight;
-        depth += weight * d;
-        direction = direction + weight * r;
+// The mean of what is known at points around one: of their directions, and of the depths they imply. On the
+// way to a point, the depth falls at the rate of the direction there in the paper; here of the mean of the
+// directions at both ends, which is the integral along the way where direction changes evenly, and so makes
+// depths of curved bodies more exact by an order.
+class Mean {
+public:
+    void add(double weight, const Vec3d& way, double depth, const Vec3d& direction) {
+        weights_ += weight;
+        depth_ += weight * (depth + dot(way, direction) / 2);
+        way_ = way_ + weight * way;
+        direction_ = direction_ + weight * direction;
     }
 
-    // False when they are of no use.
+    // False when it is of no use.
     bool write(Point& point) const {
-        const double mean = length(direction);
-        if (!(depth > 0) || !(mean >= least_mean * weights)) return false;
-        point.depth = depth / weights;
-        point.direction = (1 / mean) * direction;
+        const double mean = length(direction_);
+        if (!(mean >= least_mean * weights_) || weights_ == 0) return false;
+        const Vec3d direction = (1 / mean) * direction_;
+        const double depth = (depth_ + dot(way_, direction) / 2) / weights_;
+        if (!(depth > 0)) return false;
+        point.depth = depth;
+        point.direction = direction;
         return true;
     }
+
+private:
+    double weights_ = 0, depth_ = 0;
+    Vec3d way_{0, 0, 0}, direction_{0, 0, 0};
 };
 
 class Stages {
@@ -163,7 +172,7 @@ void Stages::follow_edges(Point& point) {
             point.direction = normal;
             return;
         }
-        mean.add(1 / squared, dot(way, normal), normal);
+        mean.add(1 / squared, way, 0, normal);
     }
     point.state = !lost && mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
 }
@@ -202,10 +211,11 @@ void Stages::take_mean(Point& point) const {
         const Vec3d way = position(neighbour) - p;
         const double squared = dot(way, way);
         if (!(squared > no_distance)) { // in the same place
-            mean = {1, from->depth, from->direction};
+            mean = Mean();
+            mean.add(1, way, from->depth, from->direction);
             break;
         }
-        mean.add(1 / squared, dot(way, from->direction) + from->depth, from->direction);
+        mean.add(1 / squared, way, from->depth, from->direction);
     }
     point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
 }
