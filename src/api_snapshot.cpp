@@ -45,6 +45,7 @@ vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* 
         require(out_grid, "out_grid");
         const vox_grid_desc defaults = vox_default_grid_desc();
         const vox_grid_desc machine = desc ? read_struct(desc, defaults, "desc") : defaults;
+        check_grid_desc(machine);
         const SnapshotReader in({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
         const vox_grid_desc settings = snapshot_settings(in, machine);
         vox_grid* created = nullptr;

@@ -1,0 +1,74 @@
+// vox replay: steps the grid of a snapshot, for bug reports.
+#include "commands.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "snapshot_file.hpp"
+#include "stepping.hpp"
+
+#include <cstdio>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::string file;
+    vox_grid_desc grid = vox_default_grid_desc();
+    std::uint32_t steps = 1;
+    bool json = false;
+};
+
+std::uint64_t epoch_of(const vox_grid* grid) {
+    std::uint64_t epoch = 0;
+    check(vox_grid_epoch(grid, &epoch));
+    return epoch;
+}
+
+vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters{};
+    counters.struct_size = sizeof counters;
+    check(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
+void run(const Options& options) {
+    const Grid grid = load_snapshot(options.file, options.grid);
+    const std::uint64_t epoch = epoch_of(grid.get());
+    for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid.get()));
+    const vox_profile profile = profile_of(grid.get());
+    if (options.json) {
+        Json json = {{"file", options.file}, {"saved_epoch", epoch}, {"steps", options.steps}};
+        json["contact_count"] = contacts_of(grid.get()).count;
+        add_result(json, grid.get(), profile);
+        print(json);
+        return;
+    }
+    const vox_counters counters = counters_of(grid.get());
+    std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", options.file.c_str(),
+                counters.meshes, static_cast<unsigned long long>(counters.vertices),
+                static_cast<unsigned long long>(counters.tets), static_cast<unsigned long long>(epoch));
+    double cell_size = 0;
+    check(vox_grid_cell_size(grid.get(), &cell_size));
+    std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
+                static_cast<unsigned long long>(counters.contacts),
+                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid.get()).c_str(), cell_size,
+                options.steps, options.steps == 1 ? "step" : "steps",
+                static_cast<double>(profile.step_ns) * 1e-6);
+}
+
+} // namespace
+
+void add_replay(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("replay", "Steps the grid of a snapshot");
+    command->add_option("FILE", options->file, "Snapshot, as collide --save writes it")->required();
+    command->add_option("--steps", options->steps, "Steps to take")->check(CLI::Range(1u, 1000000u));
+    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: the snapshot's");
+    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
+        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace tool
