@@ -79,6 +79,17 @@ void Events::compare(std::span<const vox_contact> contacts) {
     pairs_are_shown_ = true;
 }
 
+void Events::repeat() {
+    touch_events_.reserve(touching_[current_].pairs.size()); // all that can fail
+    for (const vox_pair& pair : touching_[current_].pairs) {
+        const auto index = static_cast<std::uint32_t>(touch_events_.size());
+        touch_events_.push_back({pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b,
+                                 VOX_TOUCH_PERSISTED, index});
+    }
+    persisted_ = touch_events_.size();
+    pairs_are_shown_ = true;
+}
+
 void Events::compare_pairs() {
     const std::pmr::vector<vox_pair>&was = touching_[current_].pairs, &is = next().pairs;
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_PERSISTED, VOX_TOUCH_ENDED})
