@@ -57,6 +57,8 @@ void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
     room_for(buffers_.runs, contact_count);
     room_for(buffers_.directed, 2 * pairs);
     room_for(buffers_.order, 2 * pairs);
+    room_for(buffers_.scratch, 2 * pairs);
+    room_for(buffers_.place, mesh_count);
     room_for(touch_events_, 2 * pairs);
     for (Touching& touching : touching_) {
         room_for(touching.pairs, pairs);
@@ -83,8 +85,8 @@ void Events::repeat() {
     touch_events_.reserve(touching_[current_].pairs.size()); // all that can fail
     for (const vox_pair& pair : touching_[current_].pairs) {
         const auto index = static_cast<std::uint32_t>(touch_events_.size());
-        touch_events_.push_back({pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b,
-                                 VOX_TOUCH_PERSISTED, index});
+        touch_events_.push_back(
+            {pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b, VOX_TOUCH_PERSISTED, index});
     }
     persisted_ = touch_events_.size();
     pairs_are_shown_ = true;

@@ -1,5 +1,5 @@
-// A counting sort of runs of contacts by pair: only the pairs themselves, few beside the contacts, are
-// compared.
+// Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2): of the pairs by one mesh and the
+// other, and of runs of contacts by pair.
 #include "touching.hpp"
 
 #include "error.hpp"
@@ -7,9 +7,23 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace vox {
+
+namespace {
+
+// Counts, sums, places: `from` stably sorted by the slot of mesh(directed[i]).
+template <class MeshOf>
+void sort_by_slot(const std::pmr::vector<TouchingBuffers::Directed>& directed, MeshOf mesh, std::size_t slots,
+                  const std::pmr::vector<std::uint32_t>& from, std::pmr::vector<std::uint32_t>& to,
+                  std::pmr::vector<std::uint32_t>& place) {
+    place.assign(slots, 0);
+    for (const TouchingBuffers::Directed& d : directed) ++place[slot_of(mesh(d))];
+    std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
+    for (const std::uint32_t i : from) to[place[slot_of(mesh(directed[i]))]++] = i;
+}
+
+} // namespace
 
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
                    Touching& out) {
@@ -37,24 +51,24 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
         runs.push_back({index, first, end - first});
     }
 
-    // Both directions of a pair after each other.
+    // Both directions of a pair after each other: mesh_a ascends in `directed`, and sorting is stable.
     buffers.order.resize(directed.size());
-    std::iota(buffers.order.begin(), buffers.order.end(), 0u);
-    const auto key = [&](std::uint32_t i) {
-        const Directed& d = directed[i];
-        return std::tuple(std::min(d.mesh_a, d.mesh_b), std::max(d.mesh_a, d.mesh_b), d.mesh_a);
-    };
-    std::sort(buffers.order.begin(), buffers.order.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+    buffers.scratch.resize(directed.size());
+    std::iota(buffers.scratch.begin(), buffers.scratch.end(), 0u);
+    const auto low = [](const Directed& d) { return std::min(d.mesh_a, d.mesh_b); };
+    const auto high = [](const Directed& d) { return std::max(d.mesh_a, d.mesh_b); };
+    sort_by_slot(directed, high, slots, buffers.scratch, buffers.order, buffers.place);
+    buffers.scratch.swap(buffers.order);
+    sort_by_slot(directed, low, slots, buffers.scratch, buffers.order, buffers.place);
     out.pairs.clear();
     std::uint32_t placed = 0;
     for (const std::uint32_t i : buffers.order) {
         Directed& d = directed[i];
         d.next = placed;
-        const auto [a, b, vertices_of] = key(i);
+        const vox_mesh a = low(d), b = high(d);
         if (out.pairs.empty() || out.pairs.back().mesh_a != a || out.pairs.back().mesh_b != b)
             out.pairs.push_back({a, b, 0, 0, placed, 0, 0});
-        (vertices_of == a ? out.pairs.back().a_in_b : out.pairs.back().b_in_a) = d.count;
+        (d.mesh_a == a ? out.pairs.back().a_in_b : out.pairs.back().b_in_a) = d.count;
         placed += d.count;
     }
     out.contacts.resize(contacts.size());

@@ -13,7 +13,8 @@ namespace vox {
 // Buffers kept from step to step.
 struct TouchingBuffers {
     explicit TouchingBuffers(std::pmr::memory_resource* memory)
-        : runs(memory), directed(memory), order(memory), last_of_slot(memory) {}
+        : runs(memory), directed(memory), order(memory), scratch(memory), place(memory),
+          last_of_slot(memory) {}
 
     // Contacts that follow each other with the same mesh_a and mesh_b.
     struct Run {
@@ -27,7 +28,8 @@ struct TouchingBuffers {
     };
     std::pmr::vector<Run> runs;
     std::pmr::vector<Directed> directed;
-    std::pmr::vector<std::uint32_t> order;        // of `directed`, sorted by pair
+    std::pmr::vector<std::uint32_t> order, scratch; // of `directed`, sorted by pair
+    std::pmr::vector<std::uint32_t> place;
     std::pmr::vector<std::uint32_t> last_of_slot; // the last of `directed` with mesh_b in that slot
 };
 
