@@ -4,6 +4,7 @@
 #include "failure.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "snapshot_file.hpp"
 #include "stepping.hpp"
 
 #include <cstdio>
@@ -21,12 +22,9 @@ struct Options {
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
+    std::string save;
     bool json = false;
 };
-
-const Choices<vox_storage> storages = {
-    {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
-const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
 
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
 
@@ -75,6 +73,7 @@ void run(const Options& options) {
     std::vector<vox_mesh> ids;
     const Grid grid = make_grid(options.grid, bodies, options.self, ids);
     const vox_profile profile = measure_steps(grid.get(), ids, options.repeat);
+    if (!options.save.empty()) save_snapshot(grid.get(), options.save);
     if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
     Json json = {{"meshes", body_list(bodies)}};
     add_collision(json, grid.get(), ids, profile);
@@ -106,6 +105,8 @@ void add_collide(CLI::App& app) {
     command->add_option("--repeat", options->repeat, "Steps to time, after one to warm up")
         ->check(CLI::Range(1u, 1000000u));
     command->add_option("--limit", options->limit, "Contacts to print as text");
+    command->add_option("--save", options->save, "Snapshot of the grid to write, for vox replay")
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
 }

@@ -9,6 +9,8 @@ void add_info(CLI::App& app);
 void add_suggest(CLI::App& app);
 void add_collide(CLI::App& app);
 void add_demo(CLI::App& app);
+void add_replay(CLI::App& app);
 void add_tetrahedralize(CLI::App& app);
+void add_sweep(CLI::App& app);
 
 } // namespace tool

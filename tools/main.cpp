@@ -44,6 +44,8 @@ int run(int argc, char** argv) {
     tool::add_info(app);
     tool::add_suggest(app);
     tool::add_collide(app);
+    tool::add_replay(app);
+    tool::add_sweep(app);
     tool::add_tetrahedralize(app);
     try {
         app.parse(arguments_of(argc, argv)); // runs the command, too

@@ -24,6 +24,9 @@ inline const Choices<vox_engine> engines = {
     {"fast", VOX_ENGINE_FAST},
     {"reference", VOX_ENGINE_REFERENCE},
 };
+inline const Choices<vox_storage> storages = {
+    {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
+inline const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
 
 template <class Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& flag, Value& value, const Choices<Value>& choices,

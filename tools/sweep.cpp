@@ -1,0 +1,464 @@
+// vox sweep: the paper's experiment (Sect. 5), time of detection against cell size on two bodies in contact.
+#include "body.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "stepping.hpp"
+#include "sweep_log.hpp"
+#include "terminal.hpp"
+
+#include <vox/vox_sim.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::string a, b;
+    Fill fill;
+    vox_experiment_desc experiment = vox_default_experiment_desc();
+    std::vector<double> axis = {1, 0, 0};
+    bool as_placed = false;
+    vox_grid_desc grid = vox_default_grid_desc();
+    double world = 0;
+    std::vector<double> cell_sizes, cells_per_axis;
+    std::uint32_t count = 24;
+    std::uint32_t rounds = 7;
+    std::uint64_t seed = 1;
+    std::string csv, resume;
+    bool json = false;
+};
+
+const Choices<vox_engine> engine_choices = {{"reference", VOX_ENGINE_REFERENCE}, {"fast", VOX_ENGINE_FAST}};
+
+struct ExperimentDeleter {
+    void operator()(vox_experiment* experiment) const noexcept { vox_experiment_destroy(experiment); }
+};
+using Experiment = std::unique_ptr<vox_experiment, ExperimentDeleter>;
+
+vox_sim_body_desc sim_body(const Body& body) {
+    vox_sim_body_desc desc = vox_default_sim_body_desc();
+    desc.positions = body.view.positions;
+    desc.vertex_count = body.view.vertex_count;
+    desc.tets = body.view.tets;
+    desc.tet_count = body.view.tet_count;
+    return desc;
+}
+
+Experiment make_experiment(const Options& options, const Body& a, const Body& b) {
+    const vox_sim_body_desc bodies[2] = {sim_body(a), sim_body(b)};
+    vox_experiment_desc desc = options.experiment;
+    desc.a = &bodies[0];
+    desc.b = &bodies[1];
+    desc.grid = &options.grid;
+    std::copy(options.axis.begin(), options.axis.end(), desc.axis);
+    desc.turn = options.as_placed ? 0 : 1;
+    vox_experiment* created = nullptr;
+    check(vox_experiment_create(&desc, &created));
+    return Experiment(created);
+}
+
+// ---- cell sizes and samples -------------------------------------------------------------------------
+
+struct Size {
+    std::string rule; // that gives it; "" for one of the range
+    double cell_size;
+    std::optional<double> time;          // in nanoseconds
+    std::vector<double> rounds;          // mean over the frames, of each round
+    const SweepSample* sample = nullptr; // of the first round: what was counted
+};
+
+// From small to large, evenly in the logarithm, with the rules' own sizes at the end.
+std::vector<Size> choose_sizes(const Options& options, const vox_suggestion& suggestion, double world) {
+    std::array<double, 2> range = {0.5 * suggestion.rules.mean_edge, 4 * suggestion.rules.mean_edge};
+    if (!options.cell_sizes.empty()) range = {options.cell_sizes[0], options.cell_sizes[1]};
+    if (!options.cells_per_axis.empty())
+        range = {world / options.cells_per_axis[1], world / options.cells_per_axis[0]};
+    std::vector<Size> sizes;
+    for (std::uint32_t i = 0; i < options.count; ++i) {
+        const double cell_size =
+            i + 1 == options.count
+                ? range[1]
+                : range[0] * std::pow(range[1] / range[0], double(i) / (options.count - 1));
+        sizes.push_back({"", cell_size, {}, {}});
+    }
+    const vox_cell_size_rules& rules = suggestion.rules;
+    for (const auto& [name, cell_size] :
+         {std::pair("suggestion", suggestion.cell_size), std::pair("traditional", rules.mean_edge),
+          std::pair("mean_edge_multiple", rules.mean_edge_multiple),
+          std::pair("object_512", rules.object_512), std::pair("mean_volume", rules.mean_volume),
+          std::pair("median_box_side", rules.median_box_side)})
+        if (cell_size > 0) sizes.push_back({name, cell_size, {}, {}});
+    return sizes;
+}
+
+// A rule that is far off would take the time of all others together, and its regret says enough without
+// digits.
+bool worth_measuring(const Size& size, const vox_suggestion& suggestion) {
+    constexpr double far = 6;
+    return size.rule.empty() ||
+           (size.cell_size > suggestion.cell_size / far && size.cell_size < suggestion.cell_size * far);
+}
+
+std::string remaining(std::chrono::duration<double> seconds) {
+    char text[32];
+    const long long whole = std::llround(std::ceil(seconds.count()));
+    std::snprintf(text, sizeof text, "%lld:%02lld left", whole / 60, whole % 60);
+    return text;
+}
+
+void measure(const Options& options, vox_experiment* experiment, const vox_suggestion& suggestion,
+             SweepLog& log, const std::vector<Size>& sizes) {
+    Progress progress;
+    const auto begin = std::chrono::steady_clock::now();
+    const std::size_t total = sizes.size() * options.rounds;
+    std::size_t done = 0, measured = 0;
+    std::vector<std::uint64_t> order(sizes.size());
+    for (std::uint32_t round = 0; round < options.rounds; ++round) {
+        check(vox_experiment_order(order.size(), options.seed, round, order.data()));
+        for (const std::uint64_t i : order) {
+            const Size& size = sizes[i];
+            ++done;
+            if (log.find(size.cell_size, round) || !worth_measuring(size, suggestion)) continue;
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+            const double share = double(done) / double(total);
+            progress.show(
+                bar(share, 24) + " sample " + std::to_string(done) + " of " + std::to_string(total) +
+                (measured == 0 ? ""
+                               : ", " + remaining(passed / double(measured) * double(total - done + 1))));
+            SweepSample sample;
+            sample.name = size.rule;
+            sample.cell_size = size.cell_size;
+            sample.round = round;
+            sample.frame_ns.resize(options.experiment.frames);
+            vox_experiment_sample found{};
+            found.struct_size = sizeof found;
+            check(vox_experiment_measure(experiment, size.cell_size, sample.frame_ns.data(), &found));
+            sample.contacts = found.contacts;
+            sample.visited_cells = found.visited_cells;
+            sample.visited_entries = found.visited_entries;
+            sample.candidates = found.candidates;
+            log.add(sample);
+            ++measured;
+        }
+    }
+}
+
+void collect(const Options& options, const SweepLog& log, std::vector<Size>& sizes) {
+    const std::size_t frames = options.experiment.frames;
+    for (Size& size : sizes) {
+        std::vector<std::uint64_t> times;
+        for (std::uint32_t round = 0; round < options.rounds; ++round) {
+            const SweepSample* sample = log.find(size.cell_size, round);
+            if (!sample) break; // not worth measuring
+            if (round == 0) size.sample = sample;
+            double mean = 0;
+            for (const std::uint64_t ns : sample->frame_ns) mean += double(ns) / double(frames);
+            size.rounds.push_back(mean);
+            times.insert(times.end(), sample->frame_ns.begin(), sample->frame_ns.end());
+        }
+        if (times.empty()) continue;
+        double time = 0;
+        check(vox_experiment_time(times.data(), options.rounds, frames, &time));
+        size.time = time;
+    }
+    std::stable_sort(sizes.begin(), sizes.end(),
+                     [](const Size& x, const Size& y) { return x.cell_size < y.cell_size; });
+}
+
+// ---- evaluation -------------------------------------------------------------------------------------
+
+struct Zone {
+    double limit; // time
+    double min, max;
+};
+
+struct Evaluation {
+    vox_time_fit fit{};
+    Zone one_millisecond{}, five_percent{};
+    double least_time = HUGE_VAL; // of all that were measured
+};
+
+Evaluation evaluate(const std::vector<Size>& sizes, double range_min, double range_max) {
+    Evaluation result;
+    std::vector<double> cell_sizes, times;
+    for (const Size& size : sizes) {
+        if (!size.time) continue;
+        result.least_time = std::min(result.least_time, *size.time);
+        if (size.cell_size < range_min || size.cell_size > range_max) continue;
+        cell_sizes.push_back(size.cell_size);
+        times.push_back(*size.time);
+    }
+    result.fit.struct_size = sizeof result.fit;
+    check(vox_fit_times(cell_sizes.data(), times.data(), times.size(), &result.fit));
+    for (auto [zone, limit] : {std::pair(&result.one_millisecond, result.fit.time + 1e6),
+                               std::pair(&result.five_percent, result.fit.time * 1.05)}) {
+        zone->limit = limit;
+        check(vox_fit_zone(&result.fit, limit, &zone->min, &zone->max));
+    }
+    return result;
+}
+
+std::optional<double> fitted_time(const vox_time_fit& fit, double cell_size) {
+    if (cell_size < fit.range_min || cell_size > fit.range_max) return {};
+    double time = 0;
+    check(vox_fit_time_at(&fit, cell_size, &time));
+    return time;
+}
+
+// Eq. 9, in cells per axis.
+double epsilon(double cell_size, const Evaluation& found, const Zone& zone, double world) {
+    double result = 0;
+    check(vox_zone_distance(world / cell_size, world / zone.max, world / found.fit.cell_size,
+                            world / zone.min, &result));
+    return result;
+}
+
+std::optional<double> regret(std::optional<double> time, double best) {
+    if (!time) return {};
+    return *time / best - 1;
+}
+
+// ---- output -----------------------------------------------------------------------------------------
+
+struct Sweep {
+    const Options& options;
+    const std::vector<Body>& bodies;
+    vox_experiment_facts facts;
+    vox_suggestion suggestion;
+    double world;
+    std::vector<Size> sizes;
+    Evaluation found;
+};
+
+Json size_json(double cell_size, double world) {
+    return {{"cell_size", number(cell_size)}, {"cells_per_axis", number(world / cell_size)}};
+}
+
+Json zone_json(const Zone& zone, double world) {
+    return {{"limit_ns", number(zone.limit)},
+            {"min", number(zone.min)},
+            {"max", number(zone.max)},
+            {"n_min", number(world / zone.max)},
+            {"n_max", number(world / zone.min)}};
+}
+
+Json sample_json(const Size& size, const Sweep& sweep) {
+    Json json = size_json(size.cell_size, sweep.world);
+    json["rule"] = size.rule.empty() ? Json(nullptr) : Json(size.rule);
+    json["time_ns"] = number(size.time);
+    json["fitted_ns"] = number(fitted_time(sweep.found.fit, size.cell_size));
+    json["rounds_ns"] = size.rounds;
+    json["contacts"] = size.sample->contacts;
+    json["visited_cells"] = size.sample->visited_cells;
+    json["visited_entries"] = size.sample->visited_entries;
+    json["candidates"] = size.sample->candidates;
+    return json;
+}
+
+Json fit_json(const vox_time_fit& fit) {
+    Json coefficients = Json::array();
+    for (std::uint32_t k = 0; k <= fit.degree; ++k) coefficients.push_back(number(fit.coefficients[k]));
+    return {{"degree", fit.degree},
+            {"coefficients", std::move(coefficients)},
+            {"range", {{"min", number(fit.range_min)}, {"max", number(fit.range_max)}}},
+            {"r_squared", number(fit.r_squared)},
+            {"prediction_error", number(fit.prediction_error)},
+            {"bracketed", fit.bracketed != 0}};
+}
+
+std::string hexadecimal(std::uint64_t value) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+void print_json(const Sweep& sweep) {
+    const vox_experiment_facts& facts = sweep.facts;
+    const Evaluation& found = sweep.found;
+    Json json = {{"meshes", body_list(sweep.bodies)}};
+    json["tets"] = facts.tets;
+    json["distance"] = number(facts.distance);
+    json["frames"] = facts.frames;
+    json["rounds"] = sweep.options.rounds;
+    json["contacts"] = facts.contacts;
+    json["contact_share"] = {{"wanted", number(sweep.options.experiment.contact_share)},
+                             {"mean", number(facts.mean_share)},
+                             {"frames", std::vector<double>(facts.shares, facts.shares + facts.frames)}};
+    json["hash"] = hexadecimal(facts.hash);
+    json["world"] = number(sweep.world);
+    Json samples = Json::array();
+    for (const Size& size : sweep.sizes)
+        if (size.time) samples.push_back(sample_json(size, sweep));
+    json["samples"] = std::move(samples);
+    json["fit"] = fit_json(found.fit);
+    json["optimum"] = size_json(found.fit.cell_size, sweep.world);
+    json["optimum"]["time_ns"] = number(found.fit.time);
+    json["zone"] = zone_json(found.one_millisecond, sweep.world);
+    json["zone_5_percent"] = zone_json(found.five_percent, sweep.world);
+    Json epsilon_ms, epsilon_percent, measured, fitted, rules;
+    for (const Size& size : sweep.sizes) {
+        if (size.rule.empty()) continue;
+        Json rule = size_json(size.cell_size, sweep.world);
+        rule["time_ns"] = number(size.time);
+        if (size.rule == "suggestion" || size.rule == "traditional") json[size.rule] = rule;
+        rules[size.rule] = std::move(rule);
+        epsilon_ms[size.rule] = number(epsilon(size.cell_size, found, found.one_millisecond, sweep.world));
+        epsilon_percent[size.rule] = number(epsilon(size.cell_size, found, found.five_percent, sweep.world));
+        measured[size.rule] = number(regret(size.time, found.least_time));
+        fitted[size.rule] = number(regret(fitted_time(found.fit, size.cell_size), found.fit.time));
+    }
+    json["rules"] = std::move(rules);
+    json["epsilon"] = std::move(epsilon_ms);
+    json["epsilon_5_percent"] = std::move(epsilon_percent);
+    json["regret"] = std::move(measured);
+    json["regret_fitted"] = std::move(fitted);
+    Json predicted;
+    add_suggestion(predicted, sweep.suggestion);
+    json["predicted"] = {{"stats", predicted["stats"]}, {"curve", predicted["curve"]}};
+    print(json);
+}
+
+void print_text(const Sweep& sweep) {
+    const Evaluation& found = sweep.found;
+    const double mean_edge = sweep.suggestion.rules.mean_edge;
+    std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
+                sweep.bodies.front().name.c_str(), sweep.bodies.back().name.c_str(),
+                static_cast<unsigned long long>(sweep.facts.tets), 100 * sweep.facts.mean_share,
+                sweep.facts.frames);
+    std::printf("  %12s %8s %8s %11s\n", "cell size", "edges", "n", "time (ms)");
+    double most = 0;
+    for (const Size& size : sweep.sizes) most = std::max(most, size.time.value_or(0));
+    for (const Size& size : sweep.sizes)
+        if (size.time)
+            std::printf("  %12.6g %8.3f %8.2f %11.4f  %s%s%s\n", size.cell_size, size.cell_size / mean_edge,
+                        sweep.world / size.cell_size, *size.time * 1e-6, bar(*size.time / most, 24).c_str(),
+                        size.rule.empty() ? "" : " ", size.rule.c_str());
+    std::printf("\nFit: polynomial of degree %u in the logarithms, predicts a time left out to %.1f %%.\n",
+                found.fit.degree, 100 * found.fit.prediction_error);
+    std::printf("Best cell size %.6g, %.2f mean edges, n = %.2f: %.4f ms%s.\n", found.fit.cell_size,
+                found.fit.cell_size / mean_edge, sweep.world / found.fit.cell_size, found.fit.time * 1e-6,
+                found.fit.bracketed ? "" : " (at the end of the range: measure a wider one)");
+    for (const auto& [words, zone] :
+         {std::pair("1 ms above it", &found.one_millisecond), std::pair("5 % above it", &found.five_percent)})
+        std::printf("At most %s: n = %.2f to %.2f.\n", words, sweep.world / zone->max,
+                    sweep.world / zone->min);
+    std::printf("\n  %-20s %8s %8s %11s %13s %12s\n", "rule", "edges", "n", "regret", "epsilon 1 ms", "5 %");
+    for (const Size& size : sweep.sizes) {
+        if (size.rule.empty()) continue;
+        char percent[32] = "not measured";
+        if (size.time)
+            std::snprintf(percent, sizeof percent, "%+.1f %%", 100 * (*size.time / found.least_time - 1));
+        std::printf("  %-20s %8.3f %8.2f %11s %13.3f %12.3f\n", size.rule.c_str(), size.cell_size / mean_edge,
+                    sweep.world / size.cell_size, percent,
+                    epsilon(size.cell_size, found, found.one_millisecond, sweep.world),
+                    epsilon(size.cell_size, found, found.five_percent, sweep.world));
+    }
+}
+
+// ---- the command ------------------------------------------------------------------------------------
+
+std::string engine_name(const vox_grid_desc& grid) {
+    return std::string(grid.engine == VOX_ENGINE_FAST ? "fast" : "reference") + "/" +
+           std::to_string(static_cast<int>(grid.storage)) + "/" +
+           std::to_string(static_cast<int>(grid.hash)) + "/" + std::to_string(grid.worker_count);
+}
+
+void check_usage(const Options& options) {
+    const auto check_range = [](const std::vector<double>& range, const char* name) {
+        if (!range.empty() && !(range[0] < range[1]))
+            wrong_usage(std::string(name) + ": expected two numbers in ascending order");
+    };
+    check_range(options.cell_sizes, "--cell-sizes");
+    check_range(options.cells_per_axis, "--cells-per-axis");
+    if (options.axis[0] == 0 && options.axis[1] == 0 && options.axis[2] == 0)
+        wrong_usage("--axis: expected a direction, found 0 0 0");
+}
+
+void run(const Options& options) {
+    check_usage(options);
+    std::vector<Body> bodies;
+    bodies.push_back(load_body(options.a, {}, options.fill));
+    bodies.push_back(load_body(options.b.empty() ? options.a : options.b, {}, options.fill));
+    const Experiment experiment = make_experiment(options, bodies[0], bodies[1]);
+
+    Sweep sweep{options, bodies, {}, {}, options.world, {}, {}};
+    sweep.facts.struct_size = sizeof sweep.facts;
+    check(vox_experiment_get(experiment.get(), &sweep.facts));
+    vox_suggest_desc paper = vox_default_suggest_desc();
+    paper.model = VOX_COST_MODEL_PAPER;
+    sweep.suggestion.struct_size = sizeof sweep.suggestion;
+    check(vox_experiment_suggest(experiment.get(), &paper, &sweep.suggestion));
+    if (!(sweep.world > 0))
+        for (int axis = 0; axis < 3; ++axis)
+            sweep.world = std::max(sweep.world, sweep.facts.bounds_max[axis] - sweep.facts.bounds_min[axis]);
+
+    sweep.sizes = choose_sizes(options, sweep.suggestion, sweep.world);
+    const double range_min = sweep.sizes.front().cell_size,
+                 range_max = sweep.sizes[options.count - 1].cell_size;
+    const std::string name = hexadecimal(sweep.facts.hash) + "/" + engine_name(options.grid);
+    const std::string& path = options.resume.empty() ? options.csv : options.resume;
+    SweepLog log;
+    if (!path.empty()) log = SweepLog(path, name, options.experiment.frames, !options.resume.empty());
+    measure(options, experiment.get(), sweep.suggestion, log, sweep.sizes);
+    collect(options, log, sweep.sizes);
+    sweep.found = evaluate(sweep.sizes, range_min, range_max);
+    options.json ? print_json(sweep) : print_text(sweep);
+}
+
+} // namespace
+
+void add_sweep(CLI::App& app) {
+    const auto options = std::make_shared<Options>();
+    options->grid.engine = VOX_ENGINE_REFERENCE;
+    CLI::App* command =
+        app.add_subcommand("sweep", "Time of detection against cell size: the paper's experiment");
+    command->add_option("A", options->a, "Mesh file")->required();
+    command->add_option("B", options->b, "Second mesh file; without it, A again");
+    add_fill(*command, options->fill);
+    command->add_option("--axis", options->axis, "B comes along X Y Z")
+        ->expected(3)
+        ->type_name("FLOAT")
+        ->check(finite());
+    command->add_option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
+        ->check(
+            number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1"));
+    command->add_flag("--as-placed", options->as_placed, "Do not turn the bodies");
+    command->add_option("--frames", options->experiment.frames, "Detections in a sample")
+        ->check(CLI::Range(1u, 1000u));
+    command->add_option("--time-step", options->experiment.time_step, "Time of a frame")->check(positive());
+    add_choice(*command, "--engine", options->grid.engine, engine_choices, "Algorithm");
+    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
+    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
+    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
+        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    command
+        ->add_option("--world", options->world,
+                     "Edge of the cubic world, for the cells per axis; 0: longest side")
+        ->check(not_negative());
+    CLI::Option* sizes =
+        command->add_option("--cell-sizes", options->cell_sizes, "Range of cell sizes, MIN MAX");
+    CLI::Option* cells = command->add_option("--cells-per-axis", options->cells_per_axis,
+                                             "The same in cells per axis, MIN MAX");
+    for (CLI::Option* range : {sizes, cells}) range->expected(2)->type_name("FLOAT")->check(positive());
+    sizes->excludes(cells);
+    command->add_option("--count", options->count, "Cell sizes in the range")->check(CLI::Range(5u, 10000u));
+    command->add_option("--rounds", options->rounds, "Samples of each cell size")
+        ->check(CLI::Range(1u, 10000u));
+    command->add_option("--seed", options->seed, "Of the order of the samples");
+    CLI::Option* csv = command->add_option("--csv", options->csv, "Write each sample to a file");
+    command->add_option("--resume", options->resume, "The same, but go on with the file where it exists")
+        ->excludes(csv);
+    command->add_flag("--json", options->json, "Print one JSON object");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace tool
