@@ -31,7 +31,9 @@ typedef struct vox_sim vox_sim;
 
 typedef struct vox_sim_desc {
     uint32_t struct_size;
-    uint32_t substeps; /* of a step, 1 to 10000; default 10. More make bodies stiffer and contacts firmer */
+    /* Of a step, 1 to 10000; default 10. The stiffness that a body can have goes with their square, and with that of
+     * the length of its edges; what is above it is cut down to it, with a log line. */
+    uint32_t substeps;
     /* Detections: before the first substep of a step and after every `detect_every` substeps of it. 1 (the default):
      * in every substep; the number of substeps or more: once a step. 0: never, bodies pass through each other. */
     uint32_t detect_every;
@@ -105,7 +107,7 @@ typedef struct vox_sim_body_desc {
      * its edges ran in all directions alike. >= 0, default 1e6. */
     double youngs_modulus;
     double bulk_modulus; /* resistance to change of volume, beyond that of the edges; >= 0, default 1e6 */
-    double damping;      /* time: stress has a part of modulus * damping * rate of strain; >= 0, default 0.001 */
+    double damping;      /* time: edges resist the rate of their strain as the strain, times this; >= 0, default 0.001 */
     uint64_t user_data;  /* given back by vox_mesh_user_data on the sim's grid */
 } vox_sim_body_desc;
 
@@ -178,6 +180,7 @@ typedef struct vox_sim_counts {
     uint64_t flat_tets;     /* of zero rest volume */
     uint64_t inverted_tets; /* of negative rest volume */
     uint64_t raised_masses; /* vertices that would have been lighter than a hundredth of the body's mean */
+    uint64_t softened;      /* constraints stiffer than the last step's substeps can answer, made softer */
     uint64_t steps;         /* so far, as are the following */
     uint64_t substeps;
     uint64_t detections;
@@ -290,9 +293,10 @@ VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cel
  * Errors: INVALID_ARGUMENT (count 0). */
 VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round, uint64_t* out_order);
 
-/* The time of one cell size from its rounds: for each frame the median over the rounds, of these the mean. frame_ns
- * holds `frames` times a round, round after round. Every round does the same work in the same frame, so that a round
- * that was disturbed for some frames loses these and no more. Errors: INVALID_ARGUMENT (no round, no frame). */
+/* The time of one cell size from its rounds: for each frame the least of the rounds, of these the mean. frame_ns holds
+ * `frames` times a round, round after round. Every round does the same work in the same frame, and what disturbs a
+ * machine only adds to the time: so the least is nearest to the time of the work alone, as long as one round in each
+ * frame was left in peace; a median needs half of them. Errors: INVALID_ARGUMENT (no round, no frame). */
 VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
 
 #define VOX_FIT_CAPACITY 9u
