@@ -23,6 +23,7 @@ namespace {
 
 struct Options {
     std::string a, b;
+    std::uint64_t ball = 0; // in place of files
     Fill fill;
     vox_experiment_desc experiment = vox_default_experiment_desc();
     std::vector<double> axis = {1, 0, 0};
@@ -43,6 +44,13 @@ struct ExperimentDeleter {
     void operator()(vox_experiment* experiment) const noexcept { vox_experiment_destroy(experiment); }
 };
 using Experiment = std::unique_ptr<vox_experiment, ExperimentDeleter>;
+
+// One of the paper's spheres.
+Body make_ball(std::uint64_t tets) {
+    vox_io_mesh* mesh = nullptr;
+    check(vox_io_make_lattice_ball(tets, 1, &mesh));
+    return own_body("ball of " + std::to_string(tets) + " tetrahedra", mesh);
+}
 
 vox_sim_body_desc sim_body(const Body& body) {
     vox_sim_body_desc desc = vox_default_sim_body_desc();
@@ -285,6 +293,7 @@ void print_json(const Sweep& sweep) {
     const vox_experiment_facts& facts = sweep.facts;
     const Evaluation& found = sweep.found;
     Json json = {{"meshes", body_list(sweep.bodies)}};
+    json["engine"] = sweep.options.grid.engine == VOX_ENGINE_FAST ? "fast" : "reference";
     json["tets"] = facts.tets;
     json["distance"] = number(facts.distance);
     json["frames"] = facts.frames;
@@ -377,6 +386,7 @@ void check_usage(const Options& options) {
         if (!range.empty() && !(range[0] < range[1]))
             wrong_usage(std::string(name) + ": expected two numbers in ascending order");
     };
+    if (options.a.empty() == (options.ball == 0)) wrong_usage("sweep needs a mesh file, or --ball");
     check_range(options.cell_sizes, "--cell-sizes");
     check_range(options.cells_per_axis, "--cells-per-axis");
     if (options.axis[0] == 0 && options.axis[1] == 0 && options.axis[2] == 0)
@@ -386,8 +396,8 @@ void check_usage(const Options& options) {
 void run(const Options& options) {
     check_usage(options);
     std::vector<Body> bodies;
-    bodies.push_back(load_body(options.a, {}, options.fill));
-    bodies.push_back(load_body(options.b.empty() ? options.a : options.b, {}, options.fill));
+    for (const std::string& file : {options.a, options.b.empty() ? options.a : options.b})
+        bodies.push_back(options.ball > 0 ? make_ball(options.ball) : load_body(file, {}, options.fill));
     const Experiment experiment = make_experiment(options, bodies[0], bodies[1]);
 
     Sweep sweep{options, bodies, {}, {}, options.world, {}, {}};
@@ -421,7 +431,7 @@ void add_sweep(CLI::App& app) {
     options->grid.engine = VOX_ENGINE_REFERENCE;
     CLI::App* command =
         app.add_subcommand("sweep", "Time of detection against cell size: the paper's experiment");
-    command->add_option("A", options->a, "Mesh file")->required();
+    command->add_option("A", options->a, "Mesh file");
     command->add_option("B", options->b, "Second mesh file; without it, A again");
     add_fill(*command, options->fill);
     command->add_option("--axis", options->axis, "B comes along X Y Z")
