@@ -1,7 +1,11 @@
 // The C border of vox.h's cell-size section.
 
 #include "border.hpp"
+#include "cost/calibrate.hpp"
+#include "cost/minimise.hpp"
+#include "cost/weights.hpp"
 #include "geometry.hpp"
+#include "grid.hpp"
 #include "mesh_check.hpp"
 #include "structs.hpp"
 #include "suggest.hpp"
@@ -15,14 +19,22 @@ using namespace vox;
 
 namespace {
 
+constexpr double default_zone_loss = 0.05;
+
 vox_suggest_desc suggest_defaults() {
     vox_suggest_desc desc{};
     desc.struct_size = sizeof desc;
     desc.p_nc = 0.99;
     desc.cost_ratio = 5;
-    desc.zone_loss = 0.05;
+    desc.zone_loss = default_zone_loss;
     desc.mean_edge_factor = 2;
     return desc;
+}
+
+vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
+    vox_suggest_desc settings = desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
+    check_suggest_desc(settings);
+    return settings;
 }
 
 // The caller's array: its elements are as far apart as the caller's own vox_mesh_desc is large.
@@ -57,6 +69,74 @@ std::vector<Body> read_bodies(const vox_mesh_desc* meshes, std::uint64_t count) 
     return bodies;
 }
 
+// Bodies with what the model of the fast engine needs of them.
+class Scene {
+public:
+    Scene(vox_cost_model model, std::vector<Body> bodies)
+        : bodies_(std::move(bodies)), geometry_(measure(bodies_)) {
+        if (model != VOX_COST_MODEL_FAST) return;
+        tiles_.reserve(bodies_.size());
+        for (const Body& body : bodies_) {
+            tiles_.emplace_back(std::pmr::get_default_resource());
+            fast::make_tiles(body.tets, body.vertex_count, body.positions, tiles_.back());
+        }
+        for (const fast::Tiles& tiles : tiles_) views_.push_back(&tiles);
+    }
+
+    const Geometry& geometry() const noexcept { return geometry_; }
+    SuggestScene view() const noexcept { return {bodies_, views_}; }
+
+private:
+    std::vector<Body> bodies_;
+    Geometry geometry_;
+    std::vector<fast::Tiles> tiles_;
+    std::vector<const fast::Tiles*> views_;
+};
+
+// ---- cost functions of others ---------------------------------------------------------------------
+
+vox_cost_bounds bounds_defaults() {
+    vox_cost_bounds bounds{};
+    bounds.struct_size = sizeof bounds;
+    bounds.zone_loss = default_zone_loss;
+    return bounds;
+}
+
+vox_cost_minimum minimise_within(const CostFunction& cost, const vox_cost_bounds* given) {
+    const vox_cost_bounds bounds = read_struct(given, bounds_defaults(), "bounds");
+    if (!(bounds.min > 0 && bounds.min <= bounds.max && std::isfinite(bounds.max)))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("bounds are %g to %g, expected 0 < min <= max", bounds.min, bounds.max));
+    if (!(bounds.zone_loss >= 0 && bounds.zone_loss <= 1e6))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("bounds zone_loss is %g, expected a number from 0 to 1e6", bounds.zone_loss));
+    if (bounds.reserved != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("bounds reserved is %u, expected 0", bounds.reserved));
+    const CellSizeRange range{bounds.min, bounds.max};
+    const CostMinimum best = minimise(cost, range);
+    if (!std::isfinite(best.cost))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("no finite cost for a cell size from %g to %g", bounds.min, bounds.max));
+    if (best.cost < 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("the cost is %g at cell size %g, expected none below 0", best.cost, best.cell_size));
+    vox_cost_minimum result{};
+    result.cell_size = best.cell_size;
+    result.cost = best.cost;
+    const Zone zone = zone_around(best, (1 + bounds.zone_loss) * best.cost, cost, range);
+    result.zone_min = zone.min;
+    result.zone_max = zone.max;
+    result.curve_count = VOX_COST_CURVE_CAPACITY;
+    for (std::uint32_t i = 0; i < result.curve_count; ++i) {
+        const double part = static_cast<double>(i) / (result.curve_count - 1);
+        const double at = i == 0                          ? bounds.min
+                          : i == result.curve_count - 1 ? bounds.max
+                                                          : bounds.min * std::pow(bounds.max / bounds.min, part);
+        result.curve[i] = {at, cost(at)};
+    }
+    return result;
+}
+
 void check_cells(double cells, const char* name) {
     if (!(cells > 0) || !std::isfinite(cells))
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %.9g, expected a number above 0", name, cells));
@@ -80,10 +160,99 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
                                  uint64_t mesh_count, vox_suggestion* out) {
     return border([&] {
         check_out_struct(out, "out");
-        const vox_suggest_desc settings =
-            desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
-        check_suggest_desc(settings);
-        write_struct(out, suggest(settings, measure(read_bodies(meshes, mesh_count))), "out");
+        const vox_suggest_desc settings = read_suggest_desc(desc);
+        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        write_struct(out,
+                     suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
+                             std::pmr::get_default_resource()),
+                     "out");
+    });
+}
+
+vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc, vox_suggestion* out) {
+    return border([&] {
+        require(grid, "grid");
+        check_out_struct(out, "out");
+        vox_suggest_desc settings = read_suggest_desc(desc);
+        if (!desc) grid->describe(settings);
+        const double p_nc = grid->share_without_contact();
+        if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
+        const Scene scene(settings.model, grid->bodies());
+        write_struct(out,
+                     suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
+                             std::pmr::get_default_resource()),
+                     "out");
+    });
+}
+
+vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uint64_t mesh_count,
+                            double cell_size, vox_cost_prediction* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        const vox_suggest_desc settings = read_suggest_desc(desc);
+        check_cells(cell_size, "cell_size");
+        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        const CostTerms terms = predict(settings, scene.geometry(), scene.view(), weights_in_use(), cell_size,
+                                        std::pmr::get_default_resource());
+        vox_cost_prediction prediction{};
+        prediction.cell_size = cell_size;
+        prediction.cost = terms.cost();
+        write_shares(terms, prediction.terms, prediction.term_count);
+        write_struct(out, prediction, "out");
+    });
+}
+
+vox_result vox_cost_calibrate(vox_cost_weights* out) {
+    return border([&] {
+        if (out) check_out_struct(out, "out");
+        use_weights(measured_weights());
+        if (out) write_struct(out, measured_weights(), "out");
+    });
+}
+
+vox_result vox_cost_get_weights(vox_cost_weights* out) {
+    return border([&] { write_struct(out, weights_in_use(), "out"); });
+}
+
+vox_result vox_cost_set_weights(const vox_cost_weights* weights) {
+    return border([&] {
+        vox_cost_weights read = shipped_weights();
+        if (weights) read = read_struct(weights, read, "vox_cost_weights");
+        check_weights(read);
+        read.struct_size = sizeof read;
+        use_weights(read);
+    });
+}
+
+vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size) {
+    return border([&] { init_struct(bounds, struct_size, bounds_defaults(), "vox_cost_bounds"); });
+}
+
+vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost_bounds* bounds,
+                             vox_cost_minimum* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");
+        write_struct(out, minimise_within([&](double cell_size) { return cost(cell_size, user); }, bounds), "out");
+    });
+}
+
+vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count, const vox_cost_bounds* bounds,
+                                   vox_cost_minimum* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        require(terms, "terms");
+        for (std::uint64_t i = 0; i < term_count; ++i)
+            if (!std::isfinite(terms[i].coefficient) || !std::isfinite(terms[i].power))
+                throw Error(VOX_ERROR_INVALID_ARGUMENT, format("term %" PRIu64 " is %g * size^%g", i,
+                                                               terms[i].coefficient, terms[i].power));
+        const auto sum = [&](double cell_size) {
+            double cost = 0;
+            for (std::uint64_t i = 0; i < term_count; ++i)
+                cost += terms[i].coefficient * std::pow(cell_size, terms[i].power);
+            return cost;
+        };
+        write_struct(out, minimise_within(sum, bounds), "out");
     });
 }
 

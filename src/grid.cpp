@@ -3,9 +3,8 @@
 #include "clock.hpp"
 #include "contacts.hpp"
 #include "error.hpp"
-#include "geometry.hpp"
 #include "ids.hpp"
-#include "suggest.hpp"
+#include "mesh_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +115,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     slots_[slot].generation += 1;
     vertex_count_ += view.vertex_count;
     tet_count_ += view.tets.size();
-    cell_size_is_stale_ = true;
+    adaptive_.scene_changed();
     return make_id(slot, slots_[slot].generation);
 }
 
@@ -174,7 +173,7 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     tet_count_ -= s.mesh.tet_count();
     s.mesh = Mesh(&memory_);
     s.live = false;
-    cell_size_is_stale_ = true;
+    adaptive_.scene_changed();
     // A slot whose generations are used up is retired, so that no old id comes to life again.
     if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
 }
@@ -227,7 +226,7 @@ void vox_grid::set_cell_size(double cell_size) {
                     format("cell_size is %g, expected a finite number >= 0", cell_size));
     cell_size_ = cell_size;
     choose_cell_size_ = cell_size == 0;
-    cell_size_is_stale_ = true;
+    adaptive_.restart();
     contacts_hold_ = false; // they do, but the next step should show what the cell size does
 }
 
@@ -290,6 +289,10 @@ void vox_grid::step() {
     }
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.size();
+    if (choose_cell_size_ && !fast_) {
+        adaptive_.observe(counters);
+        counters.cell_size_changes = adaptive_.changes();
+    }
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
@@ -359,16 +362,54 @@ void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
 }
 
 void vox_grid::choose_cell_size() {
-    if (!choose_cell_size_ || !cell_size_is_stale_) return;
-    const Geometry geometry = measure(bodies_, &memory_);
-    if (geometry.stats.mean_edge > 0 && geometry.stats.mean_facet_area > 0)
-        cell_size_ = suggest(vox_default_suggest_desc(), geometry).cell_size;
+    if (!choose_cell_size_) return;
+    for (const Body& body : bodies_) check_finite(body); // before the model looks at them
+    const double before = cell_size_;
+    cell_size_ = adaptive_.cell_size(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    if (cell_size_ == before) return;
+    const auto tets = static_cast<unsigned long long>(tet_count_);
+    write_log(VOX_LOG_INFO,
+              (before > 0 ? format("cell size %.9g after %.9g, for %llu tets in %zu meshes", cell_size_, before,
+                                   tets, bodies_.size())
+                          : format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_, tets,
+                                   bodies_.size()))
+                  .c_str());
+}
+
+// Most bytes for the cells of dense storage: the budget less what is held without them, and less what a first step
+// is about to take. 0: no limit.
+double vox_grid::byte_limit() const noexcept {
+    if (memory_.budget() == 0) return 0;
+    double held = static_cast<double>(memory_.bytes());
+    if (counters_.vertices == 0) // of positions, links and cells, and of boxes
+        held += 40 * static_cast<double>(vertex_count_) + 24 * static_cast<double>(tet_count_);
     else
-        cell_size_ = 1; // no tetrahedron of any size: nothing can touch, any cell will do
-    cell_size_is_stale_ = false;
-    write_log(VOX_LOG_INFO, format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_,
-                                   static_cast<unsigned long long>(tet_count_), bodies_.size())
-                                .c_str());
+        held -= static_cast<double>(reference_.cell_bytes());
+    return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
+}
+
+std::vector<Body> vox_grid::bodies() const {
+    std::vector<Body> bodies;
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+        const Slot& s = slots_[slot];
+        if (!s.live || !s.mesh.is_enabled()) continue;
+        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
+        if (!s.mesh.has_positions())
+            throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
+        bodies.push_back(s.mesh.body(id));
+    }
+    return bodies;
+}
+
+void vox_grid::describe(vox_suggest_desc& desc) const noexcept {
+    desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    desc.storage = settings_.storage;
+    desc.byte_budget = memory_.budget();
+}
+
+double vox_grid::share_without_contact() const noexcept {
+    if (counters_.tets == 0) return 0;
+    return 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {

@@ -3,6 +3,7 @@
 
 #include "events.hpp"
 #include "depth.hpp"
+#include "cost/adaptive.hpp"
 #include "fast.hpp"
 #include "memory.hpp"
 #include "mesh.hpp"
@@ -38,6 +39,13 @@ public:
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
+
+    // For suggestions: the meshes with their positions as they are now, the fields of a desc that the grid
+    // knows, and the share of its tets that held no vertex in the last step. Throws INVALID_STATE for a mesh
+    // without positions.
+    std::vector<vox::Body> bodies() const;
+    void describe(vox_suggest_desc& desc) const noexcept;
+    double share_without_contact() const noexcept;
 
     vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
     void remove(vox_mesh mesh);
@@ -78,6 +86,7 @@ private:
     std::uint64_t carry_contacts();
     void detect_reference(vox_counters& counters, vox_profile& profile);
     void choose_cell_size();
+    double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
 
     vox_allocator allocator_;
@@ -91,8 +100,8 @@ private:
     bool find_penetrations_;
     vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
     double cell_size_;
-    bool choose_cell_size_;          // the library chooses the cell size ...
-    bool cell_size_is_stale_ = true; // ... and has to again
+    bool choose_cell_size_; // the library chooses the cell size: the fast engine itself, for each window
+    vox::AdaptiveCellSize adaptive_; // that of the reference engine
 
     // meshes
     std::pmr::vector<Slot> slots_;

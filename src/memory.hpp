@@ -17,6 +17,7 @@ public:
     GridMemory(const vox_allocator& allocator, std::uint64_t byte_budget, std::uint64_t held) noexcept
         : allocator_(allocator), budget_(byte_budget), bytes_(held), peak_bytes_(held) {}
 
+    std::uint64_t budget() const noexcept { return budget_; } // 0: none
     std::uint64_t bytes() const noexcept { return bytes_; }
     std::uint64_t peak_bytes() const noexcept { return peak_bytes_; }
 

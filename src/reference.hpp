@@ -36,6 +36,9 @@ public:
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
+    // Held for the buckets of the cells.
+    std::size_t cell_bytes() const noexcept { return cells_.bucket_bytes(); }
+
 private:
     struct Candidate {
         std::uint32_t tet;

@@ -158,6 +158,7 @@ public:
     }
 
     const std::pmr::vector<Cell>& occupied() const { return cells_; }
+    std::size_t bucket_bytes() const noexcept { return heads_.capacity() * sizeof(std::uint32_t); }
 
 private:
     std::pmr::vector<std::uint32_t> heads_; // by bucket

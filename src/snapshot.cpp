@@ -30,7 +30,6 @@ struct Loading {
     std::size_t next = 0;               // of them
     std::pmr::vector<std::uint32_t> free_slots;
     vox_mesh last_filtered = VOX_NULL_MESH;
-    bool cell_size_is_stale = true; // to be, when all is inserted
 };
 
 void save_positions(const Positions& positions, std::uint32_t count, SnapshotWriter& out) {
@@ -128,7 +127,7 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
         for (const double x : {corner.x, corner.y, corner.z}) out.f64(x);
     out.f64(grid.cell_size_);
     out.u32(grid.choose_cell_size_);
-    out.u32(grid.cell_size_is_stale_);
+    out.u32(0); // reserved; a grid that chooses its cell size does so again once it is loaded
     out.u64(grid.epoch_);
     out.end_chunk();
 }
@@ -154,7 +153,7 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc) {
     const bool choose = in.flag("whether the cell size was chosen");
     if (!choose && desc.cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
     if (choose) desc.cell_size = 0;
-    (void)in.flag("whether the cell size is stale");
+    (void)in.flag("reserved");
     (void)in.u64(); // the epoch
     in.end();
     try {
@@ -171,7 +170,7 @@ void Snapshot::load_settings(SnapshotChunk& in, Loading& to) {
     for (int word = 0; word < 7; ++word) (void)in.u64();
     to.grid.cell_size_ = in.f64();
     to.grid.choose_cell_size_ = in.flag("");
-    to.cell_size_is_stale = in.flag("");
+    (void)in.flag("");
     to.grid.epoch_ = in.u64();
 }
 
@@ -490,7 +489,6 @@ void Snapshot::load(SnapshotReader& in, vox_grid& grid) {
                     format("snapshot: it has %zu of %zu meshes, mesh %" PRIu32 " is missing", to.next,
                            to.awaited.size(), to.awaited[to.next]));
     grid.free_slots_.assign(to.free_slots.begin(), to.free_slots.end()); // within the capacity
-    grid.cell_size_is_stale_ = to.cell_size_is_stale;
 }
 
 std::uint64_t snapshot_size(const vox_grid& grid) noexcept {

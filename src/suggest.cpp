@@ -1,6 +1,10 @@
 #include "suggest.hpp"
 
-#include "cost.hpp"
+#include "cost/fast_cost.hpp"
+#include "cost/levels.hpp"
+#include "cost/minimise.hpp"
+#include "cost/paper_cost.hpp"
+#include "cost/reference_cost.hpp"
 #include "error.hpp"
 
 #include <algorithm>
@@ -8,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace vox {
 
@@ -75,7 +80,7 @@ void check_number(bool good, double value, const char* name, const char* expecte
 } // namespace
 
 void check_suggest_desc(const vox_suggest_desc& desc) {
-    check_enum(desc.model, VOX_COST_MODEL_PAPER, "model");
+    check_enum(desc.model, VOX_COST_MODEL_FAST, "model");
     check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "size_reading");
     check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "area_reading");
     check_number(desc.p_nc > 0 && desc.p_nc < 1, desc.p_nc, "p_nc",
@@ -86,6 +91,10 @@ void check_suggest_desc(const vox_suggest_desc& desc) {
                  "a number from 0 to 1e6");
     check_number(desc.mean_edge_factor > 0, desc.mean_edge_factor, "mean_edge_factor", "a number above 0");
     check_number(desc.resolution >= 0, desc.resolution, "resolution", "0 or a length");
+    check_enum(desc.storage, VOX_STORAGE_DENSE, "storage");
+    if (desc.reserved != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("suggest reserved is %" PRIu32 ", expected 0", desc.reserved));
 }
 
 // ---- suggestion -----------------------------------------------------------------------------------
@@ -160,30 +169,157 @@ double world_edge(const vox_suggest_desc& desc, const vox_geometry_stats& stats)
 
 } // namespace
 
-vox_suggestion suggest(const vox_suggest_desc& desc, const Geometry& geometry) {
-    const Reading s = tet_size(desc.size_reading, geometry.stats);
-    const Reading area = facet_area(desc.area_reading, geometry.stats);
-    const PaperCost cost = paper_cost(desc, s, area, geometry.stats);
-    const double x = cost.minimiser();
-    const Zone zone = zone_around(x, (1 + desc.zone_loss) * cost(x), cost);
+void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY], std::uint32_t& count) {
+    const double cost = terms.cost();
+    count = 0;
+    for (const CostTerm& term : terms) {
+        vox_cost_share& share = out[count++];
+        std::snprintf(share.name, sizeof share.name, "%s", term.name);
+        share.count = term.count;
+        share.cost = term.count * term.weight;
+        share.share = cost > 0 ? share.cost / cost : 0;
+    }
+}
 
-    vox_suggestion result{};
+namespace {
+
+// What is the same for all models, at their cell size and for their cost function.
+void explain(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
+             const CostFunction& cost, const CostTerms& terms) {
     result.model = desc.model;
-    result.cell_size = x * s.value;
     result.cells_per_axis = world_edge(desc, geometry.stats) / result.cell_size;
-    result.zone_min = zone.min * s.value;
-    result.zone_max = zone.max * s.value;
-    result.predicted_cost = cost(x);
     result.rules = other_rules(desc, geometry);
     result.stats = geometry.stats;
+    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(cell_size) : 0; };
+    result.rule_costs = {cost_of(result.rules.mean_edge),   cost_of(result.rules.mean_edge_multiple),
+                         cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
+                         cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
+    write_shares(terms, result.terms, result.term_count);
 
     // From an eighth of the best cell size to eight times it.
     result.curve_count = VOX_COST_CURVE_CAPACITY;
     for (std::uint32_t i = 0; i < result.curve_count; ++i) {
-        const double at = x * std::exp2(6.0 * i / (result.curve_count - 1) - 3);
-        result.curve[i] = {at * s.value, cost(at)};
+        const double at = result.cell_size * std::exp2(6.0 * i / (result.curve_count - 1) - 3);
+        result.curve[i] = {at, cost(at)};
     }
+}
+
+struct Paper {
+    Reading s;
+    PaperCost cost;
+};
+
+Paper paper_model(const vox_suggest_desc& desc, const vox_geometry_stats& stats) {
+    const Reading s = tet_size(desc.size_reading, stats), area = facet_area(desc.area_reading, stats);
+    return {s, paper_cost(desc, s, area, stats)};
+}
+
+CostTerms paper_terms(const vox_suggest_desc& desc, const Paper& paper, double cell_size) {
+    const double x = cell_size / paper.s.value, side = 1 / x + 2, voxels = side * side * side;
+    CostTerms terms;
+    terms.add("visit a cell", desc.p_nc * voxels, 1);
+    terms.add("test a particle", voxels * paper.cost.k * x * x / desc.cost_ratio, desc.cost_ratio);
+    return terms;
+}
+
+vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geometry) {
+    const Paper paper = paper_model(desc, geometry.stats);
+    const double s = paper.s.value, x = paper.cost.minimiser();
+    const Zone zone = zone_around(x, (1 + desc.zone_loss) * paper.cost(x), paper.cost);
+    vox_suggestion result{};
+    result.cell_size = x * s;
+    result.zone_min = zone.min * s;
+    result.zone_max = zone.max * s;
+    result.predicted_cost = paper.cost(x);
+    explain(
+        result, desc, geometry, [&](double d) { return paper.cost(d / s); },
+        paper_terms(desc, paper, result.cell_size));
     return result;
+}
+
+[[noreturn]] void throw_no_size(const vox_geometry_stats& stats) {
+    throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                stats.tets == 0
+                    ? format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices)
+                    : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
+}
+
+void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
+                   const CellSizeRange& range) {
+    const CostMinimum best = minimise(cost, range);
+    const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, cost, range);
+    result.cell_size = best.cell_size;
+    result.predicted_cost = best.cost;
+    result.zone_min = zone.min;
+    result.zone_max = zone.max;
+}
+
+vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
+                                 const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
+    const ReferenceCost cost(scene.bodies, desc.storage, thorough, weights, memory);
+    CellSizeRange range{};
+    if (!cost.range(range.min, range.max)) throw_no_size(geometry.stats);
+    vox_suggestion result{};
+    if (desc.storage == VOX_STORAGE_DENSE)
+        result.budget_cell_size = cost.least_cell_size(static_cast<double>(desc.byte_budget), range);
+    range.min = std::max(range.min, result.budget_cell_size);
+    range.max = std::max(range.max, range.min);
+    const CostFunction function = [&](double d) { return cost(d); };
+    minimise_into(result, desc, function, range);
+    const Levels levels = choose_levels(cost);
+    if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
+    result.level_count = levels.count;
+    std::copy(levels.cell_size.begin(), levels.cell_size.end(), result.levels);
+    explain(result, desc, geometry, function, cost.terms(result.cell_size));
+    return result;
+}
+
+vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
+                            const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
+    const FastCost cost(scene.bodies, scene.tiles, thorough, weights, memory);
+    if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
+    // Where no body is near another one any size will do; the usual one is there when some come near.
+    CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};
+    const bool any = cost.range(range.min, range.max);
+    vox_suggestion result{};
+    const CostFunction function = [&](double d) { return cost(d); };
+    if (any) {
+        minimise_into(result, desc, function, range);
+    } else {
+        result.cell_size = 2 * geometry.stats.mean_box_side;
+        result.zone_min = range.min;
+        result.zone_max = range.max;
+        result.predicted_cost = cost(result.cell_size);
+    }
+    explain(result, desc, geometry, function, cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
+    return result;
+}
+
+} // namespace
+
+vox_suggestion suggest(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
+                       const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
+    switch (desc.model) {
+    case VOX_COST_MODEL_REFERENCE:
+        return suggest_reference(desc, geometry, scene, weights, memory);
+    case VOX_COST_MODEL_FAST:
+        return suggest_fast(desc, geometry, scene, weights, memory);
+    default:
+        return suggest_paper(desc, geometry);
+    }
+}
+
+CostTerms predict(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
+                  const vox_cost_weights& weights, double cell_size, std::pmr::memory_resource* memory) {
+    switch (desc.model) {
+    case VOX_COST_MODEL_REFERENCE:
+        return ReferenceCost(scene.bodies, desc.storage, thorough, weights, memory).terms(cell_size);
+    case VOX_COST_MODEL_FAST:
+        return FastCost(scene.bodies, scene.tiles, thorough, weights, memory)
+            .terms(cell_size, FastCost::Lie::as_it_is);
+    default:
+        return paper_terms(desc, paper_model(desc, geometry.stats), cell_size);
+    }
 }
 
 } // namespace vox

@@ -325,9 +325,12 @@ START_TEST(cell_size_is_chosen) {
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_cell_size(grid, &cell_size));
 
+    /* The model of its engine: over a sample here, over all there. */
     vox_suggestion suggestion = {.struct_size = sizeof suggestion};
-    ck_ok(vox_suggest_cell_size(NULL, &mesh_desc, 1, &suggestion));
-    ck_assert_double_eq(cell_size, suggestion.cell_size);
+    ck_ok(vox_grid_suggest_cell_size(grid, NULL, &suggestion));
+    ck_assert_int_eq(suggestion.model, VOX_COST_MODEL_REFERENCE);
+    ck_assert_double_ge(cell_size, suggestion.zone_min);
+    ck_assert_double_le(cell_size, suggestion.zone_max);
     ck_assert_int_eq(log_lines, 1);
     ck_assert_ptr_nonnull(strstr(logged, "cell size"));
 

@@ -175,8 +175,10 @@ typedef struct vox_grid_desc {
     vox_engine engine;
     vox_storage storage;
     vox_hash hash;
-    /* Edge length of a cell, > 0. 0 (the default): the library chooses it; the reference engine at the first
-     * step and again after meshes were inserted or removed, the fast one at every step. */
+    /* Edge length of a cell, > 0. 0 (the default): the library chooses it, by the cost model of the engine. The
+     * reference engine does so at the first step and again when the counts of its steps say that another size
+     * would be better (bodies deform, come into contact, are inserted or removed); every change is written to the
+     * log and counted in cell_size_changes. The fast one chooses for each of its windows, at every step. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
      * cell. All zero (the default): the box of all positions, found at every step. */
@@ -622,6 +624,7 @@ typedef struct vox_profile {
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */
+    uint64_t cell_size_changes;  /* times that the reference engine's cell size was chosen anew: see vox_grid_desc */
 VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile);
 
 /* ---- cell size -------------------------------------------------------------------------------- */
@@ -745,7 +748,7 @@ typedef struct vox_suggestion {
      * side by side, each with the cell size that is best for its share of the tetrahedra, less 1. About 0 where
      * one size is as good as several, and for the other models. */
     double uniform_loss;
-    double levels[VOX_CELL_SIZE_LEVEL_CAPACITY]; /* those sizes, ascending: level_count of them, the rest 0 */
+    double levels[VOX_CELL_SIZE_LEVEL_CAPACITY]; /* those sizes, for the smallest tets first; level_count of them */
     uint32_t level_count;
     uint32_t reserved;
 } vox_suggestion;

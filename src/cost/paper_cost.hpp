@@ -24,6 +24,7 @@ struct PaperCost {
     double minimiser() const;
 };
 
+// Cell sizes around the best one, in whatever unit it has.
 struct Zone {
     double min;
     double max;

@@ -1,0 +1,147 @@
+#include "adaptive.hpp"
+
+#include "minimise.hpp"
+#include "reference_cost.hpp"
+#include "weights.hpp"
+
+#include "../error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace vox {
+
+namespace {
+
+// The size stays as long as following would change it by less than this part: that loses about half a per cent.
+constexpr double hysteresis = 0.08;
+// At most by this factor in one step: what is far off is off the straight line, too.
+constexpr double most_at_once = 2;
+// Beyond this factor from what the model chose it is asked again.
+constexpr double far_off = 1.5;
+// Of the time of the steps, for choosing.
+constexpr double time_share = 0.01;
+// Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near it or
+// one of the few far ones.
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 300;
+
+double choice_ns(double vertices, double tets, const Effort& effort) {
+    return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
+           static_cast<double>(effort.sample.lookups) *
+               (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns;
+}
+
+double step_ns(const vox_counters& c, const vox_cost_weights& w) {
+    return static_cast<double>(c.vertices) * w.reference_classify_vertex +
+           static_cast<double>(c.tets) * w.reference_prepare_tet +
+           static_cast<double>(c.visited_cells) * w.reference_visit_cell +
+           static_cast<double>(c.visited_entries) * w.reference_read_vertex;
+}
+
+// Mean longest side of the boxes of a few tetrahedra, for when there is no memory for more.
+double few_box_sides(std::span<const Body> bodies) {
+    double sum = 0, count = 0;
+    for (const Body& body : bodies) {
+        const std::size_t stride = body.tets.size() / 64 + 1;
+        for (std::size_t t = 0; t < body.tets.size(); t += stride) {
+            double longest = 0;
+            for (const std::uint32_t v : body.tets[t].v) {
+                const auto p = body.positions[v], q = body.positions[body.tets[t].v[0]];
+                longest = std::max({longest, std::abs(double{p.x} - double{q.x}), std::abs(double{p.y} - double{q.y}),
+                                    std::abs(double{p.z} - double{q.z})});
+            }
+            if (!std::isfinite(longest)) continue;
+            sum += longest;
+            count += 1;
+        }
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+} // namespace
+
+double AdaptiveCellSize::cell_size(std::span<const Body> bodies, const Setting& setting,
+                                   std::pmr::memory_resource* memory) {
+    const double before = cell_size_;
+    if (must_choose()) {
+        try {
+            sized_ = choose(bodies, setting, memory);
+        } catch (const std::bad_alloc&) {
+            sized_ = false;
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET) throw;
+            sized_ = false;
+        }
+        if (!sized_) {
+            const double side = few_box_sides(bodies);
+            // Without any size nothing can touch: any cell will do.
+            if (before == 0 || scene_changed_) cell_size_ = side > 0 ? std::max(1.5 * side, floor_) : 1;
+        }
+        scene_changed_ = balanced_ = false;
+    } else {
+        follow();
+    }
+    if (before != 0 && cell_size_ != before) ++changes_;
+    return cell_size_;
+}
+
+bool AdaptiveCellSize::must_choose() const noexcept {
+    if (cell_size_ == 0) return true;
+    if (scene_changed_) return credit_ >= 0 || !sized_;
+    return sized_ && credit_ >= 0 && std::abs(std::log(cell_size_ / chosen_)) > std::log(far_off);
+}
+
+void AdaptiveCellSize::follow() noexcept {
+    if (!balanced_ || !(slope_ > 0)) return;
+    const double part = std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
+    if (std::abs(part) < hysteresis) return;
+    cell_size_ = std::max(cell_size_ * std::exp(part), floor_);
+    last_balance_ = balance_; // as it will be
+}
+
+bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setting,
+                              std::pmr::memory_resource* memory) {
+    std::uint64_t tets = 0, vertices = 0;
+    for (const Body& body : bodies) {
+        tets += body.tets.size();
+        vertices += body.vertex_count;
+    }
+    const Effort effort = quick(tets);
+    const vox_cost_weights weights = weights_in_use();
+    // The first choice has to be made.
+    if (cell_size_ != 0) credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
+    const ReferenceCost cost(bodies, setting.storage, effort, weights, memory);
+    CellSizeRange range{};
+    if (!cost.range(range.min, range.max)) return false;
+    floor_ = 0;
+    if (setting.storage == VOX_STORAGE_DENSE) {
+        floor_ = cost.least_cell_size(setting.byte_limit, range);
+        range.min = std::max(range.min, floor_);
+        range.max = std::max(range.max, range.min);
+    }
+    const CostFunction function = [&](double d) { return cost(d); };
+    const CostMinimum best = minimise(function, range);
+    const auto balance = [&](double d) { return std::log(cost.profile().read(d) / cost.profile().cells(d)); };
+    constexpr double nearby = 1.1;
+    slope_ = (balance(best.cell_size * nearby) - balance(best.cell_size / nearby)) / (2 * std::log(nearby));
+    chosen_ = best.cell_size;
+    // One that is about as good is kept.
+    if (cell_size_ == 0 || cell_size_ < floor_ || std::abs(std::log(cell_size_ / chosen_)) > hysteresis)
+        cell_size_ = chosen_;
+    return true;
+}
+
+void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
+    const Effort effort = quick(counters.tets);
+    const double most =
+        choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets), effort);
+    credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), most);
+    if (counters.visited_entries == 0 || counters.visited_cells == 0) return;
+    last_balance_ =
+        std::log(static_cast<double>(counters.visited_entries) / static_cast<double>(counters.visited_cells));
+    if (!balanced_) balance_ = last_balance_;
+    balanced_ = true;
+}
+
+} // namespace vox

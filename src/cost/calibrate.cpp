@@ -1,0 +1,222 @@
+// Times are fitted as sums of counts times weights by least squares with weights that are not negative (C. L.
+// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent: there are four of
+// them. What a few short steps cannot tell apart stays near what is shipped, scaled to the machine's speed.
+#include "calibrate.hpp"
+
+#include "fast_cost.hpp"
+#include "reference_cost.hpp"
+#include "weights.hpp"
+
+#include "../clock.hpp"
+#include "../fast.hpp"
+#include "../reference.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t unknowns = 4;
+
+// A time in nanoseconds, and how often each piece of work was done in it.
+struct Timing {
+    double time;
+    std::array<double, unknowns> count;
+};
+
+// The weights that fit the timings best, in parts of each, within a factor of three of those shipped as they would be on
+// a machine of this speed.
+std::array<double, unknowns> fit(const std::vector<Timing>& timings, const std::array<double, unknowns>& shipped) {
+    // The machine's speed beside the one the shipped weights are for.
+    double ratio = 0;
+    for (const Timing& t : timings) {
+        double predicted = 0;
+        for (std::size_t i = 0; i < unknowns; ++i) predicted += t.count[i] * shipped[i];
+        ratio += t.time / predicted / static_cast<double>(timings.size());
+    }
+    constexpr double leeway = 3, pull = 0.02;
+    std::array<double, unknowns> x{};
+    for (std::size_t i = 0; i < unknowns; ++i) x[i] = 1; // in units of shipped * ratio
+    const auto part = [&](const Timing& t, std::size_t i) { return t.count[i] * shipped[i] * ratio / t.time; };
+    for (int round = 0; round < 200; ++round)
+        for (std::size_t i = 0; i < unknowns; ++i) {
+            double square = pull, product = pull; // towards 1
+            for (const Timing& t : timings) {
+                double rest = 1;
+                for (std::size_t j = 0; j < unknowns; ++j)
+                    if (j != i) rest -= part(t, j) * x[j];
+                square += part(t, i) * part(t, i);
+                product += part(t, i) * rest;
+            }
+            x[i] = std::clamp(product / square, 1 / leeway, leeway);
+        }
+    for (std::size_t i = 0; i < unknowns; ++i) x[i] *= shipped[i] * ratio;
+    return x;
+}
+
+// A block of n * n * n cubes from `corner` on along x, six tetrahedra around the diagonal of each (Kuhn), its vertices
+// moved about a little.
+struct Block {
+    std::vector<Vec3f> positions;
+    std::vector<Tet> tets;
+
+    Block(std::uint32_t n, float corner) {
+        std::uint32_t state = 1;
+        const auto jitter = [&] {
+            state = state * 1664525u + 1013904223u;
+            return static_cast<float>(state >> 16) * (0.2f / 65536) - 0.1f;
+        };
+        for (std::uint32_t k = 0; k <= n; ++k)
+            for (std::uint32_t j = 0; j <= n; ++j)
+                for (std::uint32_t i = 0; i <= n; ++i) {
+                    const float x = jitter(), y = jitter(), z = jitter();
+                    positions.push_back({corner + static_cast<float>(i) + x, static_cast<float>(j) + y,
+                                         static_cast<float>(k) + z});
+                }
+        const std::uint32_t step[3] = {1, n + 1, (n + 1) * (n + 1)};
+        for (std::uint32_t k = 0; k < n; ++k)
+            for (std::uint32_t j = 0; j < n; ++j)
+                for (std::uint32_t i = 0; i < n; ++i) {
+                    const std::uint32_t v = i * step[0] + j * step[1] + k * step[2];
+                    std::uint32_t axes[3] = {0, 1, 2};
+                    do {
+                        const std::uint32_t first = v + step[axes[0]], second = first + step[axes[1]];
+                        tets.push_back({{v, first, second, second + step[axes[2]]}});
+                    } while (std::next_permutation(axes, axes + 3));
+                }
+    }
+};
+
+struct Scene {
+    Scene(std::uint32_t n, float overlap)
+        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)},
+          meshes{FastMesh(memory()), FastMesh(memory())} {
+        for (std::size_t b = 0; b < 2; ++b) {
+            bodies[b].mesh_id = static_cast<std::uint32_t>(b);
+            bodies[b].vertex_count = static_cast<std::uint32_t>(blocks[b].positions.size());
+            bodies[b].positions = {reinterpret_cast<const std::byte*>(blocks[b].positions.data()), sizeof(Vec3f)};
+            bodies[b].tets = blocks[b].tets;
+            meshes[b].prepare(bodies[b]);
+        }
+    }
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    static std::pmr::memory_resource* memory() { return std::pmr::new_delete_resource(); }
+
+    std::array<Block, 2> blocks;
+    std::array<FastMesh, 2> meshes;
+    std::array<Body, 2> bodies;
+};
+
+constexpr double cell_sizes[] = {0.6, 0.9, 1.35, 2, 3};
+
+// The shortest of some: what disturbs only adds.
+template <class Work>
+double shortest(int times, Work&& work) {
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < times; ++i) {
+        const std::uint64_t start = nanoseconds();
+        work();
+        best = std::min(best, static_cast<double>(nanoseconds() - start));
+    }
+    return best;
+}
+
+void measure_reference(Scene& scene, vox_cost_weights& weights) {
+    Reference engine(Scene::memory());
+    std::pmr::vector<Hit> hits(Scene::memory());
+    vox_counters counters{};
+    vox_profile profile{};
+    std::vector<Timing> timings;
+    double bin_ns = 0, vertices = 0;
+    for (const bool self : {false, true}) {
+        for (Body& body : scene.bodies) body.self_collision = self;
+        const ReferenceCost cost(scene.bodies, VOX_STORAGE_HASHED, quick(0), weights, Scene::memory());
+        for (const double cell_size : cell_sizes) {
+            ReferenceSettings settings;
+            settings.cell_size = cell_size;
+            const double time = shortest(2, [&] {
+                hits.clear();
+                engine.detect(scene.bodies, settings, hits, counters, profile);
+            });
+            const double tets = static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
+            const auto bin = static_cast<double>(profile.bin_ns);
+            bin_ns += bin;
+            vertices += static_cast<double>(counters.entries);
+            timings.push_back({time - bin,
+                               {tets, static_cast<double>(counters.visited_cells),
+                                static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
+        }
+    }
+    const std::array<double, unknowns> x =
+        fit(timings, {weights.reference_prepare_tet, weights.reference_visit_cell, weights.reference_read_vertex,
+                      weights.reference_test_box});
+    const double speed = x[1] / weights.reference_visit_cell;
+    weights.reference_prepare_tet = x[0];
+    weights.reference_visit_cell = x[1];
+    weights.reference_read_vertex = x[2];
+    weights.reference_test_box = x[3];
+    weights.reference_classify_vertex = bin_ns / vertices;
+    weights.reference_scan_cell *= speed;
+    weights.reference_test_tet *= speed;
+    weights.reference_clear_bucket *= speed;
+}
+
+void measure_fast(Scene& scene, vox_cost_weights& weights) {
+    Fast engine(Scene::memory());
+    std::pmr::vector<Hit> hits(Scene::memory());
+    vox_counters counters{};
+    vox_profile profile{};
+    std::array<FastMesh*, 2> prepared{&scene.meshes[0], &scene.meshes[1]};
+    const std::array<const fast::Tiles*, 2> tiles{&scene.meshes[0], &scene.meshes[1]};
+    for (Body& body : scene.bodies) body.self_collision = true;
+    const FastCost cost(scene.bodies, tiles, quick(0), weights, Scene::memory());
+    std::vector<Timing> timings;
+    for (const double cell_size : cell_sizes) {
+        FastSettings settings;
+        settings.cell_size = cell_size;
+        settings.winding = false;
+        const double time = shortest(4, [&] {
+            hits.clear();
+            engine.detect(scene.bodies, prepared, settings, hits, counters, profile);
+        });
+        // What does not depend on the cell size is taken together.
+        const FastCost::Counts c = cost.counts(cell_size, FastCost::Lie::as_it_is);
+        const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +
+                             c.tested * weights.fast_test_vertex;
+        timings.push_back({time, {fixed, c.cells, c.rows, c.read}});
+    }
+    const std::array<double, unknowns> x =
+        fit(timings, {1, weights.fast_clear_cell, weights.fast_visit_row, weights.fast_read_vertex});
+    weights.fast_bin_vertex *= x[0];
+    weights.fast_visit_tile *= x[0];
+    weights.fast_test_vertex *= x[0];
+    weights.fast_clear_cell = x[1];
+    weights.fast_visit_row = x[2];
+    weights.fast_read_vertex = x[3];
+}
+
+} // namespace
+
+vox_cost_weights measure_weights() {
+    vox_cost_weights weights = shipped_weights();
+    Scene scene(8, 1.5f);
+    measure_reference(scene, weights);
+    measure_fast(scene, weights);
+    weights.measured = 1;
+    return weights;
+}
+
+const vox_cost_weights& measured_weights() {
+    static const vox_cost_weights weights = measure_weights();
+    return weights;
+}
+
+} // namespace vox

@@ -1,0 +1,22 @@
+// How closely a scene is looked at before its cell size is chosen.
+#pragma once
+
+#include "profile.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vox {
+
+struct Effort {
+    std::size_t most_tets; // whose boxes are taken, about; of more, some from everywhere
+    SampleSizes sample;    // of which the surroundings are
+};
+
+// For a person who asks.
+inline constexpr Effort thorough{std::size_t{1} << 18, {1024, 1024}};
+
+// Within a step, where choosing has to cost less than that step.
+Effort quick(std::uint64_t tets) noexcept;
+
+} // namespace vox

@@ -1,0 +1,88 @@
+// What a step of the fast engine costs, as a function of the cell size of its windows.
+//
+//   T(d) = c_bin n           bin the vertices that may be in contact, once for each body
+//        + c_clear           cells of the windows, at most two a vertex
+//        + c_tile            tiles that look into a window, each for every body it is near to
+//        + c_row  sum over these of the rows of cells that the tile's box meets there
+//        + c_read sum over these of the vertices in these rows' cells: contiguous, hence cheap
+//        + c_test            those of them in the tile's box, against its tets: independent of d
+//
+// The unit is the tile, not the tet, and the row, not the cell: so the power of 1/d is 2 instead of 3, and the best
+// cell is larger. Bodies that touch nothing, and those that collide with themselves but are cleared by winding
+// numbers, have no window and cost nothing here.
+#pragma once
+
+#include "effort.hpp"
+#include "profile.hpp"
+#include "terms.hpp"
+
+#include "../fast/tile_sides.hpp"
+#include "../fast/tiles.hpp"
+#include "../scene.hpp"
+
+#include <vox/vox.h>
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class FastCost {
+public:
+    // `tiles` of each body. Measures the positions as they are now; all of them are finite. All bodies that collide
+    // with themselves get a window.
+    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles, const Effort& effort,
+             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+
+    // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in small
+    // windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size and what
+    // to choose one by: bodies move on.
+    enum class Lie { as_it_is, in_the_mean };
+
+    CostTerms terms(double cell_size, Lie lie) const;
+    double operator()(double cell_size) const { return terms(cell_size, Lie::in_the_mean).cost(); }
+
+    // Cell sizes that are worth a look; false where no body is near another one, or itself.
+    bool range(double& min, double& max) const noexcept;
+
+    struct Counts {
+        double vertices = 0, cells = 0; // binned, and of the windows
+        double looks = 0;               // of tiles into windows
+        double rows = 0, visited_cells = 0, read = 0, tested = 0;
+    };
+    Counts counts(double cell_size, Lie lie) const;
+
+private:
+    // A tile's box in a window, cut to it: its sides, and how far the window goes on below and above.
+    struct Look {
+        double side[3], below[3], above[3];
+    };
+    // Windows whose smallest possible cells are alike, so that one effective cell size does for all.
+    struct Pool {
+        Pool(int key, std::pmr::memory_resource* memory) : key(key), profile(memory), points(memory), looks(memory) {}
+
+        double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
+        void add(double cell_size, Lie lie, Counts& sum) const noexcept;
+
+        int key;
+        Profile profile;
+        fast::Points points;
+        std::pmr::vector<Look> looks;
+        double windows = 0, smallest_cell = 0; // of a window, in the mean
+        Moments cells; // of the windows themselves
+    };
+
+    Pool& pool_of(double smallest_cell);
+
+    std::pmr::vector<Pool> pools_;
+    vox_cost_weights weights_;
+};
+
+// The cell size for one window of `points` vertices in `box`, from the tiles that will look into it, by the terms
+// above for tiles and vertices spread evenly: what the engine calls for each of its windows, in well under a
+// microsecond. 0 where no tile has a size.
+double window_cell_size(const fast::TileSides& sides, std::uint32_t points, const fast::Box& box,
+                        const vox_cost_weights& weights);
+
+} // namespace vox

@@ -1,0 +1,257 @@
+// Sampling without knowing how many there are: Algorithm R (J. S. Vitter, Random sampling with a reservoir, ACM
+// Trans. Math. Software 11, 1985), with random numbers by splitmix64 (Steele, Lea, Flood, 2014): the same scene
+// gives the same sample.
+#include "profile.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t largest_sample = 256; // of a class
+// Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
+constexpr double near_sides = 1;
+// Most rows of cells and points looked at for one box; of more, every so many.
+constexpr std::size_t most_rows = 1024, most_points = 4096;
+// Points in a cell, about.
+constexpr double points_per_cell = 6;
+
+std::uint64_t next_random(std::uint64_t& state) {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+// floor(random * below), without the bias mattering.
+std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
+    return static_cast<std::uint64_t>(std::ldexp(static_cast<double>(next_random(state) >> 11), -53) *
+                                      static_cast<double>(below));
+}
+
+double longest_side(const Lookup& l) {
+    return std::max({l.hi[0] - l.lo[0], l.hi[1] - l.lo[1], l.hi[2] - l.lo[2]});
+}
+
+struct Distances {
+    double along[3];
+    double largest;
+};
+
+Distances distances(const Lookup& l, const double (&p)[3]) {
+    Distances d{};
+    for (int a = 0; a < 3; ++a) {
+        d.along[a] = std::max({l.lo[a] - p[a], p[a] - l.hi[a], 0.0});
+        d.largest = std::max(d.largest, d.along[a]);
+    }
+    return d;
+}
+
+void count_point(SizeClass& c, const Lookup& l, std::uint32_t id, const Distances& d, double weight) {
+    if (id < l.first_read || id >= l.last_read) return;
+    (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, weight);
+}
+
+// Points in cells, and a few of them spread evenly.
+struct Binned {
+    const fast::Window& window;
+    const fast::Points& points;
+    const std::uint32_t* begin; // of each cell
+    std::size_t stride;         // every so many points are the few
+};
+
+// The points around one lookup: near ones from the cells, far ones from the few.
+void count_around(SizeClass& c, const Lookup& l, double near, double weight, const Binned& in,
+                  std::uint64_t& random) {
+    const fast::Lattice& lattice = in.window.lattice;
+    std::uint32_t lo[3], hi[3];
+    for (int a = 0; a < 3; ++a) {
+        // As floats no further in than they are.
+        lo[a] = lattice.cell(std::nextafter(static_cast<float>(l.lo[a] - near), -fast::infinity), a);
+        hi[a] = lattice.cell(std::nextafter(static_cast<float>(l.hi[a] + near), fast::infinity), a);
+    }
+    const auto position = [&](std::size_t i) {
+        return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
+    };
+    const std::size_t rows_y = hi[1] - lo[1] + 1, rows = rows_y * (hi[2] - lo[2] + 1);
+    const std::size_t row_stride = (rows + most_rows - 1) / most_rows;
+    const auto row_of = [&](std::size_t r) {
+        const std::size_t y = lo[1] + r % rows_y, z = lo[2] + r / rows_y;
+        return (z * lattice.cells[1] + y) * lattice.cells[0];
+    };
+    const std::size_t first_row = row_stride > 1 ? next_below(random, row_stride) : 0;
+    std::size_t there = 0;
+    for (std::size_t r = first_row; r < rows; r += row_stride)
+        there += in.begin[row_of(r) + hi[0] + 1] - in.begin[row_of(r) + lo[0]];
+    const std::size_t stride = there / most_points + 1;
+    const double near_weight = weight * static_cast<double>(row_stride * stride);
+    std::size_t skip = stride > 1 ? next_below(random, stride) : 0;
+    for (std::size_t r = first_row; r < rows; r += row_stride) {
+        const std::size_t row = row_of(r), end = in.begin[row + hi[0] + 1];
+        std::size_t i = in.begin[row + lo[0]] + skip;
+        for (; i < end; i += stride) {
+            const std::array<double, 3> p = position(i);
+            const Distances d = distances(l, {p[0], p[1], p[2]});
+            if (d.largest <= near) count_point(c, l, in.points.id[i], d, near_weight);
+        }
+        skip = i - end;
+    }
+    const double far_weight = weight * static_cast<double>(in.stride);
+    for (std::size_t i = in.stride / 2; i < in.points.count; i += in.stride) {
+        const std::array<double, 3> p = position(i);
+        const Distances d = distances(l, {p[0], p[1], p[2]});
+        if (d.largest > near) count_point(c, l, in.points.id[i], d, far_weight);
+    }
+}
+
+} // namespace
+
+// ---- sums -----------------------------------------------------------------------------------------
+
+std::size_t PointsMet::class_of(double distance) const noexcept {
+    const double ratio = distance * inverse_least_;
+    if (!(ratio >= 1)) return 0;
+    // Octave and sixteenth are the bits above the rest of the mantissa: even within an octave, not in the
+    // logarithm, which does not matter.
+    const std::uint64_t c = (std::bit_cast<std::uint64_t>(ratio) >> 48) - (std::uint64_t{1023} << 4) + 1;
+    return c < classes ? static_cast<std::size_t>(c) : classes;
+}
+
+void PointsMet::add(const double (&e)[3], double weight) noexcept {
+    const std::size_t c = class_of(std::max({e[0], e[1], e[2]}));
+    if (c == classes) return;
+    Moments& m = sums_[c];
+    m.sum[0] += weight;
+    m.sum[1] -= weight * (e[0] + e[1] + e[2]);
+    m.sum[2] += weight * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
+    m.sum[3] -= weight * (e[0] * e[1] * e[2]);
+}
+
+void PointsMet::finish() noexcept {
+    for (std::size_t c = 1; c < classes; ++c) sums_[c].add(sums_[c - 1]);
+}
+
+// ---- lookups --------------------------------------------------------------------------------------
+
+SizeClass::SizeClass(int e, std::pmr::memory_resource* memory)
+    : exponent(e), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)), sample(memory) {
+    sample.reserve(largest_sample);
+}
+
+Profile::Profile(std::pmr::memory_resource* memory) : classes_(memory) { index_.fill(-1); }
+
+SizeClass& Profile::class_of(double side) {
+    // A box without sides counts as very small; scaled, it would have no class of points.
+    const int exponent = side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
+    std::int16_t& index = index_[static_cast<std::size_t>(exponent + exponents / 2)];
+    if (index < 0) {
+        index = static_cast<std::int16_t>(classes_.size());
+        classes_.emplace_back(exponent, classes_.get_allocator().resource());
+    }
+    return classes_[static_cast<std::size_t>(index)];
+}
+
+void Profile::add(const Lookup& lookup, double weight) {
+    SizeClass& c = class_of(longest_side(lookup));
+    const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]};
+    c.count += weight;
+    c.added += 1;
+    c.cells.add(cells_met(w), weight);
+    c.rows.add(rows_met(w), weight);
+    if (c.sample.size() < largest_sample) {
+        c.sample.push_back(lookup);
+        return;
+    }
+    const std::uint64_t place = next_below(random_, c.added);
+    if (place < largest_sample) c.sample[static_cast<std::size_t>(place)] = lookup;
+}
+
+void Profile::count_points(const fast::Points& points, const SampleSizes& sizes) {
+    const double lookups = count();
+    std::pmr::memory_resource* memory = classes_.get_allocator().resource();
+    fast::Bins bins(memory);
+    std::pmr::vector<std::uint32_t> buffer(memory);
+    if (points.count > 0) {
+        const fast::Box box = fast::bounds(points);
+        const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
+        bins.points.reserve(points.count);
+        const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
+        const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
+        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell,
+                            points.count / sizes.far_points + 1};
+        bin_size_ = 1 / double{lattice.inverse};
+        for (std::size_t i = 0; i < lattice.count(); ++i)
+            ++crowds_[std::min<std::size_t>(binned.begin[i + 1] - binned.begin[i], crowds_.size() - 1)];
+        for (SizeClass& c : classes_) {
+            // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
+            const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
+            const auto size = std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes.lookups) * share) + 1);
+            const double near = near_sides * std::ldexp(2.0, c.exponent);
+            for (std::size_t i = 0; i < size; ++i)
+                count_around(c, c.sample[i], near, c.count / static_cast<double>(size), binned, random_);
+        }
+    }
+    for (SizeClass& c : classes_) {
+        c.passed.finish();
+        c.tested.finish();
+    }
+}
+
+// ---- results --------------------------------------------------------------------------------------
+
+double Profile::count() const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.count;
+    return sum;
+}
+double Profile::cells(double cell_size) const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.cells.at(cell_size);
+    return sum;
+}
+double Profile::rows(double cell_size) const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.rows.at(cell_size);
+    return sum;
+}
+double Profile::read(double cell_size) const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.passed.at(cell_size) + c.tested.at(cell_size);
+    return sum;
+}
+double Profile::tested(double cell_size) const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.tested.at(cell_size);
+    return sum;
+}
+double Profile::candidates() const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.tested.inside();
+    return sum;
+}
+
+// Points thrown at random into the small cells that a counted one is cut into; larger ones are full.
+double Profile::occupied(double cell_size) const noexcept {
+    const double parts = std::pow(bin_size_ / cell_size, 3);
+    double sum = 0;
+    for (std::size_t points = 1; points < crowds_.size(); ++points)
+        sum += crowds_[points] *
+               (parts > 1 ? parts * -std::expm1(-static_cast<double>(points) / parts) : parts);
+    return std::max(sum, 1.0);
+}
+
+bool Profile::sides(double& smallest, double& largest) const noexcept {
+    bool any = false;
+    for (const SizeClass& c : classes_) {
+        if (c.exponent == -exponents / 2) continue;
+        const double side = std::ldexp(1.0, c.exponent);
+        smallest = any ? std::min(smallest, side) : side;
+        largest = any ? std::max(largest, 2 * side) : 2 * side;
+        any = true;
+    }
+    return any;
+}
+
+} // namespace vox

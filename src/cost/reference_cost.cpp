@@ -1,0 +1,185 @@
+#include "reference_cost.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vox {
+
+namespace {
+
+// Tetrahedra of one body: so many of them, one from each of as many equal parts, at a place in it that goes round
+// by the golden ratio (Weyl), so that no pattern in their order shows.
+template <class Visit>
+void for_some(std::size_t count, std::size_t wanted, Visit&& visit) {
+    if (count <= wanted) {
+        for (std::size_t i = 0; i < count; ++i) visit(i);
+        return;
+    }
+    const double part = static_cast<double>(count) / static_cast<double>(wanted);
+    double place = 0.5;
+    for (std::size_t i = 0; i < wanted; ++i) {
+        visit(std::min(static_cast<std::size_t>((static_cast<double>(i) + place) * part), count - 1));
+        place += 0.6180339887498949;
+        place -= std::floor(place);
+    }
+}
+
+// Never more than this of any body goes unseen.
+constexpr std::size_t least_of_body = 64;
+
+struct Corner {
+    double c[3];
+};
+
+// A flat one holds nothing, and the engine gives it no box.
+bool has_volume(const std::array<Corner, 4>& p) {
+    double e[3][3];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t a = 0; a < 3; ++a) e[i][a] = p[i + 1].c[a] - p[0].c[a];
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) + e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+               e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) !=
+           0;
+}
+
+} // namespace
+
+Effort quick(std::uint64_t tets) noexcept {
+    const auto t = static_cast<std::size_t>(tets);
+    return {std::clamp<std::size_t>(t / 8, 2048, 1u << 15),
+            {std::clamp<std::size_t>(t / 64, 96, 256), std::clamp<std::size_t>(t / 64, 128, 256)}};
+}
+
+ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
+                             const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+    : profile_(memory), classes_(memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
+    std::size_t vertices = 0, tets = 0;
+    for (const Body& body : bodies) {
+        vertices += body.vertex_count;
+        tets += body.tets.size();
+    }
+    vertices_ = static_cast<double>(vertices);
+    tets_ = static_cast<double>(tets);
+    fast::Points points(memory);
+    points.reserve(vertices);
+    std::uint32_t first = 0;
+    for (const Body& body : bodies) {
+        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+            const auto p = body.positions[v];
+            const std::uint32_t i = points.count++;
+            points.x[i] = static_cast<float>(p.x);
+            points.y[i] = static_cast<float>(p.y);
+            points.z[i] = static_cast<float>(p.z);
+            points.id[i] = i;
+        }
+        Lookup lookup{};
+        lookup.last_read = static_cast<std::uint32_t>(vertices);
+        lookup.first_passed = first;
+        first += body.vertex_count;
+        lookup.last_passed = body.self_collision ? lookup.first_passed : first;
+        const std::size_t count = body.tets.size();
+        const auto share = static_cast<std::size_t>(static_cast<double>(effort.most_tets) *
+                                                    static_cast<double>(count) / std::max(tets_, 1.0));
+        const std::size_t wanted = std::max(share, least_of_body);
+        const double weight = static_cast<double>(count) / static_cast<double>(std::min(count, wanted));
+        for_some(count, wanted, [&](std::size_t t) {
+            std::array<Corner, 4> corner;
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto p = body.positions[body.tets[t].v[i]];
+                corner[i] = {{p.x, p.y, p.z}};
+            }
+            if (!has_volume(corner)) return;
+            for (int a = 0; a < 3; ++a) {
+                const auto [lo, hi] = std::minmax({corner[0].c[a], corner[1].c[a], corner[2].c[a], corner[3].c[a]});
+                lookup.lo[a] = lo;
+                lookup.hi[a] = hi;
+            }
+            profile_.add(lookup, weight);
+        });
+    }
+    if (points.count > 0) {
+        const fast::Box box = fast::bounds(points);
+        for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
+    }
+    profile_.count_points(points, effort.sample);
+    for (const SizeClass& c : profile_.classes()) classes_.push_back(&c);
+}
+
+bool ReferenceCost::range(double& min, double& max) const noexcept {
+    double smallest = 0, largest = 0;
+    if (!profile_.sides(smallest, largest)) return false;
+    min = smallest / 16;
+    max = largest * 16;
+    return true;
+}
+
+double ReferenceCost::dense_cells(double cell_size) const noexcept {
+    double cells = 1;
+    for (const double side : sides_) cells *= std::max(1.0, std::ceil(side / cell_size));
+    return cells;
+}
+
+double ReferenceCost::least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept {
+    const double limit = 0x1p31 - 1, fitting = byte_limit / sizeof(std::uint32_t);
+    const double most = byte_limit > 0 ? std::min(limit, fitting) : limit;
+    if (dense_cells(range.min) <= most) return 0;
+    double low = std::log(range.min), high = std::log(range.max);
+    while (high - low > 1e-9) {
+        const double middle = (low + high) / 2;
+        (dense_cells(std::exp(middle)) <= most ? high : low) = middle;
+    }
+    return std::exp(high);
+}
+
+double ReferenceCost::buckets(double cell_size) const noexcept {
+    return dense_ ? dense_cells(cell_size) : 2 * vertices_;
+}
+
+// A box that meets more cells than are occupied goes through those instead.
+ReferenceCost::Visits ReferenceCost::visits(std::span<const SizeClass* const> classes,
+                                            double cell_size) const noexcept {
+    const double occupied = std::min(profile_.occupied(cell_size), vertices_);
+    Visits visits;
+    for (const SizeClass* c : classes) {
+        const double cells = c->cells.at(cell_size);
+        if (cells > occupied * c->count)
+            visits.scanned += occupied * c->count;
+        else
+            visits.visited += cells;
+    }
+    return visits;
+}
+
+CostTerms ReferenceCost::terms(double cell_size) const {
+    const Visits cells = visits(classes_, cell_size);
+    CostTerms terms;
+    terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
+    terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
+    terms.add("visit a cell", cells.visited, weights_.reference_visit_cell);
+    terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
+    terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
+    terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
+    terms.add("test a tet", profile_.candidates(), weights_.reference_test_tet);
+    terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
+    return terms;
+}
+
+double ReferenceCost::level(std::span<const SizeClass* const> classes, double cell_size) const {
+    const Visits cells = visits(classes, cell_size);
+    double read = 0, tested = 0;
+    for (const SizeClass* c : classes) {
+        const double t = c->tested.at(cell_size);
+        read += t + c->passed.at(cell_size);
+        tested += t;
+    }
+    return vertices_ * weights_.reference_classify_vertex + cells.visited * weights_.reference_visit_cell +
+           cells.scanned * weights_.reference_scan_cell + read * weights_.reference_read_vertex +
+           tested * weights_.reference_test_box + buckets(cell_size) * weights_.reference_clear_bucket;
+}
+
+double ReferenceCost::shared() const noexcept {
+    return tets_ * weights_.reference_prepare_tet + profile_.candidates() * weights_.reference_test_tet;
+}
+
+} // namespace vox

@@ -1,0 +1,68 @@
+// What a step of the reference engine costs, as a function of the cell size.
+//
+//   T(d) = c_bin n                        classify every vertex
+//        + c_prepare m                    box of every tetrahedron
+//        + c_visit sum over tets of the cells their boxes meet
+//        + c_read  sum over tets of the vertices in these cells
+//        + c_box   those of them that are another body's, or any where the body collides with itself
+//        + c_tet   those of them that are in the box: independent of d
+//        + c_scan  occupied cells gone through, for boxes that meet more cells than are occupied
+//        + c_clear buckets of the table, or cells of dense storage
+#pragma once
+
+#include "effort.hpp"
+#include "minimise.hpp"
+#include "profile.hpp"
+#include "terms.hpp"
+
+#include "../scene.hpp"
+
+#include <vox/vox.h>
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class ReferenceCost {
+public:
+    // Measures the positions as they are now; all of them are finite. Memory is given back on return.
+    ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
+                  const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+    ReferenceCost(const ReferenceCost&) = delete;
+    ReferenceCost& operator=(const ReferenceCost&) = delete;
+
+    CostTerms terms(double cell_size) const;
+    double operator()(double cell_size) const { return terms(cell_size).cost(); }
+
+    // Cell sizes that are worth a look; false where there is no tetrahedron of any size.
+    bool range(double& min, double& max) const noexcept;
+
+    const Profile& profile() const noexcept { return profile_; }
+    double dense_cells(double cell_size) const noexcept;
+    // The smallest cell size in the range whose cells dense storage takes, within the bytes (0: any number); 0 where
+    // all of the range is fine.
+    double least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept;
+
+    // The cost apart: of one grid with this cell size that only these classes look into, vertices and buckets
+    // included; and of what is done once, however many grids there are.
+    double level(std::span<const SizeClass* const> classes, double cell_size) const;
+    double shared() const noexcept;
+
+private:
+    struct Visits {
+        double visited = 0, scanned = 0;
+    };
+    Visits visits(std::span<const SizeClass* const> classes, double cell_size) const noexcept;
+    double buckets(double cell_size) const noexcept;
+
+    Profile profile_;
+    std::pmr::vector<const SizeClass*> classes_; // of the profile
+    vox_cost_weights weights_;
+    bool dense_;
+    double vertices_ = 0, tets_ = 0;
+    double sides_[3] = {0, 0, 0}; // of the box of all vertices
+};
+
+} // namespace vox

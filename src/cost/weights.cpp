@@ -1,0 +1,87 @@
+#include "weights.hpp"
+
+#include "../error.hpp"
+
+#include <cmath>
+#include <mutex>
+
+namespace vox {
+
+namespace {
+
+struct Named {
+    const char* name;
+    double vox_cost_weights::*field;
+};
+
+constexpr Named fields[] = {
+    {"reference_classify_vertex", &vox_cost_weights::reference_classify_vertex},
+    {"reference_prepare_tet", &vox_cost_weights::reference_prepare_tet},
+    {"reference_visit_cell", &vox_cost_weights::reference_visit_cell},
+    {"reference_scan_cell", &vox_cost_weights::reference_scan_cell},
+    {"reference_read_vertex", &vox_cost_weights::reference_read_vertex},
+    {"reference_test_box", &vox_cost_weights::reference_test_box},
+    {"reference_test_tet", &vox_cost_weights::reference_test_tet},
+    {"reference_clear_bucket", &vox_cost_weights::reference_clear_bucket},
+    {"fast_bin_vertex", &vox_cost_weights::fast_bin_vertex},
+    {"fast_clear_cell", &vox_cost_weights::fast_clear_cell},
+    {"fast_visit_tile", &vox_cost_weights::fast_visit_tile},
+    {"fast_visit_row", &vox_cost_weights::fast_visit_row},
+    {"fast_read_vertex", &vox_cost_weights::fast_read_vertex},
+    {"fast_test_vertex", &vox_cost_weights::fast_test_vertex},
+};
+
+std::mutex& lock() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+vox_cost_weights& in_use() {
+    static vox_cost_weights weights = shipped_weights();
+    return weights;
+}
+
+} // namespace
+
+// Xeon at 2.5 GHz, gcc 12: bench/regret fits them to steps of both engines at many cell sizes.
+vox_cost_weights shipped_weights() noexcept {
+    vox_cost_weights weights{};
+    weights.struct_size = sizeof weights;
+    weights.measured = 0;
+    weights.reference_classify_vertex = 30;
+    weights.reference_prepare_tet = 38;
+    weights.reference_visit_cell = 13.9;
+    weights.reference_scan_cell = 2;
+    weights.reference_read_vertex = 0.82;
+    weights.reference_test_box = 2.3;
+    weights.reference_test_tet = 10;
+    weights.reference_clear_bucket = 0.2;
+    weights.fast_bin_vertex = 5;
+    weights.fast_clear_cell = 0.7;
+    weights.fast_visit_tile = 170;
+    weights.fast_visit_row = 9;
+    weights.fast_read_vertex = 0.35;
+    weights.fast_test_vertex = 3;
+    return weights;
+}
+
+vox_cost_weights weights_in_use() noexcept {
+    const std::lock_guard guard(lock());
+    return in_use();
+}
+
+void use_weights(const vox_cost_weights& weights) noexcept {
+    const std::lock_guard guard(lock());
+    in_use() = weights;
+}
+
+void check_weights(const vox_cost_weights& weights) {
+    for (const Named& named : fields) {
+        const double value = weights.*named.field;
+        if (!(value > 0) || !std::isfinite(value))
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("weight %s is %g, expected a finite number above 0", named.name, value));
+    }
+}
+
+} // namespace vox
