@@ -1,5 +1,16 @@
-# Snapshots.
+# What lasts: snapshots, a long random life, and the interface itself.
 vox_test(snapshot test_snapshot.c LIBS vox::vox m)
-set_tests_properties(snapshot PROPERTIES LABELS valgrind)
-target_compile_definitions(test_snapshot PRIVATE _POSIX_C_SOURCE=200809L)
-target_compile_options(test_snapshot PRIVATE -Wno-conversion -Wno-float-conversion)
+vox_test(soak test_soak.c LIBS vox::vox m)
+foreach(name snapshot soak)
+  set_tests_properties(${name} PROPERTIES LABELS valgrind)
+  target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)
+  target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)
+endforeach()
+
+find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+add_test(NAME abi_header COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/abi/test_header.py)
+# The checked-in numbers are those of 64-bit machines. What built libraries say themselves: ./dev abi.
+if(CMAKE_SIZEOF_VOID_P EQUAL 8 AND NOT CMAKE_CROSSCOMPILING AND NOT MSVC)
+  add_test(NAME abi_layout
+    COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/abi/layout.py ${CMAKE_C_COMPILER})
+endif()
