@@ -24,8 +24,7 @@ struct Corner {
 
 class Frame {
 public:
-    Frame(const Solid& solid, const Vec3d& p, const Vec3d& q)
-        : positions_(solid.positions), origin_{p.x, p.y, p.z} {
+    Frame(const Solid& solid, const Vec3d& p, const Vec3d& q) : positions_(solid.positions), origin_(p) {
         const double d[3] = {q.x - p.x, q.y - p.y, q.z - p.z};
         for (int axis = 1; axis < 3; ++axis)
             if (std::abs(d[axis]) > std::abs(d[z_])) z_ = axis;
@@ -39,14 +38,14 @@ public:
     bool is_usable() const { return dz_ != 0; } // p and q differ
 
     Corner operator()(std::uint32_t vertex) const {
-        const Vec3f at = positions_[vertex];
-        const double r[3] = {double{at.x} - origin_[0], double{at.y} - origin_[1], double{at.z} - origin_[2]};
+        const Vec3d from_p = at(positions_, vertex) - origin_;
+        const double r[3] = {from_p.x, from_p.y, from_p.z};
         return {vertex, r[x_] - shear_x_ * r[z_], r[y_] - shear_y_ * r[z_], r[z_] / dz_};
     }
 
 private:
     Positions positions_;
-    double origin_[3];
+    Vec3d origin_;
     int x_, y_, z_ = 0;
     double dz_, shear_x_, shear_y_;
 };
