@@ -6,6 +6,7 @@
 #include "mesh_check.hpp"
 #include "structs.hpp"
 
+#include <cmath>
 #include <new>
 
 using namespace vox;
@@ -174,8 +175,33 @@ vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* po
         Mesh& target = grid->mesh(mesh);
         require(positions, "positions");
         check_format(format, "");
-        target.bind(
-            {static_cast<const std::byte*>(positions), check_stride(byte_stride, target.vertex_count(), "")});
+        target.bind({static_cast<const std::byte*>(positions),
+                     check_stride(byte_stride, format, target.vertex_count(), ""),
+                     format == VOX_FORMAT_DOUBLE3});
+    });
+}
+
+vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_positions,
+                                  uint64_t* out_byte_stride) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_positions, "out_positions");
+        require(out_byte_stride, "out_byte_stride");
+        Mesh& target = grid->mesh(mesh);
+        *out_positions = target.map_positions();
+        *out_byte_stride = target.position_size();
+    });
+}
+
+vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]) {
+    return border([&] {
+        require(grid, "grid");
+        Mesh& target = grid->mesh(mesh);
+        for (int i = 0; matrix && i < 12; ++i)
+            if (!std::isfinite(matrix[i]))
+                throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                            format("matrix[%d] is %g, expected a finite number", i, matrix[i]));
+        target.set_transform(matrix);
     });
 }
 

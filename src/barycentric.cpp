@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycentric.cpp"
@@ -22,10 +23,11 @@
 #define VOX_BARYCENTRIC_ONCE
 namespace vox {
 
-// Points and the four corners of their tetrahedra, as a structure of arrays.
+// Points and the four corners of their tetrahedra, as a structure of arrays. Floats where those are exact.
+template <class Coordinate>
 struct BarycentricBlock {
-    alignas(64) float point[3][barycentric_block];
-    alignas(64) float corner[4][3][barycentric_block];
+    alignas(64) Coordinate point[3][barycentric_block];
+    alignas(64) Coordinate corner[4][3][barycentric_block];
 };
 
 } // namespace vox
@@ -63,17 +65,23 @@ HWY_INLINE void Determinant(D uz, const MinorOf& vw, D vz, const MinorOf& uw, D 
     error = hn::Mul(hn::Set(Doubles(), bound), permanent);
 }
 
+HWY_INLINE D LoadDoubles(const float* values) {
+    return hn::PromoteTo(Doubles(), hn::LoadU(HalfFloats(), values));
+}
+HWY_INLINE D LoadDoubles(const double* values) { return hn::LoadU(Doubles(), values); }
+
 // Bit i of the result: the weights of point i are not certain, and unspecified. Computes whole registers.
-std::uint64_t BlockWeights(const BarycentricBlock& block, std::size_t count, float* HWY_RESTRICT weights) {
+template <class Coordinate>
+HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std::size_t count,
+                                 float* HWY_RESTRICT weights) {
     const Doubles d;
     const HalfFloats df;
     std::uint64_t uncertain = 0;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         D e[4][3];
         for (int a = 0; a < 3; ++a) {
-            const D p = hn::PromoteTo(d, hn::LoadU(df, block.point[a] + i));
-            for (int c = 0; c < 4; ++c)
-                e[c][a] = hn::Sub(hn::PromoteTo(d, hn::LoadU(df, block.corner[c][a] + i)), p);
+            const D p = LoadDoubles(block.point[a] + i);
+            for (int c = 0; c < 4; ++c) e[c][a] = hn::Sub(LoadDoubles(block.corner[c][a] + i), p);
         }
         const D *u = e[0], *v = e[1], *w = e[2], *x = e[3];
         const MinorOf uv = Minor(u, v), uw = Minor(u, w), ux = Minor(u, x);
@@ -86,7 +94,9 @@ std::uint64_t BlockWeights(const BarycentricBlock& block, std::size_t count, flo
         v1 = hn::Neg(v1);
         v3 = hn::Neg(v3);
         const D total = hn::Add(hn::Add(hn::Add(v0, v1), v2), v3);
-        const D error = hn::Max(hn::Max(e0, e1), hn::Max(e2, e3));
+        D error = hn::Max(hn::Max(e0, e1), hn::Max(e2, e3));
+        // Of floats no product underflows, and no total that is not zero is that small.
+        if constexpr (std::is_same_v<Coordinate, double>) error = hn::Add(error, hn::Set(d, underflow_error));
         const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, 0x1p-24), hn::Abs(total)));
         if (!hn::AllTrue(d, certain)) {
             std::uint8_t bits[8] = {};
@@ -106,9 +116,20 @@ std::uint64_t BlockWeights(const BarycentricBlock& block, std::size_t count, flo
 
 #else // no registers of doubles: every point is left to the function that computes one
 
-std::uint64_t BlockWeights(const BarycentricBlock&, std::size_t, float*) { return ~std::uint64_t{0}; }
+template <class Coordinate>
+std::uint64_t Weights(const BarycentricBlock<Coordinate>&, std::size_t, float*) {
+    return ~std::uint64_t{0};
+}
 
 #endif
+
+std::uint64_t WeightsOfFloats(const BarycentricBlock<float>& block, std::size_t count, float* weights) {
+    return Weights(block, count, weights);
+}
+
+std::uint64_t WeightsOfDoubles(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
+    return Weights(block, count, weights);
+}
 
 } // namespace HWY_NAMESPACE
 } // namespace vox
@@ -116,11 +137,31 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace vox {
-void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t first,
-                 BarycentricWeights& weights) {
+namespace {
+
+std::uint64_t block_weights(const BarycentricBlock<float>& block, std::size_t count, float* weights) {
+    return VOX_SIMD_DISPATCH(WeightsOfFloats)(block, count, weights);
+}
+
+std::uint64_t block_weights(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
+    return VOX_SIMD_DISPATCH(WeightsOfDoubles)(block, count, weights);
+}
+
+// The position as Coordinates, exact: floats where the positions are.
+template <class Coordinate>
+auto position(const Positions& positions, std::uint32_t vertex) {
+    if constexpr (std::is_same_v<Coordinate, float>)
+        return positions.floats(vertex);
+    else
+        return positions.exact(vertex);
+}
+
+template <class Coordinate>
+void weights_of_block(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t first,
+                      BarycentricWeights& weights) {
     // Far enough to hide the way to memory, near enough that nothing is evicted again.
     constexpr std::size_t tets_ahead = 48, positions_ahead = 24;
-    BarycentricBlock block;
+    BarycentricBlock<Coordinate> block;
     const std::size_t count = std::min(barycentric_block, hits.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t h = first + i;
@@ -137,13 +178,13 @@ void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::s
         }
         const Hit& hit = hits[h];
         const Body& b = bodies[hit.body_b];
-        const Vec3f p = bodies[hit.body_a].positions[hit.vertex];
+        const auto p = position<Coordinate>(bodies[hit.body_a].positions, hit.vertex);
         block.point[0][i] = p.x;
         block.point[1][i] = p.y;
         block.point[2][i] = p.z;
         const Tet& tet = b.tets[hit.tet];
         for (std::size_t c = 0; c < 4; ++c) {
-            const Vec3f q = b.positions[tet.v[c]];
+            const auto q = position<Coordinate>(b.positions, tet.v[c]);
             block.corner[c][0][i] = q.x;
             block.corner[c][1][i] = q.y;
             block.corner[c][2][i] = q.z;
@@ -156,16 +197,25 @@ void barycentric(std::span<const Body> bodies, std::span<const Hit> hits, std::s
             for (std::size_t c = 0; c < 4; ++c) block.corner[c][a][i] = block.corner[c][a][0];
         }
     }
-    std::uint64_t uncertain =
-        VOX_SIMD_DISPATCH(BlockWeights)(block, count, &weights[0][0]) & ~std::uint64_t{0} >> (64 - count);
+    std::uint64_t uncertain = block_weights(block, count, &weights[0][0]) & ~std::uint64_t{0} >> (64 - count);
     for (; uncertain; uncertain &= uncertain - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
         const Hit& hit = hits[first + i];
-        const Body& b = bodies[hit.body_b];
-        const Tet& tet = b.tets[hit.tet];
-        weights[i] = barycentric(bodies[hit.body_a].positions[hit.vertex], b.positions[tet.v[0]],
-                                 b.positions[tet.v[1]], b.positions[tet.v[2]], b.positions[tet.v[3]]);
+        const Positions& q = bodies[hit.body_b].positions;
+        const Tet& tet = bodies[hit.body_b].tets[hit.tet];
+        weights[i] = barycentric(bodies[hit.body_a].positions.exact(hit.vertex), q.exact(tet.v[0]),
+                                 q.exact(tet.v[1]), q.exact(tet.v[2]), q.exact(tet.v[3]));
     }
+}
+
+} // namespace
+
+void barycentric(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits, std::size_t first,
+                 BarycentricWeights& weights) {
+    if (rounded)
+        weights_of_block<double>(bodies, hits, first, weights);
+    else
+        weights_of_block<float>(bodies, hits, first, weights);
 }
 
 } // namespace vox

@@ -91,10 +91,12 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, st
 
     contacts.clear();
     contacts.reserve(hits.size());
+    const bool rounded = std::any_of(bodies.begin(), bodies.end(),
+                                     [](const Body& body) { return body.positions.rounded(); });
     BarycentricWeights weights;
     std::array<vox_contact, barycentric_block> block;
     for (std::size_t first = 0; first < hits.size(); first += barycentric_block) {
-        barycentric(bodies, hits, first, weights);
+        barycentric(bodies, rounded, hits, first, weights);
         const std::size_t count = std::min(barycentric_block, hits.size() - first);
         for (std::size_t i = 0; i < count; ++i) {
             const Hit& hit = hits[first + i];

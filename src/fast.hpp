@@ -74,10 +74,11 @@ public:
 
 private:
     struct BodyState {
-        const float* positions;    // packed
+        const float* positions;    // packed; rounded, when floats are not enough
         std::uint32_t first_super; // in super_boxes_
         std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
         std::uint32_t first_block; // in block_boxes_
+        bool rounded;              // `positions` are
         bool moved;                // or may have, since the last step
         bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
         bool tiles_known;          // all of tile_boxes_ are

@@ -15,12 +15,12 @@ namespace vox {
 
 namespace {
 
-// Differences of floats in double do not overflow, nor do products of up to six of them: areas and volumes of
-// the largest finite coordinates are finite, those of the smallest are not flushed to zero.
+// Differences of coordinates below 2^128 do not overflow in double, nor do products of up to six of them: areas and
+// volumes of the largest coordinates are finite, and those of the smallest floats are not flushed to zero.
 using Eigen::Vector3d;
 using Box3d = Eigen::AlignedBox3d;
 
-Vector3d point(const Vec3f& p) { return {p.x, p.y, p.z}; }
+Vector3d point(const Vec3d& p) { return {p.x, p.y, p.z}; }
 
 double facet_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     return (b - a).cross(c - a).norm() / 2;
@@ -114,8 +114,8 @@ struct Sums {
 Box3d measure_tets(const Body& body, Sums& sums) {
     Box3d bounds;
     for (const Tet& tet : body.tets) {
-        const Vec3f corner[4] = {body.positions[tet.v[0]], body.positions[tet.v[1]], body.positions[tet.v[2]],
-                                 body.positions[tet.v[3]]};
+        const Vec3d corner[4] = {body.positions.exact(tet.v[0]), body.positions.exact(tet.v[1]),
+                                 body.positions.exact(tet.v[2]), body.positions.exact(tet.v[3])};
         Vector3d p[4];
         Box3d box;
         for (int i = 0; i < 4; ++i) box.extend(p[i] = point(corner[i]));
@@ -146,7 +146,7 @@ void measure_edges(const Body& body, Sums& sums) {
     };
     for_each_unique<std::uint32_t>(
         body.vertex_count, sums.memory(), generate, [&](std::uint32_t a, std::uint32_t b, std::size_t) {
-            sums.edge.add((point(body.positions[b]) - point(body.positions[a])).norm());
+            sums.edge.add((point(body.positions.exact(b)) - point(body.positions.exact(a))).norm());
         });
 }
 
@@ -162,8 +162,8 @@ void measure_facets(const Body& body, Sums& sums) {
     for_each_unique<std::uint64_t>(body.vertex_count, sums.memory(), generate,
                                    [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
                                        const double area = facet_area(
-                                           point(body.positions[a]), point(body.positions[rest >> 32]),
-                                           point(body.positions[rest & 0xffffffffu]));
+                                           point(body.positions.exact(a)), point(body.positions.exact(rest >> 32)),
+                                           point(body.positions.exact(rest & 0xffffffffu)));
                                        sums.facet.add(area);
                                        if (multiplicity == 1) sums.boundary_facet.add(area);
                                    });
@@ -189,7 +189,7 @@ Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory
         measure_edges(body, sums);
         measure_facets(body, sums);
         if (body.tets.empty())
-            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.extend(point(body.positions[v]));
+            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.extend(point(body.positions.exact(v)));
         if (box.isEmpty()) continue;
         bounds.extend(box);
         const double volume = box.volume();

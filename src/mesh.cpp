@@ -4,23 +4,20 @@
 #include "mesh_check.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : tets_(view.tets.begin(), view.tets.end(), memory), copied_(memory), topology_(memory), tiles_(memory),
+    : tets_(view.tets.begin(), view.tets.end(), memory), owned_(memory), topology_(memory), tiles_(memory),
       positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
-    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) {
-        copied_.reserve(vertex_count_);
-        for (std::uint32_t v = 0; v < vertex_count_; ++v) copied_.push_back(positions_[v]);
-        positions_ = {reinterpret_cast<const std::byte*>(copied_.data()), sizeof(Vec3f)};
-    }
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) map_positions();
     if (desc.rest_positions)
         set_rest({static_cast<const std::byte*>(desc.rest_positions),
-                  check_stride(desc.rest_position_byte_stride, vertex_count_, "rest_")});
+                  check_stride(desc.rest_position_byte_stride, VOX_FORMAT_FLOAT3, vertex_count_, "rest_")});
     set_filter(filter);
 }
 
@@ -32,13 +29,36 @@ void Mesh::make_tiles() {
 
 void Mesh::bind(const Positions& positions) noexcept {
     positions_ = positions;
-    copied_ = std::pmr::vector<Vec3f>(copied_.get_allocator());
+    owned_ = std::pmr::vector<double>(owned_.get_allocator());
+}
+
+void* Mesh::map_positions() {
+    if (owned_.empty() && vertex_count_ > 0) {
+        const std::size_t size = position_size();
+        std::pmr::vector<double> owned((vertex_count_ * size + sizeof(double) - 1) / sizeof(double), 0.0,
+                                       owned_.get_allocator());
+        auto* to = reinterpret_cast<std::byte*>(owned.data());
+        if (positions_.data)
+            for (std::size_t v = 0; v < vertex_count_; ++v)
+                std::memcpy(to + v * size, positions_.data + v * positions_.byte_stride, size);
+        owned_ = std::move(owned);
+        positions_.data = to;
+        positions_.byte_stride = size;
+    }
+    return owned_.data();
+}
+
+void Mesh::set_transform(const double* matrix) noexcept {
+    has_transform_ = matrix != nullptr;
+    if (matrix) std::copy_n(matrix, transform_.size(), transform_.begin());
 }
 
 Body Mesh::body(vox_mesh id) const noexcept {
+    Positions positions = positions_;
+    if (has_transform_) positions.transform = transform_.data();
     return {.mesh_id = id,
             .vertex_count = vertex_count_,
-            .positions = positions_,
+            .positions = positions,
             .tets = tets_,
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},

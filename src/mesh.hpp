@@ -8,6 +8,8 @@
 
 #include <vox/vox.h>
 
+#include <array>
+#include <cstddef>
 #include <memory_resource>
 #include <vector>
 
@@ -17,8 +19,8 @@ class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : tets_(memory), copied_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()), self_filter_(memory),
-          exceptions_(memory) {}
+        : tets_(memory), owned_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()),
+          self_filter_(memory), exceptions_(memory) {}
     // A copy of a checked desc: `view` are its arrays (mesh_check.hpp), desc.filter not looked at.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
          std::pmr::memory_resource* memory);
@@ -34,8 +36,16 @@ public:
     void make_tiles();
     FastMesh& tiles() noexcept { return tiles_; }
 
-    // Borrows positions; a copy made at insertion is released.
+    // Borrows positions; those of its own are released.
     void bind(const Positions& positions) noexcept;
+
+    // The mesh's own positions, to be written to: at first a copy of the borrowed ones, or zeros where there
+    // are none, in the same format.
+    void* map_positions();
+    std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
+
+    // Null: none. Three rows of four, finite.
+    void set_transform(const double* matrix) noexcept;
 
     bool has_positions() const noexcept { return vertex_count_ == 0 || positions_.data != nullptr; }
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
@@ -64,11 +74,13 @@ private:
     void set_rest(const Positions& positions);
 
     std::pmr::vector<Tet> tets_;
-    std::pmr::vector<Vec3f> copied_;
-    depth::Topology topology_; // empty unless it was made
+    std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
+    depth::Topology topology_;       // empty unless it was made
     FastMesh tiles_;
     bool has_tiles_ = false;
-    Positions positions_;
+    Positions positions_; // without the transform
+    std::array<double, 12> transform_{};
+    bool has_transform_ = false;
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
     vox_filter filter_;

@@ -13,12 +13,14 @@ namespace vox {
 static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == alignof(std::uint32_t),
               "tets are viewed in the caller's index array");
 
-std::size_t check_stride(std::uint64_t byte_stride, std::uint64_t vertex_count, const char* where) {
-    if (byte_stride == 0) return sizeof(Vec3f);
-    if (byte_stride < sizeof(Vec3f))
+std::size_t check_stride(std::uint64_t byte_stride, vox_format position_format, std::uint64_t vertex_count,
+                         const char* where) {
+    const std::size_t size = position_format == VOX_FORMAT_DOUBLE3 ? sizeof(Vec3d) : sizeof(Vec3f);
+    if (byte_stride == 0) return size;
+    if (byte_stride < size)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %zu", where,
-                           byte_stride, sizeof(Vec3f)));
+                           byte_stride, size));
     // No array is larger than this; a stride that would make it so is a mistake, not a huge mesh.
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
     if (vertex_count > 0 && byte_stride > most_bytes / vertex_count)
@@ -32,7 +34,7 @@ void check_format(const vox_format& position_format, const char* where) {
     // Copied as a number: a value outside the enum must not be read as one.
     std::int32_t value;
     std::memcpy(&value, &position_format, sizeof value);
-    if (value != VOX_FORMAT_FLOAT3)
+    if (value != VOX_FORMAT_FLOAT3 && value != VOX_FORMAT_DOUBLE3)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_format is %" PRId32 ", not a vox_format", where, value));
 }
@@ -53,7 +55,8 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
         throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.tet_count, VOX_MAX_TETS));
     check_format(desc.position_format, where);
-    const std::size_t stride = check_stride(desc.position_byte_stride, desc.vertex_count, where);
+    const std::size_t stride =
+        check_stride(desc.position_byte_stride, desc.position_format, desc.vertex_count, where);
     if (!desc.positions && desc.vertex_count > 0 && null_positions == NullPositions::rejected)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%spositions is null, vertex_count is %" PRIu64, where, desc.vertex_count));
@@ -66,7 +69,8 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
 
     Body body;
     body.vertex_count = static_cast<std::uint32_t>(desc.vertex_count);
-    body.positions = {static_cast<const std::byte*>(desc.positions), stride};
+    body.positions = {static_cast<const std::byte*>(desc.positions), stride,
+                      desc.position_format == VOX_FORMAT_DOUBLE3};
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
     for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
@@ -78,12 +82,18 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
 }
 
 void check_finite(const Body& body) {
+    const auto refuse = [&](vox_result result, std::uint32_t vertex, const Vec3d& p, const char* why) {
+        throw Error(result, format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is %s",
+                                   body.mesh_id, vertex, p.x, p.y, p.z, why));
+    };
+    const auto all_finite = [](const auto& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    };
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-        const Vec3f p = body.positions[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw Error(VOX_ERROR_NON_FINITE,
-                        format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is not finite",
-                               body.mesh_id, v, double{p.x}, double{p.y}, double{p.z}));
+        if (all_finite(body.positions[v])) continue;
+        const Vec3d p = body.positions.exact(v);
+        if (!all_finite(p)) refuse(VOX_ERROR_NON_FINITE, v, p, "not finite");
+        refuse(VOX_ERROR_LIMIT, v, p, "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38");
     }
 }
 

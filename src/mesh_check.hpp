@@ -16,12 +16,14 @@ enum class NullPositions : bool { rejected, allowed };
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
 
 // A byte stride as the caller gave it (0: tightly packed) as a number of bytes, checked.
-std::size_t check_stride(std::uint64_t byte_stride, std::uint64_t vertex_count, const char* where);
+std::size_t check_stride(std::uint64_t byte_stride, vox_format format, std::uint64_t vertex_count,
+                         const char* where);
 
 // Throws INVALID_ARGUMENT for a format that this version does not know.
 void check_format(const vox_format& format, const char* where);
 
-// Throws NON_FINITE naming the mesh and the first vertex whose position is not finite.
+// Throws NON_FINITE naming the mesh and the first vertex whose position is not finite, LIMIT when it is
+// finite but has no finite float near it.
 void check_finite(const Body& body);
 
 } // namespace vox

@@ -1,14 +1,15 @@
-// The exact part of predicates.hpp: determinants as expansions, after Shewchuk 1997 (cited there), Sects. 2.1
-// to 2.8.
+// The exact part of predicates.hpp: determinants as integers.
 //
-// An expansion is a sum of doubles that is never rounded: its parts are ordered by magnitude and do not
-// overlap, so the largest one has the sign of the whole. All values here are integer multiples of 2^-447
-// below 2^391, hence no part and no rounding error of a product underflows, and everything is exact for any
-// finite floats.
+// A finite double is an integer times a power of two, so the coordinates of a few points are integers in
+// units of the largest power of two that divides all of them: for points of one scene small ones, of two or
+// three words. Their differences, products and sums take as many words as they need and are never rounded,
+// whatever the doubles (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
 #include "predicates.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cfloat>
+#include <span>
 
 #if defined(FLT_EVAL_METHOD)
 static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "doubles must be rounded to double");
@@ -17,141 +18,188 @@ static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "doubles must be rou
 namespace vox {
 namespace {
 
-struct Pair {
-    double value, error; // value + error is the exact result, value the rounded one
+// Sign and magnitude, in words of 32 bits, the least significant one first.
+struct Integer {
+    // Doubles are multiples of 2^-1074 below 2^1024, so a difference takes 66 words, a product of three 198,
+    // and a sum of six of these no more than 199.
+    static constexpr int most_words = 199;
+
+    int size = 0; // the top word is not zero
+    bool negative = false;
+    std::uint32_t word[most_words];
+
+    int sign() const { return size == 0 ? 0 : negative ? -1 : 1; }
+
+    void trim() {
+        while (size > 0 && word[size - 1] == 0) --size;
+    }
 };
 
-Pair two_sum(double a, double b) { // Knuth
-    const double sum = a + b;
-    const double b_part = sum - a;
-    const double a_part = sum - b_part;
-    return {sum, (a - a_part) + (b - b_part)};
+bool smaller_magnitude(const Integer& a, const Integer& b) {
+    if (a.size != b.size) return a.size < b.size;
+    for (int i = a.size; i-- > 0;)
+        if (a.word[i] != b.word[i]) return a.word[i] < b.word[i];
+    return false;
 }
 
-Pair split(double a) {                         // Veltkamp: two halves of at most 26 bits
-    const double shifted = 0x1.0000002p27 * a; // 2^27 + 1
-    const double high = shifted - (shifted - a);
-    return {high, a - high};
-}
-
-Pair two_product(double a, double b) { // Dekker
-    const double product = a * b;
-    const Pair x = split(a), y = split(b);
-    const double error =
-        x.error * y.error - (((product - x.value * y.value) - x.error * y.value) - x.value * y.error);
-    return {product, error};
-}
-
-struct Expansion {
-    // A difference has 2 parts, the product of two differences 8, a minor 16, times a difference 64, a sum of
-    // three of these 192.
-    double part[192];
-    int size = 0;
-
-    void append(double value) {
-        if (value != 0) part[size++] = value;
+void add_magnitudes(const Integer& longer, const Integer& shorter, Integer& out) {
+    std::uint64_t carry = 0;
+    for (int i = 0; i < longer.size; ++i, carry >>= 32) {
+        carry += std::uint64_t{longer.word[i]} + (i < shorter.size ? shorter.word[i] : 0);
+        out.word[i] = static_cast<std::uint32_t>(carry);
     }
+    out.size = longer.size;
+    if (carry) out.word[out.size++] = static_cast<std::uint32_t>(carry);
+}
 
-    void add(double value) { // GROW-EXPANSION, zeros dropped
-        const int count = size;
-        size = 0;
-        for (int i = 0; i < count; ++i) {
-            const Pair sum = two_sum(value, part[i]);
-            append(sum.error);
-            value = sum.value;
+void subtract_magnitudes(const Integer& larger, const Integer& smaller, Integer& out) {
+    std::uint64_t borrow = 0;
+    for (int i = 0; i < larger.size; ++i) {
+        const std::uint64_t difference =
+            std::uint64_t{larger.word[i]} - (i < smaller.size ? smaller.word[i] : 0) - borrow;
+        out.word[i] = static_cast<std::uint32_t>(difference);
+        borrow = difference >> 63;
+    }
+    out.size = larger.size;
+    out.trim();
+}
+
+Integer sum(const Integer& a, const Integer& b, bool b_negative) {
+    Integer result;
+    const bool swap = smaller_magnitude(a, b);
+    const Integer &larger = swap ? b : a, &smaller = swap ? a : b;
+    if (a.negative == b_negative)
+        add_magnitudes(larger, smaller, result);
+    else
+        subtract_magnitudes(larger, smaller, result);
+    result.negative = swap ? b_negative : a.negative;
+    return result;
+}
+
+Integer operator+(const Integer& a, const Integer& b) { return sum(a, b, b.negative); }
+Integer operator-(const Integer& a, const Integer& b) { return sum(a, b, !b.negative); }
+
+Integer operator*(const Integer& a, const Integer& b) {
+    Integer result;
+    if (a.size == 0 || b.size == 0) return result;
+    result.negative = a.negative != b.negative;
+    result.size = a.size + b.size;
+    std::fill_n(result.word, b.size, 0u);
+    for (int i = 0; i < a.size; ++i) {
+        std::uint64_t carry = 0;
+        for (int j = 0; j < b.size; ++j, carry >>= 32) {
+            carry += std::uint64_t{a.word[i]} * b.word[j] + result.word[i + j];
+            result.word[i + j] = static_cast<std::uint32_t>(carry);
         }
-        append(value);
+        result.word[i + b.size] = static_cast<std::uint32_t>(carry);
     }
+    result.trim();
+    return result;
+}
 
-    void add(const Expansion& other) { // EXPANSION-SUM
-        for (int i = 0; i < other.size; ++i) add(other.part[i]);
-    }
-
-    void subtract(const Expansion& other) {
-        for (int i = 0; i < other.size; ++i) add(-other.part[i]);
-    }
+// |value| == mantissa * 2^exponent, the mantissa odd; 0 for 0.
+struct Parts {
+    std::uint64_t mantissa;
+    int exponent;
 };
 
-Expansion exact_difference(float a, float b) {
-    const Pair pair = two_sum(double(a), -double(b));
-    Expansion result;
-    result.append(pair.error);
-    result.append(pair.value);
+Parts parts(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const int biased = static_cast<int>(bits >> 52 & 0x7ff);
+    const std::uint64_t mantissa = (bits & 0xfffffffffffff) | std::uint64_t{biased != 0} << 52;
+    if (mantissa == 0) return {0, 0};
+    const int zeros = std::countr_zero(mantissa);
+    return {mantissa >> zeros, std::max(biased, 1) - 1075 + zeros};
+}
+
+// Points as integers, in the largest unit that suits all of them.
+struct IntegerPoint {
+    Integer x, y, z;
+};
+
+Integer in_units(double value, int unit) {
+    Integer result;
+    const Parts from = parts(value);
+    if (from.mantissa == 0) return result;
+    result.negative = value < 0;
+    const int words = (from.exponent - unit) / 32, bits = (from.exponent - unit) % 32;
+    std::fill_n(result.word, words, 0u);
+    const std::uint64_t low = from.mantissa << bits;
+    result.word[words] = static_cast<std::uint32_t>(low);
+    result.word[words + 1] = static_cast<std::uint32_t>(low >> 32);
+    result.word[words + 2] = bits == 0 ? 0 : static_cast<std::uint32_t>(from.mantissa >> (64 - bits));
+    result.size = words + 3;
+    result.trim();
     return result;
 }
 
-Expansion scaled(const Expansion& e, double factor) { // SCALE-EXPANSION
-    Expansion result;
-    if (e.size == 0) return result;
-    Pair carry = two_product(e.part[0], factor);
-    result.append(carry.error);
-    for (int i = 1; i < e.size; ++i) {
-        const Pair product = two_product(e.part[i], factor);
-        const Pair low = two_sum(carry.value, product.error);
-        result.append(low.error);
-        carry = two_sum(product.value, low.value);
-        result.append(carry.error);
-    }
-    result.append(carry.value);
-    return result;
-}
-
-// `few` has at most two parts.
-Expansion product(const Expansion& many, const Expansion& few) {
-    Expansion result;
-    for (int i = 0; i < few.size; ++i) result.add(scaled(many, few.part[i]));
+template <std::size_t Count>
+std::array<IntegerPoint, Count> in_units(const std::array<Vec3d, Count>& points) {
+    int unit = 1024;
+    for (const Vec3d& p : points)
+        for (const double value : {p.x, p.y, p.z})
+            if (value != 0) unit = std::min(unit, parts(value).exponent);
+    std::array<IntegerPoint, Count> result;
+    for (std::size_t i = 0; i < Count; ++i)
+        result[i] = {in_units(points[i].x, unit), in_units(points[i].y, unit), in_units(points[i].z, unit)};
     return result;
 }
 
 // det[b-a, c-a, d-a]
-Expansion exact_volume(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) {
-    struct Row {
-        Expansion x, y, z;
-    };
-    const auto row = [&a](const Vec3f& p) {
-        return Row{exact_difference(p.x, a.x), exact_difference(p.y, a.y), exact_difference(p.z, a.z)};
-    };
-    const auto exact_minor = [](const Row& u, const Row& v) {
-        Expansion result = product(u.x, v.y);
-        result.subtract(product(v.x, u.y));
-        return result;
-    };
-    const Row u = row(b), v = row(c), w = row(d);
-    Expansion result = product(exact_minor(v, w), u.z);
-    result.subtract(product(exact_minor(u, w), v.z));
-    result.add(product(exact_minor(u, v), w.z));
-    return result;
+Integer exact_volume(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c,
+                     const IntegerPoint& d) {
+    const Integer ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const Integer vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+    const Integer wx = d.x - a.x, wy = d.y - a.y, wz = d.z - a.z;
+    return (vx * wy - wx * vy) * uz + (wx * uy - ux * wy) * vz + (ux * vy - vx * uy) * wz;
 }
 
-// The value to within one unit in the last place: the downward half of COMPRESS moves all that a double can
-// hold into the top parts, and what is left adds up from below.
-double estimate(const Expansion& e) {
-    if (e.size == 0) return 0;
-    double compressed[192];
-    int count = 0;
-    double top = e.part[e.size - 1];
-    for (int i = e.size - 2; i >= 0; --i) {
-        const Pair sum = two_sum(top, e.part[i]);
-        top = sum.value;
-        if (sum.error != 0) {
-            compressed[count++] = top;
-            top = sum.error;
-        }
-    }
-    for (int i = count - 1; i >= 0; --i) top = compressed[i] + top;
-    return top;
+int bit_count(const Integer& i) {
+    return i.size == 0 ? 0 : 32 * i.size - std::countl_zero(i.word[i.size - 1]);
+}
+
+// i / 2^bits, rounded to nearest once: its top 64 bits, the last of them set when anything below is.
+double scaled(const Integer& i, int bits) {
+    if (i.size == 0) return 0;
+    const auto word = [&i](int index) { return index >= 0 ? std::uint64_t{i.word[index]} : 0; };
+    const int zeros = std::countl_zero(i.word[i.size - 1]);
+    const std::uint64_t high = word(i.size - 1) << 32 | word(i.size - 2);
+    const std::uint64_t low = word(i.size - 3) << 32;
+    std::uint64_t top = zeros == 0 ? high : high << zeros | low >> (64 - zeros);
+    const bool rest = (low << zeros) != 0 || std::any_of(i.word, i.word + std::max(i.size - 3, 0),
+                                                         [](std::uint32_t w) { return w != 0; });
+    top |= std::uint64_t{rest};
+    const double value = std::ldexp(static_cast<double>(top), bit_count(i) - 64 - bits);
+    return i.negative ? -value : value;
+}
+
+// A product of three differences of coordinates that are 0 or at least 2^-240, hence multiples of 2^-292, is
+// 0 or at least 2^-876.
+bool products_may_underflow(std::span<const Vec3d> points) {
+    return std::any_of(points.begin(), points.end(), [](const Vec3d& p) {
+        const auto tiny = [](double value) { return value != 0 && std::abs(value) < 0x1p-240; };
+        return tiny(p.x) || tiny(p.y) || tiny(p.z);
+    });
 }
 
 } // namespace
 
-int exact_orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) {
-    const Expansion volume = exact_volume(a, b, c, d);
-    if (volume.size == 0) return 0;
-    return volume.part[volume.size - 1] > 0 ? 1 : -1;
+int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+    const auto p = in_units(std::array{a, b, c, d});
+    return exact_volume(p[0], p[1], p[2], p[3]).sign();
 }
 
-std::array<float, 4> barycentric(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c,
-                                 const Vec3f& d) {
+int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                          const Vec3d& d, std::uint64_t& exact_tests) {
+    // The products add up to less than 2^-900: each has a factor that is exactly zero, unless one
+    // underflowed.
+    if (volume.error == underflow_error && !products_may_underflow(std::array{a, b, c, d})) return 0;
+    ++exact_tests;
+    return exact_orientation(a, b, c, d);
+}
+
+std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                 const Vec3d& d) {
     const std::array<BoundedVolume, 4> bounded = corner_volumes(p, a, b, c, d);
     double volume[4] = {bounded[0].volume, bounded[1].volume, bounded[2].volume, bounded[3].volume};
     double total = volume[0] + volume[1] + volume[2] + volume[3];
@@ -160,10 +208,12 @@ std::array<float, 4> barycentric(const Vec3f& p, const Vec3f& a, const Vec3f& b,
     // five times that. Otherwise the exact volumes are rounded once; they have one sign, so nothing cancels
     // in the sum.
     if (!(error < 0x1p-24 * std::abs(total))) {
-        volume[0] = estimate(exact_volume(p, b, c, d));
-        volume[1] = estimate(exact_volume(a, p, c, d));
-        volume[2] = estimate(exact_volume(a, b, p, d));
-        volume[3] = estimate(exact_volume(a, b, c, p));
+        const auto q = in_units(std::array{a, b, c, d, p});
+        const Integer exact[4] = {exact_volume(q[4], q[1], q[2], q[3]), exact_volume(q[0], q[4], q[2], q[3]),
+                                  exact_volume(q[0], q[1], q[4], q[3]), exact_volume(q[0], q[1], q[2], q[4])};
+        int bits = 0; // of the largest: it goes to about 1, and what vanishes beside it is nothing to a float
+        for (const Integer& v : exact) bits = std::max(bits, bit_count(v));
+        for (int i = 0; i < 4; ++i) volume[i] = scaled(exact[i], bits);
         total = volume[0] + volume[1] + volume[2] + volume[3];
     }
     std::array<float, 4> weights;

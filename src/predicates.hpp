@@ -1,14 +1,14 @@
-// Exact geometric decisions: point in closed tetrahedron, orientation. Float input, the sign as if computed
-// in infinite precision.
+// Exact geometric decisions: point in closed tetrahedron, orientation. Double input (a float is one too), of
+// magnitude below 2^128; the sign as if computed in infinite precision.
 //
 // Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete &
 // Computational Geometry 18, 1997: the determinant in double with the error bound A of ORIENT3D (Sect. 4.3),
-// and where the bound does not decide, exact expansions (predicates.cpp).
+// and where the bound does not decide, integers of as many digits as it takes (predicates.cpp).
 //
-// Why the bound holds for all finite floats: it presumes only that no operation overflows or underflows.
-// Floats are multiples of 2^-149 below 2^128, so a difference in double is 0 or in [2^-149, 2^129), a product
-// of three is 0 or in [2^-447, 2^387), and every sum is 0 or a multiple of a rounded product's last bit, at
-// least 2^-500. All of it is well inside the normal doubles, [2^-1022, 2^1024).
+// The bound presumes that no operation overflows or underflows. Nothing overflows: differences are below
+// 2^129, a product of three below 2^387. Sums and differences do not underflow. A product that does is off by
+// at most 2^-1075: the two of a minor, times the third factor, and the product with that factor, three times
+// over, are off by less than 2^-940 together, for which the bound has a summand of 2^-900.
 #pragma once
 
 #include "scene.hpp"
@@ -20,19 +20,25 @@
 namespace vox {
 
 // The sign of orientation() by exact arithmetic.
-int exact_orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d);
+int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
+
+inline constexpr double underflow_error = 0x1p-900;
 
 // A determinant in double and how far it may be from the true one.
 struct BoundedVolume {
     double volume;
-    double error;
+    double error; // at least underflow_error
 
     bool certain() const { return volume > error || -volume > error; }
 };
 
+// exact_orientation() of points whose volume is not certain, and its count, unless a look at it is enough.
+int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                          const Vec3d& d, std::uint64_t& exact_tests);
+
 // p - origin, each coordinate rounded once.
-inline Vec3d difference(const Vec3f& p, const Vec3f& origin) {
-    return {double(p.x) - double(origin.x), double(p.y) - double(origin.y), double(p.z) - double(origin.z)};
+inline Vec3d difference(const Vec3d& p, const Vec3d& origin) {
+    return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
 }
 
 // The minor ux*vy - vx*uy and, for the error bound, the same with absolute values.
@@ -54,19 +60,17 @@ inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Mi
     constexpr double bound = (7.0 + 56.0 * epsilon) * epsilon;
     const double permanent =
         std::abs(uz) * vw.magnitude + std::abs(vz) * uw.magnitude + std::abs(wz) * uv.magnitude;
-    return {uz * vw.value - vz * uw.value + wz * uv.value, bound * permanent};
+    return {uz * vw.value - vz * uw.value + wz * uv.value, bound * permanent + underflow_error};
 }
 
 // Sign (-1, 0, +1) of det[b-a, c-a, d-a]: positive when d lies on the side of triangle abc that its
 // counter-clockwise normal points to. `exact_tests` counts the calls that the filter could not decide.
-inline int orientation(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
+inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                        std::uint64_t& exact_tests) {
     const Vec3d u = difference(b, a), v = difference(c, a), w = difference(d, a);
     const BoundedVolume det = determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
     if (det.certain()) return det.volume > 0 ? 1 : -1;
-    if (det.error == 0) return 0; // every product has a factor that is exactly zero
-    ++exact_tests;
-    return exact_orientation(a, b, c, d);
+    return uncertain_orientation(det, a, b, c, d, exact_tests);
 }
 
 enum class Containment : std::uint8_t {
@@ -78,8 +82,8 @@ enum class Containment : std::uint8_t {
 
 // The volumes (times 6) of abcd with one corner replaced by p: they add up to the volume of abcd, and over it
 // they are the barycentric coordinates of p.
-inline std::array<BoundedVolume, 4> corner_volumes(const Vec3f& p, const Vec3f& a, const Vec3f& b,
-                                                   const Vec3f& c, const Vec3f& d) {
+inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& a, const Vec3d& b,
+                                                   const Vec3d& c, const Vec3d& d) {
     const Vec3d u = difference(a, p), v = difference(b, p), w = difference(c, p), x = difference(d, p);
     const Minor uv = minor(u, v), uw = minor(u, w), ux = minor(u, x);
     const Minor vw = minor(v, w), vx = minor(v, x), wx = minor(w, x);
@@ -93,8 +97,8 @@ inline std::array<BoundedVolume, 4> corner_volumes(const Vec3f& p, const Vec3f& 
 
 // As locate(), for a tetrahedron of non-zero volume. The volume is the sum of the four corner volumes, so p
 // is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the winding.
-inline Containment locate_in_solid(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c,
-                                   const Vec3f& d, std::uint64_t& exact_tests) {
+inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                   const Vec3d& d, std::uint64_t& exact_tests) {
     const std::array<BoundedVolume, 4> volumes = corner_volumes(p, a, b, c, d);
     bool positive = false, negative = false, zero = false;
     for (const BoundedVolume& v : volumes) {
@@ -104,11 +108,8 @@ inline Containment locate_in_solid(const Vec3f& p, const Vec3f& a, const Vec3f& 
     if (positive && negative) return Containment::outside; // decided without exact arithmetic
     for (int i = 0; i < 4; ++i) {
         if (volumes[std::size_t(i)].certain()) continue;
-        int sign = 0;
-        if (volumes[std::size_t(i)].error != 0) {
-            ++exact_tests;
-            sign = exact_orientation(i == 0 ? p : a, i == 1 ? p : b, i == 2 ? p : c, i == 3 ? p : d);
-        }
+        const int sign = uncertain_orientation(volumes[std::size_t(i)], i == 0 ? p : a, i == 1 ? p : b,
+                                               i == 2 ? p : c, i == 3 ? p : d, exact_tests);
         positive |= sign > 0;
         negative |= sign < 0;
         zero |= sign == 0;
@@ -119,7 +120,7 @@ inline Containment locate_in_solid(const Vec3f& p, const Vec3f& a, const Vec3f& 
 }
 
 // Where p lies with respect to the closed tetrahedron abcd, of either winding.
-inline Containment locate(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
+inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                           std::uint64_t& exact_tests) {
     const Containment in_solid = locate_in_solid(p, a, b, c, d, exact_tests);
     if (in_solid == Containment::outside && orientation(a, b, c, d, exact_tests) == 0)
@@ -130,7 +131,7 @@ inline Containment locate(const Vec3f& p, const Vec3f& a, const Vec3f& b, const 
 // Weights of the corners for a point p in the closed tetrahedron abcd of non-zero volume: each in [0, 1],
 // within 2^-20 of the true weight. The one function that makes them, so that every engine gives the same
 // bits.
-std::array<float, 4> barycentric(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c,
-                                 const Vec3f& d);
+std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                 const Vec3d& d);
 
 } // namespace vox

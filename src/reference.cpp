@@ -54,7 +54,7 @@ double cells_between(const CellCoord& min, const CellCoord& max) {
 } // namespace
 
 Reference::Reference(std::pmr::memory_resource* memory)
-    : particles_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
+    : particles_(memory), exact_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
 
 void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
                        std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
@@ -114,13 +114,24 @@ void Reference::load_particles(std::span<const Body> bodies) {
     }
     first_.push_back(std::uint32_t(count));
 
+    const bool rounded =
+        std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
     particles_.resize(count);
+    exact_.resize(rounded ? count : 0);
     Particle* particle = particles_.data();
+    Vec3d* exact = exact_.data();
     for (const Body& body : bodies) {
         check_finite(body);
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v)
+        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
             *particle++ = {body.positions[v], CellLists::none};
+            if (rounded) *exact++ = body.positions.exact(v);
+        }
     }
+}
+
+// The particle's position as the predicates take it.
+inline Vec3d Reference::position(std::size_t particle) const {
+    return exact_.empty() ? Vec3d(particles_[particle].position) : exact_[particle];
 }
 
 // Boxes from the deformed positions. A tetrahedron of zero volume holds nothing and gets an empty box.
@@ -131,15 +142,14 @@ void Reference::compute_boxes(Step& step) {
 
     Box3f* box = boxes_.data();
     for (std::size_t b = 0; b < step.bodies.size(); ++b) {
-        const Particle* own = particles_.data() + first_[b];
+        const std::size_t own = first_[b];
         for (const Tet& tet : step.bodies[b].tets) {
-            const Vec3f corner[4] = {own[tet.v[0]].position, own[tet.v[1]].position, own[tet.v[2]].position,
-                                     own[tet.v[3]].position};
             *box = empty_box();
-            if (orientation(corner[0], corner[1], corner[2], corner[3], step.counters.exact_tests) == 0)
+            if (orientation(position(own + tet.v[0]), position(own + tet.v[1]), position(own + tet.v[2]),
+                            position(own + tet.v[3]), step.counters.exact_tests) == 0)
                 ++step.counters.skipped_degenerate;
             else
-                for (const Vec3f& p : corner) extend(*box, p);
+                for (const std::uint32_t v : tet.v) extend(*box, particles_[own + v].position);
             ++box;
         }
     }
@@ -202,7 +212,8 @@ void Reference::classify(Step& step, const Lattice& lattice, const Address& addr
     step.counters.fullest_cell = fullest;
 }
 
-// Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its own.
+// Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its
+// own.
 bool Reference::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
     const auto is_filtered = [&](std::size_t a) { return a != body && !collide(bodies[a], bodies[body]); };
     bool any = false;
@@ -275,14 +286,14 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
 void Reference::narrow_phase(Step& step, std::uint32_t body) {
     const std::uint64_t start = nanoseconds();
     const std::span<const Tet> tets = step.bodies[body].tets;
-    const Particle* own = particles_.data() + first_[body];
+    const std::size_t own = first_[body];
     const SelfFilter* self_filter = step.bodies[body].self_filter;
     for (std::size_t c = 0; c < candidate_count_; ++c) {
         const Candidate& candidate = candidates_[c];
         const Tet& tet = tets[candidate.tet];
-        const Containment found = locate_in_solid(
-            particles_[candidate.particle].position, own[tet.v[0]].position, own[tet.v[1]].position,
-            own[tet.v[2]].position, own[tet.v[3]].position, step.counters.exact_tests);
+        const Containment found =
+            locate_in_solid(position(candidate.particle), position(own + tet.v[0]), position(own + tet.v[1]),
+                            position(own + tet.v[2]), position(own + tet.v[3]), step.counters.exact_tests);
         if (found == Containment::outside) continue;
         // The body of the particle: the last one that does not start after it.
         const auto after = std::upper_bound(first_.begin(), first_.end(), candidate.particle);

@@ -49,6 +49,7 @@ private:
 
     bool filter_particles(std::span<const Body> bodies, std::uint32_t body);
     void load_particles(std::span<const Body> bodies);
+    Vec3d position(std::size_t particle) const;
     void compute_boxes(Step& step);
     Lattice prepare_dense(const ReferenceSettings& settings, DenseAddress& address);
     Modulus prepare_hashed(const ReferenceSettings& settings);
@@ -62,9 +63,11 @@ private:
     void narrow_phase(Step& step, std::uint32_t body);
 
     std::pmr::vector<Particle> particles_;  // of all bodies, one after the other
+    std::pmr::vector<Vec3d> exact_;         // their positions, where floats are not enough; else empty
     std::pmr::vector<std::uint32_t> first_; // each body's first particle, and the end
-    std::pmr::vector<std::uint8_t> skipped_; // of each particle: filtered from the body whose tetrahedra are at hand
-    std::pmr::vector<Box3f> boxes_;         // of the tetrahedra of all bodies; empty when degenerate
+    std::pmr::vector<std::uint8_t>
+        skipped_;                   // of each particle: filtered from the body whose tetrahedra are at hand
+    std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty when degenerate
     CellLists cells_;
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
     std::size_t candidate_count_ = 0;

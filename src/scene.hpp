@@ -8,12 +8,14 @@
 
 namespace vox {
 
-struct Vec3f {
-    float x, y, z;
-};
-
 struct Vec3d {
     double x, y, z;
+};
+
+struct Vec3f {
+    float x, y, z;
+
+    constexpr operator Vec3d() const noexcept { return {double{x}, double{y}, double{z}}; } // exact
 };
 
 // Four vertex indices of one tetrahedron, in the caller's order.
@@ -25,13 +27,45 @@ struct Box3f {
     Vec3f min, max;
 };
 
-// The caller's positions: strided, borrowed, only valid during the step.
+// The caller's positions: strided, borrowed, only valid during the step; floats or doubles, as they are or
+// after a transform. Every contact is decided by exact(). What finds candidates looks at the nearest floats,
+// operator[]: rounding keeps the order of numbers, so what is in a box is in the rounded box when it is
+// rounded too.
 struct Positions {
     const std::byte* data = nullptr;
     std::size_t byte_stride = 0;
+    bool doubles = false;              // else floats
+    const double* transform = nullptr; // of vox_mesh_set_transform: three rows of four; null: none
 
+    // operator[] may differ from exact().
+    bool rounded() const noexcept { return doubles || transform; }
+
+    Vec3d exact(std::size_t vertex) const noexcept {
+        const Vec3d p = doubles ? read<Vec3d>(vertex) : Vec3d(read<Vec3f>(vertex));
+        return transform ? transformed(transform, p) : p;
+    }
+
+    // Where not rounded().
+    Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f>(vertex); }
+
+    // Infinite where a coordinate is 2^128 - 2^103 or more in magnitude.
     Vec3f operator[](std::size_t vertex) const noexcept {
-        Vec3f p;
+        if (!rounded()) return floats(vertex);
+        const Vec3d p = exact(vertex);
+        return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
+
+    // In this order of operations, each rounded to double: part of the interface.
+    static Vec3d transformed(const double* m, const Vec3d& p) noexcept {
+        return {((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3],
+                ((m[4] * p.x + m[5] * p.y) + m[6] * p.z) + m[7],
+                ((m[8] * p.x + m[9] * p.y) + m[10] * p.z) + m[11]};
+    }
+
+private:
+    template <class Point>
+    Point read(std::size_t vertex) const noexcept {
+        Point p;
         std::memcpy(&p, data + vertex * byte_stride, sizeof p);
         return p;
     }
@@ -56,8 +90,9 @@ struct Body {
     std::span<const Tet> tets{};
     bool self_collision = false;
     PairFilter filter{};
-    std::span<const std::uint32_t> exceptions{}; // ascending mesh_ids that it never collides with, nor they with it
-    const SelfFilter* self_filter = nullptr;     // null: there is none
+    std::span<const std::uint32_t>
+        exceptions{}; // ascending mesh_ids that it never collides with, nor they with it
+    const SelfFilter* self_filter = nullptr; // null: there is none
 };
 
 // A vertex found inside a closed tetrahedron, before canonical order. Bodies by index in the scene.

@@ -54,6 +54,22 @@ size_t oracle_contacts(const oracle_mesh* meshes, uint32_t mesh_count, oracle_co
 /* Tetrahedra of exactly zero volume. */
 size_t oracle_degenerate_tets(const oracle_mesh* meshes, uint32_t mesh_count);
 
+/* The same of doubles. */
+typedef struct oracle_mesh_d {
+    const double* positions;
+    const uint32_t* tets;
+    uint32_t vertex_count;
+    uint32_t tet_count;
+    int self_collision;
+} oracle_mesh_d;
+
+int oracle_orientation_d(const double a[3], const double b[3], const double c[3], const double d[3]);
+oracle_containment oracle_locate_d(const double p[3], const double* const corners[4]);
+void oracle_barycentric_d(const double p[3], const double* const corners[4], double weights[4]);
+size_t oracle_hits_d(const oracle_mesh_d* meshes, uint32_t mesh_count, oracle_contact** out);
+size_t oracle_contacts_d(const oracle_mesh_d* meshes, uint32_t mesh_count, oracle_contact** out);
+size_t oracle_degenerate_tets_d(const oracle_mesh_d* meshes, uint32_t mesh_count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -245,7 +245,8 @@ typedef uint32_t vox_mesh;
 #define VOX_NULL_MESH 0u
 
 typedef enum vox_format {
-    VOX_FORMAT_FLOAT3 = 0, /* three IEEE 754 singles x, y, z */
+    VOX_FORMAT_FLOAT3 = 0,  /* three IEEE 754 singles x, y, z */
+    VOX_FORMAT_DOUBLE3 = 1, /* three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38) */
     VOX_FORMAT_FORCE_32_BITS = 0x7fffffff
 } vox_format;
 
@@ -294,8 +295,8 @@ typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
     /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed: read during
-     * vox_grid_step and must stay valid and unchanged while one runs, until the mesh is removed or bound
-     * elsewhere. */
+     * vox_grid_step and must stay valid and unchanged while one runs, until the mesh is removed, bound
+     * elsewhere or mapped. */
     const void* positions;
     uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed */
     /* tet_count * 4 vertex indices, copied. Both windings are accepted. */
@@ -360,6 +361,24 @@ VOX_API vox_result vox_mesh_set_enabled(vox_grid* grid, vox_mesh mesh, uint32_t 
  * Ends with the removal of either mesh. Errors: INVALID_ARGUMENT for other numbers and for mesh_a = mesh_b (see
  * vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, uint32_t enabled);
+
+/* Gives the mesh positions of its own to write to, vertex_count of them packed in the format it was inserted with or
+ * bound to last: to begin with the ones it has, or zeros. From the next step on those in *out_positions count,
+ * whatever is written there between steps; again called, it gives the same. They belong to the library and live
+ * until the mesh is removed or bound, or the grid is cleared or destroyed. Null for a mesh without vertices.
+ * A mesh inserted with VOX_MESH_COPY_POSITIONS has them already: nothing is copied.
+ * Errors: BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_positions,
+                                          uint64_t* out_byte_stride);
+
+/* Moves a mesh as a whole: in the steps to come a vertex stands at
+ *     x' = ((m[0] * x + m[1] * y) + m[2] * z) + m[3], y' likewise from m[4..7], z' from m[8..11],
+ * computed from its position in double, in this order, each operation rounded. Contacts are exact for x', y', z' as
+ * they come out, as if these had been given as VOX_FORMAT_DOUBLE3; where they pass the limits of that format, the
+ * step fails. `matrix`: three rows of four, copied; any affine map. Null (the default): none, the positions as they
+ * are. Stays when other positions are bound.
+ * Errors: INVALID_ARGUMENT (an element that is not finite). */
+VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
@@ -575,6 +594,104 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t cap
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* desc, vox_grid** out_grid);
 
+/* ---- queries ---------------------------------------------------------------------------------- */
+
+/* Queries are about the meshes as they were when vox_grid_prepare_queries was called last: after the step, say.
+ * Later moves, removals and other changes do not show until the next call, so an answer may name a mesh that was
+ * removed since; vox_grid_clear ends what was prepared. Disabled meshes and meshes without tetrahedra take no part.
+ * Preparing is a change of the grid; the queries are reads: any number of threads at once. They take what memory they
+ * need for the time of the call from the C++ runtime's heap. Answers do not depend on engine, cell size, workers or
+ * machine.
+ * `mask`: a mesh takes part when its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
+ * `capacity`: that many hits are written, the first ones in the order given; *out_count is how many there are.
+ * Errors of all: INVALID_STATE (not prepared), INVALID_ARGUMENT, NON_FINITE (a coordinate asked for that is not
+ * finite, boxes and radii excepted), LIMIT (one of 2^128 or more), OUT_OF_MEMORY. */
+
+/* Copies the positions as they are now. Time and memory in proportion to vertices and tetrahedra: about 24 bytes a
+ * vertex and 60 a tetrahedron, kept until the grid is destroyed; the reference engine's grids also hold tiles from
+ * now on, as the fast engine's do. Errors: INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT, BUDGET,
+ * OUT_OF_MEMORY; what was prepared before stays then. */
+VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
+
+/* Point `point` of the query lies in the closed tetrahedron `tet` of `mesh`: exactly, and under the rule of
+ * vox_contact: every tetrahedron of a mesh that has it in its interior, or else the lowest whose boundary has it.
+ * `barycentric` as there. */
+typedef struct vox_point_hit {
+    uint32_t point;
+    vox_mesh mesh;
+    uint32_t tet;
+    float barycentric[4];
+} vox_point_hit;
+
+/* The tetrahedra that hold a point, sorted by (mesh, tet); vox_point_hit.point is 0. `hits` may be null when capacity
+ * is 0. */
+VOX_API vox_result vox_grid_query_point(const vox_grid* grid, const double point[3], uint64_t mask,
+                                        vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh, tet):
+ * faster than one by one. */
+VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points, vox_format format,
+                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask,
+                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+typedef struct vox_tet_hit {
+    vox_mesh mesh;
+    uint32_t tet;
+} vox_tet_hit;
+
+/* The tetrahedra whose bounding box has a point in common with the closed box from min to max, exactly; sorted by
+ * (mesh, tet). That is a superset of the tetrahedra which themselves meet it; those of zero volume count too.
+ * Infinite corners are allowed. Errors: INVALID_ARGUMENT unless min <= max on each axis. */
+VOX_API vox_result vox_grid_query_box(const vox_grid* grid, const double min[3], const double max[3], uint64_t mask,
+                                      vox_tet_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* A point of facet `facet` of a tetrahedron, the one opposite its corner `facet`; the facet's corners are
+ *     facet 0: corners 1, 2, 3    1: 0, 3, 2    2: 0, 1, 3    3: 0, 2, 1
+ * of the tetrahedron, counter-clockwise from outside where its volume is positive. The surface of a mesh are the
+ * facets of exactly one tetrahedron. */
+typedef struct vox_surface_hit {
+    vox_mesh mesh; /* VOX_NULL_MESH: there is none, and all is zero */
+    uint32_t tet;
+    uint32_t facet;
+    uint32_t reserved;
+    double barycentric[3]; /* weights of the facet's corners in that order: in [0, 1] to rounding, the sum 1 */
+    double position[3];
+    double distance;
+} vox_surface_hit;
+
+/* The point closest to `point` of the surfaces of all meshes, if it is no further away than radius (which may be
+ * infinite). Computed in double; of points equally far the lowest (mesh, tet, facet). */
+VOX_API vox_result vox_grid_query_closest(const vox_grid* grid, const double point[3], double radius, uint64_t mask,
+                                          vox_surface_hit* out_hit);
+
+typedef enum vox_side {
+    VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
+    VOX_SIDE_ENTERS = 1, /* into the tetrahedron */
+    VOX_SIDE_LEAVES = 2,
+    VOX_SIDE_FORCE_32_BITS = 0x7fffffff
+} vox_side;
+
+/* What the closed segment from `from` to `to` meets first; t is 0 at `from` and 1 at `to`. Whether it meets a
+ * tetrahedron or a facet is decided exactly; t, and with it which of two is first, to rounding. Of those at the same t
+ * the lowest (mesh, tet, facet). */
+typedef struct vox_ray_hit {
+    vox_mesh mesh; /* the first tetrahedron; VOX_NULL_MESH: it meets none, and all is zero */
+    uint32_t tet;
+    double t; /* 0 when `from` lies in it */
+    /* The first facet of a surface (see vox_surface_hit); VOX_NULL_MESH: none, as for a segment that ends before it
+     * leaves a mesh. A facet is not met by a segment that lies in its plane. */
+    vox_mesh surface_mesh;
+    uint32_t surface_tet;
+    uint32_t surface_facet;
+    vox_side surface_side;
+    double surface_t;
+    double surface_barycentric[3];
+} vox_ray_hit;
+
+/* Finds both in one call. from = to asks for a point. */
+VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
+                                      vox_ray_hit* out_hit);
+
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. From `cells` to `skipped_degenerate`, what was taken over from the step before
@@ -605,6 +722,7 @@ typedef struct vox_counters {
     uint64_t closest_tests;      /* triangles whose closest point that took */
     uint64_t disabled_meshes;    /* beside `meshes`: see vox_mesh_set_enabled */
     uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
+    uint64_t cell_size_changes;  /* times that the reference engine's cell size was chosen anew: see vox_grid_desc */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -624,7 +742,6 @@ typedef struct vox_profile {
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */
-    uint64_t cell_size_changes;  /* times that the reference engine's cell size was chosen anew: see vox_grid_desc */
 VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile);
 
 /* ---- cell size -------------------------------------------------------------------------------- */

@@ -79,7 +79,10 @@ bool Fast::cull_by_winding(const Step& step, std::uint32_t b, Worker& worker, Wo
                                  winding_cells_per_tile * sides.mean(),
                                  tile_boxes_.data() + state.first_tile,
                                  tile_known_.data() + state.first_tile,
-                                 helpers};
+                                 helpers,
+                                 state.rounded,
+                                 step.origin,
+                                 step.bodies[b].positions};
     return fast::certify(body, worker.certificate, worker.exact_tests);
 }
 

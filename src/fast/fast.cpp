@@ -36,6 +36,32 @@ void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pie
         pieces.push_back({body, first, std::min(first + most, count)});
 }
 
+// Far from zero floats are far apart: bodies whose positions are rounded anyway are rounded around a point among
+// them. Zero where that is near enough, seen from a few of their vertices: it matters to the time alone.
+Vec3d choose_origin(std::span<const Body> bodies) {
+    constexpr std::uint32_t samples = 8;
+    constexpr double far = 256; // sizes away
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    for (const Body& body : bodies) {
+        if (!body.positions.rounded()) continue;
+        for (std::uint32_t i = 0; i < std::min(samples, body.vertex_count); ++i) {
+            const Vec3d p = body.positions.exact(std::uint64_t{i} * body.vertex_count / samples);
+            const double x[3] = {p.x, p.y, p.z};
+            for (int a = 0; a < 3; ++a) {
+                lo[a] = std::min(lo[a], x[a]);
+                hi[a] = std::max(hi[a], x[a]);
+            }
+        }
+    }
+    double origin[3] = {};
+    for (int a = 0; a < 3; ++a) {
+        const double middle = lo[a] / 2 + hi[a] / 2;
+        if (std::abs(middle) > far * (hi[a] - lo[a]) && std::isfinite(middle)) origin[a] = middle;
+    }
+    return {origin[0], origin[1], origin[2]};
+}
+
 [[noreturn]] void throw_non_finite(std::span<const Body> bodies) {
     for (const Body& body : bodies) check_finite(body);
     throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");
@@ -99,8 +125,9 @@ private:
     Containment decide(const fast::Finding& f) {
         const Tet& tet = tets_[f.tet];
         const Positions& q = step_.bodies[body_].positions;
-        const Containment where = locate(step_.bodies[f.body].positions[f.vertex], q[tet.v[0]], q[tet.v[1]],
-                                         q[tet.v[2]], q[tet.v[3]], worker_.exact_tests);
+        const Containment where = locate(step_.bodies[f.body].positions.exact(f.vertex), q.exact(tet.v[0]),
+                                         q.exact(tet.v[1]), q.exact(tet.v[2]), q.exact(tet.v[3]),
+                                         worker_.exact_tests);
         if (where == Containment::degenerate) {
             const std::lock_guard lock(step_.mutex);
             engine_.degenerate_.push_back(std::uint64_t{body_} << 32 | f.tet);
@@ -193,6 +220,8 @@ void Fast::prepare(Step& step) {
     }
     degenerate_.clear();
 
+    step.origin = choose_origin(step.bodies);
+    const bool moved_origin = step.origin.x != 0 || step.origin.y != 0 || step.origin.z != 0;
     std::size_t blocks = 0, supers = 0, tiles = 0;
     states_.resize(step.bodies.size());
     groups_.clear();
@@ -200,9 +229,11 @@ void Fast::prepare(Step& step) {
     block_pieces_.clear();
     super_pieces_.clear();
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
-        const FastMesh& mesh = *step.prepared[b];
+        FastMesh& mesh = *step.prepared[b];
         states_[b] = {};
-        states_[b].positions = fast::is_packed(step.bodies[b].positions)
+        states_[b].rounded = moved_origin || step.bodies[b].positions.rounded();
+        mesh.rest.expect(states_[b].rounded);
+        states_[b].positions = !states_[b].rounded && fast::is_packed(step.bodies[b].positions)
                                    ? reinterpret_cast<const float*>(step.bodies[b].positions.data)
                                    : mesh.rest.positions.data();
         states_[b].moved = !step.settings.carry;
@@ -256,12 +287,16 @@ bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& 
     const std::pmr::vector<std::uint32_t>& first = step.prepared[piece.body]->block_first;
     const std::uint32_t begin = first[piece.first], end = first[piece.last];
     const std::size_t part = piece.first / piece_blocks;
-    const bool packed = fast::is_packed(positions);
-    if (!packed) moved = !fast::copy_strided(rest, part, positions, begin, end);
+    const bool packed = !state.rounded && fast::is_packed(positions);
+    if (state.rounded)
+        fast::round_positions(positions, step.origin, begin, end, rest.positions.data());
+    else if (!packed)
+        moved = !fast::copy_strided(rest, part, positions, begin, end);
     const bool finite = fast::stream_boxes(
         state.positions, std::span(first).subspan(piece.first, piece.last - piece.first + 1),
         block_boxes_.data() + state.first_block + piece.first, box);
     if (packed) moved = !fast::compare_packed(rest, part, state.positions, begin, end, box);
+    if (state.rounded) moved = !fast::compare_exact(rest, part, positions, begin, end, box);
     return finite;
 }
 
@@ -412,6 +447,8 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     query.positions = state.positions;
     query.boxes = tile_boxes_.data() + state.first_tile;
     query.known = tile_known_.data() + state.first_tile;
+    query.rounded = state.rounded;
+    for (const fast::Source& source : sources) query.rounded |= states_[source.body].rounded;
     if (worker.scratch.empty()) worker.scratch.resize(1);
     fast::QueryScratch& scratch = worker.scratch[0];
     scratch.finding_count = 0; // another piece may have failed and left some

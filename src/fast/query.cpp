@@ -15,6 +15,13 @@
 // flushed to zero), once more multiplied by a side: a constant for the tile covers them, which is infinite
 // when some product could overflow, and then nothing is certain.
 //
+// Positions that are rounded to floats (scene.hpp) are off by at most u M along an axis, where M is the
+// largest magnitude of a rounded coordinate in the tile's box, or by 2^-150. So a difference is off by e = 2
+// u M (1 + 2 u), and the volume of the true points from that of the rounded ones, each a sum of six products
+// of three differences, by at most six times (w_x + e_x) (w_y + e_y) (w_z + e_z) - W <= e_x s_y s_z + s_x e_y
+// s_z + s_x s_y e_z, s = w + e. The bound has that as one more summand, with 6 e (and a little more, for
+// roundings) in place of e.
+//
 // The volumes add up to D. If two of them have strictly opposite signs, p is outside; if all four have one
 // strict sign, p is inside.
 #include "query.hpp"
@@ -159,9 +166,10 @@ HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t va
     }
 }
 
-// Decides `count` pairs. `underflow` is the tile's constant of the filter.
+// Decides `count` pairs.
+template <bool kRounded>
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
-                         float underflow, Findings& out) {
+                         const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
@@ -176,7 +184,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const auto corners = hn::GatherIndex(du, s.corners, hn::BitCast(di, hn::And(pair, low6)));
         const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
         const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
-        V e1[3], e2[3], e3[3], q[3], volume = hn::Set(d, 256 * 0x1p-24f);
+        V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
             const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
@@ -184,7 +192,8 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
             const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
                     hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
-            volume = hn::Mul(volume, hn::Sub(hi, lo));
+            side[a] = hn::Sub(hi, lo);
+            volume = hn::Mul(volume, side[a]);
             e1[a] = hn::Sub(vb, va);
             e2[a] = hn::Sub(vc, va);
             e3[a] = hn::Sub(vd, va);
@@ -198,7 +207,8 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         Cross(e1, e2, n3);
         const V u1 = Dot(q, n1), u2 = Dot(q, n2), u3 = Dot(q, n3);
         const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n1), u1), u2), u3);
-        const V bound = hn::Add(volume, hn::Set(d, underflow));
+        V bound = hn::Add(volume, hn::Set(d, constants.underflow));
+        if constexpr (kRounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
         const V least = hn::Min(hn::Min(u0, u1), hn::Min(u2, u3));
         const V most = hn::Max(hn::Max(u0, u1), hn::Max(u2, u3));
         const auto positive = hn::Gt(least, bound), negative = hn::Lt(most, hn::Neg(bound));
@@ -244,7 +254,14 @@ struct TileWork {
     bool loaded; // its vertices are
     bool stamped;
     Scale scales[3];
-    float underflow;
+    FilterConstants constants;
+
+    void narrow(const std::uint32_t* tets, std::uint32_t count) {
+        if (query.rounded)
+            Narrow<true>(tets, s, count, constants, out);
+        else
+            Narrow<false>(tets, s, count, constants, out);
+    }
 };
 
 // All candidates in scratch against the tile; the first own_count are vertices of the same body.
@@ -256,7 +273,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
-        w.underflow = Underflow(w.box);
+        w.constants = MakeConstants(w.box, w.query.rounded);
         w.ready = true;
     }
     if (own_count && !w.stamped) {
@@ -304,11 +321,11 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
             to += 4;
         } while (mask);
         if (pairs > QueryScratch::most_pairs - 64) {
-            Narrow(tets, s, pairs, w.underflow, w.out);
+            w.narrow(tets, pairs);
             pairs = 0;
         }
     }
-    if (pairs) Narrow(tets, s, pairs, w.underflow, w.out);
+    if (pairs) w.narrow(tets, pairs);
 }
 
 // Appends the points of a source that lie in the tile's box to the candidates.
@@ -402,7 +419,7 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
                 std::uint32_t last, QueryScratch& s, Findings& out) {
     for (std::size_t i = 0; i < source_count; ++i) PrefetchWindow(sources[i].window);
     for (std::uint32_t t = first; t < last; ++t) {
-        TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, 0};
+        TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, {}};
         if (!query.known[t]) {
             LoadTile(*query.tiles, query.positions, w.tile, s, w.box);
             w.loaded = true;

@@ -82,6 +82,7 @@ struct Query {
     // Not null: the first source holds vertices of the same body, and tets do not meet their own corners. One
     // zeroed word a vertex, kept with the scratch.
     std::uint32_t* stamps;
+    bool rounded; // some positions, of the tiles or the sources
 };
 
 // Finds every point of the sources in the closed box of a tet of the tiles [first, last) and, as far as

@@ -18,21 +18,53 @@ bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std:
     return same;
 }
 
+namespace {
+
+// Compares with the copy; copies where that is due.
+template <class IsSame, class Copy>
+bool compare(Rest::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
+    const bool same = part.copied && is_same();
+    const bool same_box =
+        std::equal(box.lo, box.lo + 3, part.box.lo) && std::equal(box.hi, box.hi + 3, part.box.hi);
+    if (!same) {
+        part.copied = same_box || is_empty(part.box);
+        if (part.copied) copy();
+    }
+    part.box = box;
+    return same;
+}
+
+} // namespace
+
 bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept {
-    Rest::Part& p = rest.parts[part];
     const float* from = positions + std::size_t{first} * 3;
     float* copy = rest.positions.data() + std::size_t{first} * 3;
     const std::size_t bytes = std::size_t{last - first} * sizeof(Vec3f);
-    const bool same = p.copied && std::memcmp(copy, from, bytes) == 0;
-    const bool same_box =
-        std::equal(box.lo, box.lo + 3, p.box.lo) && std::equal(box.hi, box.hi + 3, p.box.hi);
-    if (!same) {
-        p.copied = same_box || is_empty(p.box);
-        if (p.copied) std::memcpy(copy, from, bytes);
-    }
-    p.box = box;
-    return same;
+    return compare(
+        rest.parts[part], box, [&] { return std::memcmp(copy, from, bytes) == 0; },
+        [&] { std::memcpy(copy, from, bytes); });
+}
+
+bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+                   std::uint32_t last, const Box& box) noexcept {
+    const auto is_same = [&] {
+        for (std::uint32_t v = first; v < last; ++v) {
+            const Vec3d p = positions.exact(v);
+            if (std::memcmp(&rest.exact[v], &p, sizeof p) != 0) return false;
+        }
+        return true;
+    };
+    return compare(rest.parts[part], box, is_same, [&] {
+        for (std::uint32_t v = first; v < last; ++v) rest.exact[v] = positions.exact(v);
+    });
+}
+
+void Rest::expect(bool rounded) {
+    const std::size_t count = rounded ? positions.size() / 3 : 0;
+    if (exact.size() == count) return;
+    exact.resize(count);
+    for (Part& part : parts) part = {};
 }
 
 } // namespace vox::fast

@@ -13,19 +13,24 @@ namespace vox::fast {
 
 // What is kept of a body from step to step. Its vertices come in parts, always the same ones.
 struct Rest {
-    explicit Rest(std::pmr::memory_resource* memory) noexcept : positions(memory), parts(memory) {}
+    explicit Rest(std::pmr::memory_resource* memory) noexcept
+        : positions(memory), exact(memory), parts(memory) {}
+
+    // Makes room for what is to come: rounded positions, or floats. Forgets the other kind.
+    void expect(bool rounded);
 
     struct Part {
         Box box = empty_box; // in the last step; empty before the first
         bool copied = false; // `positions` has those of the last step
     };
     std::pmr::vector<float> positions; // packed; room for all
+    std::pmr::vector<Vec3d> exact;     // of bodies whose positions are rounded; else empty
     std::pmr::vector<Part> parts;
 };
 
 // The caller's positions are an array of packed, aligned floats.
 inline bool is_packed(const Positions& positions) noexcept {
-    return positions.byte_stride == sizeof(Vec3f) &&
+    return !positions.rounded() && positions.byte_stride == sizeof(Vec3f) &&
            reinterpret_cast<std::uintptr_t>(positions.data) % alignof(float) == 0;
 }
 
@@ -39,5 +44,9 @@ bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std:
 // so that what moves in every step is not copied in every step.
 bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept;
+
+// The same for positions that were rounded into rest.positions.
+bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+                   std::uint32_t last, const Box& box) noexcept;
 
 } // namespace vox::fast

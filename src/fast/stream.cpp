@@ -3,10 +3,29 @@
 #include "stream.hpp"
 #include "../simd.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/stream.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#ifndef VOX_FAST_STREAM_ONCE
+#define VOX_FAST_STREAM_ONCE
+namespace vox::fast {
+
+constexpr double beyond_floats = 0x1.ffffffp127; // the least double that rounds to an infinite float
+constexpr float largest_float = std::numeric_limits<float>::max();
+
+inline float nearest_float(double value, double origin) {
+    if (!(std::abs(value) < beyond_floats)) return std::numeric_limits<float>::quiet_NaN();
+    return static_cast<float>(std::clamp(value - origin, -double{largest_float}, double{largest_float}));
+}
+
+} // namespace vox::fast
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
@@ -70,12 +89,54 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
     return finite;
 }
 
+// The same as nearest_float() below, of doubles that are three to a position.
+void RoundPacked(const double* HWY_RESTRICT from, const double* HWY_RESTRICT origin, std::size_t count,
+                 float* HWY_RESTRICT to) {
+    std::size_t i = 0;
+#if HWY_HAVE_FLOAT64
+    const hn::CappedTag<double, 8> d;
+    const hn::Rebind<float, decltype(d)> df;
+    constexpr std::size_t lanes = hn::MaxLanes(d);
+    alignas(64) double pattern[3 * lanes]; // the origin, over and over: three registers of it
+    for (std::size_t j = 0; j < 3 * lanes; ++j) pattern[j] = origin[j % 3];
+    const auto limit = hn::Set(d, beyond_floats), most = hn::Set(d, double{largest_float});
+    const auto nan = hn::NaN(d);
+    for (; i + 3 * lanes <= count; i += 3 * lanes)
+        for (std::size_t j = 0; j < 3 * lanes; j += lanes) {
+            const auto x = hn::LoadU(d, from + i + j);
+            const auto moved = hn::Sub(x, hn::Load(d, pattern + j));
+            const auto kept = hn::Max(hn::Min(moved, most), hn::Neg(most));
+            hn::StoreU(hn::DemoteTo(df, hn::IfThenElse(hn::Lt(hn::Abs(x), limit), kept, nan)), df,
+                       to + i + j);
+        }
+#endif
+    for (; i < count; ++i) to[i] = nearest_float(from[i], origin[i % 3]);
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox::fast
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace vox::fast {
+
+void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
+                     float* out) {
+    out += std::size_t{first} * 3;
+    if (positions.doubles && !positions.transform && positions.byte_stride == sizeof(Vec3d) &&
+        reinterpret_cast<std::uintptr_t>(positions.data) % alignof(double) == 0) {
+        const auto* from = reinterpret_cast<const double*>(positions.data) + std::size_t{first} * 3;
+        const double o[3] = {origin.x, origin.y, origin.z};
+        VOX_SIMD_DISPATCH(RoundPacked)(from, o, std::size_t{last - first} * 3, out);
+        return;
+    }
+    for (std::uint32_t v = first; v < last; ++v, out += 3) {
+        const Vec3d p = positions.exact(v);
+        out[0] = nearest_float(p.x, origin.x);
+        out[1] = nearest_float(p.y, origin.y);
+        out[2] = nearest_float(p.z, origin.z);
+    }
+}
 
 bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
     return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);

@@ -1,6 +1,7 @@
 // Stage 1: one pass over all positions. All that is read of a body that is far from every other.
 #pragma once
 
+#include "../scene.hpp"
 #include "box.hpp"
 
 #include <cstddef>
@@ -8,6 +9,12 @@
 #include <span>
 
 namespace vox::fast {
+
+// Writes the floats nearest to the exact positions [first, last), less `origin`, packed to out + 3 * first
+// and so on. Coordinates without a finite float near them give NaN; those that have one, but too far from the
+// origin, the largest float.
+void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
+                     float* out);
 
 // Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
 // of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes mean

@@ -30,13 +30,13 @@ Facet sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 bool is_negative(const Tet& tet, Positions positions) {
-    const Vec3f a = positions[tet.v[0]];
+    const Vec3d a = positions.exact(tet.v[0]);
     double e[3][3];
     for (int i = 0; i < 3; ++i) {
-        const Vec3f p = positions[tet.v[i + 1]];
-        e[i][0] = double{p.x} - double{a.x};
-        e[i][1] = double{p.y} - double{a.y};
-        e[i][2] = double{p.z} - double{a.z};
+        const Vec3d p = positions.exact(tet.v[i + 1]);
+        e[i][0] = p.x - a.x;
+        e[i][1] = p.y - a.y;
+        e[i][2] = p.z - a.z;
     }
     return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
                e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +

@@ -124,12 +124,41 @@ HWY_INLINE V Dot(const V* a, const V* b) {
     return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// The constant of the filter for tets in `box`: see the top of this file.
-HWY_INLINE float Underflow(const Box& box) {
-    const float x = box.hi[0] - box.lo[0], y = box.hi[1] - box.lo[1], z = box.hi[2] - box.lo[2];
+// What covers underflow for tets of these sides; infinite when some product could overflow.
+HWY_INLINE float Underflow(float x, float y, float z) {
     const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
     const float largest = x * y * z * 64;
     return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
+}
+
+// The constants of the filter for tets in `box`: see the top of query.cpp.
+struct FilterConstants {
+    float underflow;
+    float rounding[3]; // of coordinates along each axis, six times; 0 where the floats are exact
+};
+
+HWY_INLINE FilterConstants MakeConstants(const Box& box, bool rounded) {
+    float side[3], rounding[3] = {};
+    for (int a = 0; a < 3; ++a) {
+        side[a] = box.hi[a] - box.lo[a];
+        if (!rounded) continue;
+        const float largest = -box.lo[a] > box.hi[a] ? -box.lo[a] : box.hi[a]; // magnitude in the box
+        rounding[a] = largest * (6 * 1.125f * 0x1p-23f);
+        side[a] += largest;
+    }
+    return {Underflow(side[0], side[1], side[2]), {rounding[0], rounding[1], rounding[2]}};
+}
+
+// The summand of the filter for rounded coordinates; `side` are those of the tet's box.
+HWY_INLINE V RoundingError(const V* side, const float* rounding) {
+    const Floats d;
+    V e[3], s[3];
+    for (int a = 0; a < 3; ++a) {
+        e[a] = hn::Set(d, rounding[a]);
+        s[a] = hn::Add(side[a], e[a]);
+    }
+    return hn::Add(hn::Mul(e[0], hn::Mul(s[1], s[2])),
+                   hn::Mul(s[0], hn::Add(hn::Mul(e[1], s[2]), hn::Mul(s[1], e[2]))));
 }
 
 } // namespace HWY_NAMESPACE

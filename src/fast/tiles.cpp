@@ -13,6 +13,15 @@ namespace vox::fast {
 
 namespace {
 
+// A vertex as seen from the first one where positions are rounded: far from zero they might all look the
+// same.
+Vec3f seen_from_first(const Positions& positions, std::size_t vertex) {
+    if (!positions.rounded()) return positions.floats(vertex);
+    const Vec3d p = positions.exact(vertex), first = positions.exact(0);
+    return {static_cast<float>(p.x - first.x), static_cast<float>(p.y - first.y),
+            static_cast<float>(p.z - first.z)};
+}
+
 struct Item {
     float centroid[3]; // times four
     std::uint32_t tet;
@@ -115,7 +124,7 @@ private:
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     out.block_first.assign(1, 0);
     const auto distance = [&](std::uint32_t v) { // squared, from the vertex before
-        const Vec3f p = positions[v - 1], q = positions[v];
+        const Vec3f p = seen_from_first(positions, v - 1), q = seen_from_first(positions, v);
         const float x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
         return x * x + y * y + z * z;
     };
@@ -175,7 +184,7 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
         for (std::size_t t = 0; t < tets.size(); ++t) {
             float sum[3] = {0, 0, 0};
             for (const std::uint32_t v : tets[t].v) {
-                const Vec3f p = positions[v];
+                const Vec3f p = seen_from_first(positions, v);
                 sum[0] += p.x;
                 sum[1] += p.y;
                 sum[2] += p.z;

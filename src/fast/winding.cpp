@@ -52,7 +52,7 @@ namespace HWY_NAMESPACE {
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
 // does not find positive.
-void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
             std::size_t first, std::size_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known,
             std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
@@ -65,26 +65,28 @@ void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRIC
         known[t] = 1;
         const std::uint8_t* corners = tiles.corners.data() + t * 4 * tile_size;
         const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
-        const V underflow = hn::Set(d, Underflow(boxes[t]));
+        const FilterConstants constants = MakeConstants(boxes[t], rounded);
         std::uint64_t not_positive = 0, not_negative = 0;
         for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
             const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
             const auto ib = hn::PromoteTo(du, hn::LoadU(db, corners + tile_size + i));
             const auto ic = hn::PromoteTo(du, hn::LoadU(db, corners + 2 * tile_size + i));
             const auto id = hn::PromoteTo(du, hn::LoadU(db, corners + 3 * tile_size + i));
-            V e1[3], e2[3], e3[3], bound = hn::Set(d, 256 * 0x1p-24f);
+            V e1[3], e2[3], e3[3], side[3], bound = hn::Set(d, 256 * 0x1p-24f);
             for (int a = 0; a < 3; ++a) {
                 const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
                 e1[a] = hn::Sub(vb, va);
                 e2[a] = hn::Sub(vc, va);
                 e3[a] = hn::Sub(vd, va);
                 // The filter's box: here it is enough that no edge at the first corner is longer.
-                bound = hn::Mul(bound, hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a])));
+                side[a] = hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a]));
+                bound = hn::Mul(bound, side[a]);
             }
             V n[3];
             Cross(e2, e3, n);
             const V volume = Dot(e1, n);
-            bound = hn::Add(bound, underflow);
+            bound = hn::Add(bound, hn::Set(d, constants.underflow));
+            if (rounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
             std::uint8_t bits[8] = {};
             hn::StoreMaskBits(d, hn::Not(hn::Gt(volume, bound)), bits);
             not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
@@ -99,8 +101,9 @@ void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRIC
 
 // The directions that the normals of triangles surely have a positive product with. The components of a
 // normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
-// them by less than 64 u L^2. Writes those sets, and the boxes.
-void Facing(TriangleBatch& batch, std::size_t count) {
+// them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
+// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the boxes.
+void Facing(TriangleBatch& batch, std::size_t count, float e_of_rounding) {
     const Floats d;
     const Words du;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -117,8 +120,12 @@ void Facing(TriangleBatch& batch, std::size_t count) {
         V n[3];
         Cross(e[0], e[1], n);
         const V square = hn::Mul(longest, longest);
-        const V bound = hn::Add(hn::Mul(square, hn::Set(d, 64 * 0x1p-24f)),
-                                hn::Mul(hn::Add(longest, hn::Set(d, 1.0f)), hn::Set(d, 0x1p-120f)));
+        V bound = hn::Add(hn::Mul(square, hn::Set(d, 64 * 0x1p-24f)),
+                          hn::Mul(hn::Add(longest, hn::Set(d, 1.0f)), hn::Set(d, 0x1p-120f)));
+        if (e_of_rounding > 0) {
+            const V e = hn::Set(d, e_of_rounding);
+            bound = hn::Add(bound, hn::Mul(hn::Mul(hn::Set(d, 12.0f), e), hn::Add(longest, e)));
+        }
         const V minus_bound = hn::Neg(bound);
         const V xpy = hn::Add(n[0], n[1]), xmy = hn::Sub(n[0], n[1]);
         // In the order of `directions`.
@@ -163,11 +170,6 @@ constexpr int directions[direction_count][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1
                                                 {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
 constexpr std::uint32_t all_directions = (1u << 2 * direction_count) - 1; // and no triangle: bit 31
 constexpr std::uint32_t untouched = 0x80000000u | all_directions;
-
-Vec3f point(const float* positions, std::uint32_t v) {
-    const float* p = positions + std::size_t{v} * 3;
-    return {p[0], p[1], p[2]};
-}
 
 class Certifier {
 public:
@@ -214,11 +216,17 @@ public:
     }
 
 private:
+    Vec3d exact(std::uint32_t v) const {
+        if (body_.rounded) return body_.exact.exact(v);
+        const float* p = body_.positions + std::size_t{v} * 3;
+        return {double{p[0]}, double{p[1]}, double{p[2]}};
+    }
+
     void orient() {
         const auto part = [&, function = VOX_SIMD_DISPATCH(Orient)](std::size_t first, std::size_t last,
                                                                     std::uint32_t) {
-            function(body_.tiles, body_.surface, body_.positions, first, last, body_.tile_boxes,
-                     body_.tile_known, out_.bad.data());
+            function(body_.tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                     body_.tile_boxes, body_.tile_known, out_.bad.data());
         };
         if (body_.workers)
             body_.workers->for_ranges(body_.tiles.tiles.size(), 256, part);
@@ -250,6 +258,10 @@ private:
 
     bool mark_surface() {
         const auto facing = VOX_SIMD_DISPATCH(Facing);
+        float e_of_rounding = 0; // 2 u M and a little more, M the largest magnitude; see query.cpp
+        for (int a = 0; a < 3 && body_.rounded; ++a)
+            e_of_rounding = std::max({e_of_rounding, -body_.box.lo[a] * (1.125f * 0x1p-23f),
+                                      body_.box.hi[a] * (1.125f * 0x1p-23f)});
         const std::span<const std::array<std::uint32_t, 3>> triangles = body_.surface.triangles;
         TriangleBatch batch{};
         for (std::size_t first = 0; first < triangles.size(); first += TriangleBatch::size) {
@@ -259,7 +271,7 @@ private:
                     const float* p = body_.positions + std::size_t{triangles[first + i][c]} * 3;
                     for (std::size_t axis = 0; axis < 3; ++axis) batch.corner[c][axis][i] = p[axis];
                 }
-            facing(batch, count);
+            facing(batch, count, e_of_rounding);
             for (std::size_t i = 0; i < count; ++i) {
                 const Box box{{batch.lo[0][i], batch.lo[1][i], batch.lo[2][i], 0},
                               {batch.hi[0][i], batch.hi[1][i], batch.hi[2][i], 0}};
@@ -290,17 +302,20 @@ private:
             const Tile& tile = body_.tiles.tiles[t];
             for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                 const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
-                Vec3f q[4];
-                for (std::uint32_t c = 0; c < 4; ++c)
-                    q[c] = point(body_.positions,
-                                 body_.tiles.vertices[tile.first_vertex +
-                                                      body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
+                Box box = empty_box;
+                Vec3d q[4];
+                for (std::uint32_t c = 0; c < 4; ++c) {
+                    const std::uint32_t v =
+                        body_.tiles
+                            .vertices[tile.first_vertex + body_.tiles.corners[(t * 4 + c) * tile_size + i]];
+                    const float* p = body_.positions + std::size_t{v} * 3;
+                    add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
+                    q[c] = exact(v);
+                }
                 int sign = orientation(q[0], q[1], q[2], q[3], exact_tests_);
                 if (body_.surface.mirrored[t] >> i & 1) sign = -sign;
                 if (sign > 0) continue;
                 any = true;
-                Box box = empty_box;
-                for (const Vec3f& p : q) add(box, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
                 if (++bad > body_.tiles.tets.size() / 16 || !mark(box, 0)) return false;
             }
         }
@@ -358,17 +373,21 @@ private:
             p[a] = l.origin[a] + (static_cast<float>(index[a]) + 0.5f) / l.inverse;
             if (l.cell(p[a], a) != index[a]) return false;
         }
-        const Vec3f at{p[0], p[1], p[2]};
+        const Vec3d at{p[0] + body_.origin.x, p[1] + body_.origin.y, p[2] + body_.origin.z};
+        // The cell of the point is that of its rounded position.
+        if (l.cell(static_cast<float>(at.x - body_.origin.x), 0) != index[0] ||
+            l.cell(static_cast<float>(at.y - body_.origin.y), 1) != index[1] ||
+            l.cell(static_cast<float>(at.z - body_.origin.z), 2) != index[2])
+            return false;
         const Box point_box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
         int covering = 0;
         for (std::size_t t = 0; t < body_.tiles.tiles.size() && covering < 2; ++t) {
             if (!overlap(body_.tile_boxes[t], point_box)) continue;
             const Tile& tile = body_.tiles.tiles[t];
             for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-                Vec3f q[4];
+                Vec3d q[4];
                 for (std::uint32_t c = 0; c < 4; ++c)
-                    q[c] = point(body_.positions,
-                                 body_.tiles.vertices[tile.first_vertex +
+                    q[c] = exact(body_.tiles.vertices[tile.first_vertex +
                                                       body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
                 const Containment where = locate(at, q[0], q[1], q[2], q[3], exact_tests_);
                 covering += where == Containment::interior || where == Containment::boundary;

@@ -46,6 +46,10 @@ struct WindingBody {
     Box* tile_boxes;  // all known afterwards, unless certify() returned false
     std::uint8_t* tile_known;
     Workers* workers; // not null: share the pass over all tiles, as one task
+    // The packed positions are those in `exact` less `origin`, rounded to floats.
+    bool rounded = false;
+    Vec3d origin{};
+    Positions exact{};
 };
 
 // Fills `out` so that no vertex in a certified cell lies in a tet that does not own it, vertices of no tet

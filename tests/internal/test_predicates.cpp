@@ -1,4 +1,5 @@
-// The predicates against GMP: every sign, every containment, every weight, on points of every kind.
+// The predicates against GMP: every sign, every containment, every weight, on points of every kind, floats
+// and doubles.
 #include "oracle.h"
 #include "predicates.hpp"
 #include "random.hpp"
@@ -11,13 +12,14 @@ using namespace vox;
 
 namespace {
 
-using Point = std::array<float, 3>;
+using Point = std::array<double, 3>;
 
-Vec3f vec(const Point& p) { return {p[0], p[1], p[2]}; }
+Vec3d vec(const Point& p) { return {p[0], p[1], p[2]}; }
 
-float nudge(float value, int steps) {
-    for (; steps > 0; --steps) value = std::nextafter(value, FLT_MAX);
-    for (; steps < 0; ++steps) value = std::nextafter(value, -FLT_MAX);
+template <class Float>
+Float nudge(Float value, int steps) {
+    for (; steps > 0; --steps) value = std::nextafter(value, Float(FLT_MAX));
+    for (; steps < 0; ++steps) value = std::nextafter(value, Float(-FLT_MAX));
     return value;
 }
 
@@ -27,32 +29,73 @@ struct Case {
     Point p, corner[4];
 };
 
-using Coordinate = float (*)(Random&);
-
-float unit_range(Random& r) { return r.uniform(-1, 1); }
-float small_grid(Random& r) { return static_cast<float>(r.below(4)); } // most determinants are 0
-float fine_grid(Random& r) { return static_cast<float>(r.below(257)) / 64.0f - 2.0f; }
-float far_away(Random& r) { return 1e6f + r.uniform(-1, 1); } // few bits are left: near-degenerate
-float huge(Random& r) { return r.uniform(-1e30, 1e30); }
-float largest(Random& r) { return r.below(2) ? FLT_MAX : r.below(2) ? -FLT_MAX : r.uniform(-1, 1); }
-float denormal(Random& r) { return static_cast<float>(r.below(9)) * FLT_TRUE_MIN; }
-float tiny(Random& r) { return r.uniform(-1e-38, 1e-38); }
-float one_huge_among_small(Random& r) { return r.below(8) == 0 ? 1e30f : r.uniform(-1, 1); }
-float exponents_apart(Random& r) {
+double unit_range(Random& r) { return r.uniform(-1, 1); }
+double small_grid(Random& r) { return r.below(4); } // most determinants are 0
+double fine_grid(Random& r) { return r.below(257) / 64.0 - 2.0; }
+double far_away(Random& r) { return 1e6f + r.uniform(-1, 1); } // few bits are left: near-degenerate
+double huge(Random& r) { return r.uniform(-1e30, 1e30); }
+double largest(Random& r) { return r.below(2) ? FLT_MAX : r.below(2) ? -FLT_MAX : r.uniform(-1, 1); }
+double denormal(Random& r) { return r.below(9) * double{FLT_TRUE_MIN}; }
+double tiny(Random& r) { return r.uniform(-1e-38, 1e-38); }
+double one_huge_among_small(Random& r) { return r.below(8) == 0 ? 1e30f : r.uniform(-1, 1); }
+double exponents_apart(Random& r) {
     return std::ldexp(r.uniform(-1, 1), static_cast<int>(r.below(250)) - 125);
 }
-float any_bits(Random& r) { return r.any_finite(); }
-float few_ulps(Random& r) { return nudge(0.5f, static_cast<int>(r.below(5))); } // 0.5 and its neighbours
+double any_bits(Random& r) { return r.any_finite(); }
+double few_ulps(Random& r) { return nudge(0.5f, static_cast<int>(r.below(5))); } // 0.5 and its neighbours
 
-constexpr Coordinate coordinates[] = {
-    unit_range, small_grid,           fine_grid,       far_away, huge,    largest, denormal,
-    tiny,       one_huge_among_small, exponents_apart, any_bits, few_ulps};
+double between(Random& r, double min, double max) { return min + r.unit() * (max - min); }
+double unit_range_d(Random& r) { return between(r, -1, 1); }
+double far_away_d(Random& r) { return 1e15 + between(r, -4, 4); }
+double denormal_d(Random& r) { return r.below(9) * DBL_TRUE_MIN; }
+double one_huge_among_tiny_d(Random& r) { return r.below(8) == 0 ? 3e38 : between(r, -1e-300, 1e-300); }
+double exponents_apart_d(Random& r) {
+    return std::ldexp(between(r, -1, 1), static_cast<int>(r.below(1200)) - 1074);
+}
+// Products of three differences are near the least of doubles, and around where they start to underflow.
+double vanishing_d(Random& r) { return std::ldexp(between(r, -1, 1), -358 + static_cast<int>(r.below(20))); }
+double near_bound_d(Random& r) {
+    return std::ldexp(static_cast<double>(r.below(5)), -242 - static_cast<int>(r.below(60)));
+}
+double few_ulps_d(Random& r) { return nudge(0.5, static_cast<int>(r.below(5))); }
+
+struct Coordinate {
+    double (*make)(Random&);
+    bool floats;
+
+    double operator()(Random& r) const { return make(r); }
+    double rounded(double value) const { return floats ? double{static_cast<float>(value)} : value; }
+    double next(double value) const {
+        return floats ? double{nudge(static_cast<float>(value), 1)} : nudge(value, 1);
+    }
+};
+
+constexpr Coordinate coordinates[] = {{unit_range, true},
+                                      {small_grid, true},
+                                      {fine_grid, true},
+                                      {far_away, true},
+                                      {huge, true},
+                                      {largest, true},
+                                      {denormal, true},
+                                      {tiny, true},
+                                      {any_bits, true},
+                                      {few_ulps, true},
+                                      {exponents_apart, true},
+                                      {one_huge_among_small, true},
+                                      {unit_range_d, false},
+                                      {far_away_d, false},
+                                      {denormal_d, false},
+                                      {one_huge_among_tiny_d, false},
+                                      {exponents_apart_d, false},
+                                      {vanishing_d, false},
+                                      {near_bound_d, false},
+                                      {few_ulps_d, false}};
 
 Case independent_points(Random& r, Coordinate coordinate) {
     Case c;
-    for (float& x : c.p) x = coordinate(r);
+    for (double& x : c.p) x = coordinate(r);
     for (Point& corner : c.corner)
-        for (float& x : corner) x = coordinate(r);
+        for (double& x : corner) x = coordinate(r);
     return c;
 }
 
@@ -65,9 +108,9 @@ Case point_on_part(Random& r, Coordinate coordinate) {
     for (std::uint32_t i = 0; i < parts; ++i) total += weight[i] = r.below(2) ? 1 : r.unit() + 1e-9;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;
-        for (std::size_t i = 0; i < 4; ++i) sum += weight[i] / total * static_cast<double>(c.corner[i][axis]);
-        c.p[axis] = static_cast<float>(std::clamp(sum, -double(FLT_MAX), double(FLT_MAX)));
-        if (r.below(4) == 0 && std::isfinite(nudge(c.p[axis], 1))) c.p[axis] = nudge(c.p[axis], 1);
+        for (std::size_t i = 0; i < 4; ++i) sum += weight[i] / total * c.corner[i][axis];
+        c.p[axis] = coordinate.rounded(std::clamp(sum, -double(FLT_MAX), double(FLT_MAX)));
+        if (r.below(4) == 0) c.p[axis] = coordinate.next(c.p[axis]);
     }
     return c;
 }
@@ -78,19 +121,19 @@ Case flattened(Random& r, Coordinate coordinate) {
     const double s = r.unit(), t = r.unit() * (1 - s);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double a = c.corner[0][axis], b = c.corner[1][axis], d = c.corner[2][axis];
-        c.corner[3][axis] = static_cast<float>((1 - s - t) * a + s * b + t * d);
+        c.corner[3][axis] = coordinate.rounded((1 - s - t) * a + s * b + t * d);
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;
-        for (const Point& corner : c.corner) sum += static_cast<double>(corner[axis]) / 4;
-        c.p[axis] = static_cast<float>(sum);
+        for (const Point& corner : c.corner) sum += corner[axis] / 4;
+        c.p[axis] = coordinate.rounded(sum);
     }
     return c;
 }
 
 using Kind = Case (*)(Random&, Coordinate);
 constexpr Kind kinds[] = {independent_points, point_on_part, flattened};
-constexpr int cases_per_kind = 6000;
+constexpr int cases_per_kind = 4000;
 
 template <class Function>
 void for_each_case(Function&& function) {
@@ -101,9 +144,9 @@ void for_each_case(Function&& function) {
 }
 
 oracle_containment oracle(const Case& c) {
-    const float* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
-                                     c.corner[3].data()};
-    return oracle_locate(c.p.data(), corners);
+    const double* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                      c.corner[3].data()};
+    return oracle_locate_d(c.p.data(), corners);
 }
 
 Containment containment(oracle_containment where) {
@@ -125,8 +168,8 @@ START_TEST(orientation_has_the_exact_sign) {
     std::uint64_t exact_tests = 0;
     int seen[3] = {};
     for_each_case([&](const Case& c) {
-        const int expected = oracle_orientation(c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
-                                                c.corner[3].data());
+        const int expected = oracle_orientation_d(c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                                  c.corner[3].data());
         ck_assert_int_eq(
             orientation(vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3]), exact_tests),
             expected);
@@ -145,20 +188,20 @@ END_TEST
 
 START_TEST(orientation_sign_follows_its_definition) {
     std::uint64_t exact_tests = 0;
-    const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}; // counter-clockwise seen from +z
+    const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}; // counter-clockwise seen from +z
     ck_assert_int_eq(orientation(a, b, c, {0, 0, 1}, exact_tests), 1);
     ck_assert_int_eq(orientation(a, b, c, {0, 0, -1}, exact_tests), -1);
     ck_assert_int_eq(orientation(a, b, c, {5, 7, 0}, exact_tests), 0);
-    ck_assert_int_eq(orientation(a, b, c, {0, 0, FLT_TRUE_MIN}, exact_tests), 1);
+    ck_assert_int_eq(orientation(a, b, c, {0, 0, DBL_TRUE_MIN}, exact_tests), 1);
 }
 END_TEST
 
 START_TEST(filter_decides_clear_cases_alone) {
     Random random{3};
     std::uint64_t exact_tests = 0;
-    const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
+    const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
     for (int i = 0; i < 1000; ++i) {
-        const Vec3f p{random.uniform(0.01, 0.3), random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)};
+        const Vec3d p{random.uniform(0.01, 0.3), random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)};
         ck_assert(locate(p, a, b, c, d, exact_tests) == Containment::interior);
         ck_assert(locate({p.x + 1, p.y, p.z}, a, b, c, d, exact_tests) == Containment::outside);
     }
@@ -171,7 +214,7 @@ START_TEST(locate_is_exact) {
     int seen[4] = {};
     for_each_case([&](const Case& c) {
         const Containment expected = containment(oracle(c));
-        const Vec3f p = vec(c.p),
+        const Vec3d p = vec(c.p),
                     q[4] = {vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3])};
         ck_assert(locate(p, q[0], q[1], q[2], q[3], exact_tests) == expected);
         ck_assert(locate(p, q[0], q[1], q[3], q[2], exact_tests) == expected); // the other winding
@@ -189,10 +232,10 @@ START_TEST(barycentric_is_near_the_true_weights) {
     for_each_case([&](const Case& c) {
         const oracle_containment where = oracle(c);
         if (where != ORACLE_INTERIOR && where != ORACLE_BOUNDARY) return;
-        const float* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
-                                         c.corner[3].data()};
+        const double* const corners[4] = {c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                          c.corner[3].data()};
         double expected[4];
-        oracle_barycentric(c.p.data(), corners, expected);
+        oracle_barycentric_d(c.p.data(), corners, expected);
         const std::array<float, 4> weights =
             barycentric(vec(c.p), vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3]));
         double sum = 0;
@@ -211,7 +254,7 @@ START_TEST(barycentric_is_near_the_true_weights) {
 END_TEST
 
 START_TEST(barycentric_of_corners_is_one) {
-    const Vec3f q[4] = {{1e30f, 0, 0}, {0, 1, 0}, {0, 0, 1e-30f}, {FLT_TRUE_MIN, 0, 0}};
+    const Vec3d q[4] = {{1e30, 0, 0}, {0, 1, 0}, {0, 0, 1e-30}, {DBL_TRUE_MIN, 0, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
         const std::array<float, 4> weights = barycentric(q[i], q[0], q[1], q[2], q[3]);
         for (std::size_t j = 0; j < 4; ++j) ck_assert_float_eq(weights[j], i == j ? 1.0f : 0.0f);
