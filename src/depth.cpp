@@ -17,8 +17,9 @@ namespace depth {
 Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
     const std::uint32_t* v = solid.tets[tet].v;
     const auto& corner = facet_corners[i];
-    const Vec3d a = at(solid.positions, v[corner[0]]), b = at(solid.positions, v[corner[1]]),
-                c = at(solid.positions, v[corner[2]]), d = at(solid.positions, v[i]);
+    const Vec3d a = position_of(solid.positions, v[corner[0]]),
+                b = position_of(solid.positions, v[corner[1]]),
+                c = position_of(solid.positions, v[corner[2]]), d = position_of(solid.positions, v[i]);
     const Vec3d normal = normalised(cross(b - a, c - a));
     if (!(length(normal) > 0)) return {0, 0, 1};
     return dot(normal, d - a) > 0 ? -1.0 * normal : normal;
@@ -154,7 +155,7 @@ void Depth::find_closest(const Scene& scene, const Range& range, Worker& worker)
     for (std::size_t i = range.first; i < range.last; ++i) {
         Point& point = points_[rest_[i].point];
         const std::uint32_t a = scene.hits[point.hit].body_a;
-        const Vec3d p = at(scene.bodies[a].positions, point.vertex);
+        const Vec3d p = position_of(scene.bodies[a].positions, point.vertex);
         Closest closest;
         bool found = false;
         if (has_surface && a == b) {

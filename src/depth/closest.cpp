@@ -43,8 +43,8 @@ double outside(double x, double min, double max) { return std::max({min - x, x -
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
     const std::uint32_t* v = solid.topology->triangles[triangle].v;
     // Seen from p, so that rounding errors are those of distances, not of coordinates.
-    const Vec3d a = at(solid.positions, v[0]) - p, b = at(solid.positions, v[1]) - p,
-                c = at(solid.positions, v[2]) - p;
+    const Vec3d a = position_of(solid.positions, v[0]) - p, b = position_of(solid.positions, v[1]) - p,
+                c = position_of(solid.positions, v[2]) - p;
     const auto [squared, weight] = closest_on_triangle({0, 0, 0}, a, b, c);
     const Vec3d way = weight[0] * a + weight[1] * b + weight[2] * c;
     return {{triangle, {weight[0], weight[1], weight[2]}, p + way}, way, squared};
@@ -52,8 +52,8 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
 
 SurfaceTree::Box SurfaceTree::box_of(std::uint32_t triangle) const {
     const std::uint32_t* v = solid_.topology->triangles[triangle].v;
-    const Vec3d a = at(solid_.positions, v[0]), b = at(solid_.positions, v[1]),
-                c = at(solid_.positions, v[2]);
+    const Vec3d a = position_of(solid_.positions, v[0]), b = position_of(solid_.positions, v[1]),
+                c = position_of(solid_.positions, v[2]);
     return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
             {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }

@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return at(pair_.positions_a, vertex); }
+    Vec3d position(std::uint32_t vertex) const { return position_of(pair_.positions_a, vertex); }
     std::span<const std::uint32_t> neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
@@ -131,7 +131,7 @@ bool Stages::is_coincident(Point& point) const {
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
         const Closest closest = closest_point(b, t, vec(p));
-        point.direction = normals_.at(closest.at, closest.at.point - at(b.positions, triangle.apex));
+        point.direction = normals_.at(closest.at, closest.at.point - position_of(b.positions, triangle.apex));
         if (length(point.direction) > 0) break;
     }
     if (!on_surface) return false;
@@ -146,8 +146,9 @@ void Stages::follow_edges(Point& point) {
     Vec3d inside = p;
     if (!point.interior) { // from where no facet and edge can be missed
         const std::uint32_t* v = pair_.b.tets[point.tet].v;
-        const Vec3d middle = 0.25 * ((at(pair_.b.positions, v[0]) + at(pair_.b.positions, v[1])) +
-                                     (at(pair_.b.positions, v[2]) + at(pair_.b.positions, v[3])));
+        const Vec3d middle =
+            0.25 * ((position_of(pair_.b.positions, v[0]) + position_of(pair_.b.positions, v[1])) +
+                    (position_of(pair_.b.positions, v[2]) + position_of(pair_.b.positions, v[3])));
         inside = p + 0x1p-20 * (middle - p);
     }
     Mean mean;

@@ -29,8 +29,8 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     face.age = age_;
     face.has_corners = false;
     const Triangle& t = solid_.topology->triangles[triangle];
-    const Vec3d a = at(solid_.positions, t.v[0]), b = at(solid_.positions, t.v[1]),
-                c = at(solid_.positions, t.v[2]);
+    const Vec3d a = position_of(solid_.positions, t.v[0]), b = position_of(solid_.positions, t.v[1]),
+                c = position_of(solid_.positions, t.v[2]);
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
