@@ -81,7 +81,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
-      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0) {}
+      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), queries_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -131,6 +131,7 @@ void vox_grid::clear() {
     penetrations_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
+    queries_.forget();
     ++epoch_;
 }
 
@@ -414,6 +415,26 @@ double vox_grid::share_without_contact() const noexcept {
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {
     if (log_.write) log_.write(level, text, log_.user);
+}
+
+// ---- queries ---------------------------------------------------------------------------------------
+
+void vox_grid::prepare_queries() {
+    std::pmr::vector<QueryBody> bodies(&memory_);
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+        Slot& s = slots_[slot];
+        if (!s.live || !s.mesh.is_enabled() || s.mesh.tet_count() == 0) continue;
+        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
+        if (!s.mesh.has_positions())
+            throw Error(VOX_ERROR_INVALID_STATE,
+                        format("mesh %u has no positions: bind some before the queries", id));
+        const Body body = s.mesh.body(id);
+        check_finite(body);
+        s.mesh.make_tiles(); // of the reference engine's meshes too
+        if (s.mesh.topology().across.empty()) s.mesh.make_topology();
+        bodies.push_back({body, &s.mesh.tiles(), &s.mesh.topology()});
+    }
+    queries_.prepare(bodies);
 }
 
 // ---- results --------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include "memory.hpp"
 #include "mesh.hpp"
 #include "parallel.hpp"
+#include "queries.hpp"
 #include "reference.hpp"
 #include "scene.hpp"
 
@@ -58,6 +59,9 @@ public:
     const vox::Mesh& mesh(vox_mesh mesh) const;
 
     void step();
+
+    void prepare_queries();
+    const vox::Queries& queries() const { queries_.require_prepared(); return queries_; }
 
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
@@ -126,6 +130,7 @@ private:
     bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
+    vox::Queries queries_;
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;

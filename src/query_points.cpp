@@ -1,0 +1,126 @@
+// Points and boxes against the tree. Many points go down together, split in place at every node, so that each
+// node is read once for all of them.
+#include "queries.hpp"
+
+#include "box_tree.hpp"
+#include "predicates.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace vox {
+
+namespace {
+
+Box3f box_of(const Vec3d& p) noexcept {
+    Box3f box = empty_box();
+    extend(box, p);
+    return box;
+}
+
+} // namespace
+
+void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
+                     std::pmr::vector<vox_point_hit>& hits) const {
+    std::pmr::memory_resource* const memory = hits.get_allocator().resource();
+    std::pmr::vector<std::uint32_t> which(points.size(), memory);
+    std::iota(which.begin(), which.end(), 0u);
+    std::pmr::vector<PointHit> found(memory);
+    std::pmr::vector<Box3f> boxes(memory);
+    boxes.reserve(points.size());
+    for (const Vec3d& p : points) boxes.push_back(box_of(p));
+    find(1, which, {points, boxes, mask}, found);
+
+    std::sort(found.begin(), found.end(), [this](const PointHit& x, const PointHit& y) {
+        return std::tuple(x.point, x.mesh, tetrahedra_[x.tetrahedron].index) <
+               std::tuple(y.point, y.mesh, tetrahedra_[y.tetrahedron].index);
+    });
+    for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
+        bool any_interior = false;
+        for (end = begin; end < found.size() && found[end].point == found[begin].point &&
+                          found[end].mesh == found[begin].mesh;
+             ++end)
+            any_interior |= found[end].interior;
+        // Every one that has the point in its interior, or else the first of those that have it on their
+        // boundary.
+        for (std::size_t i = begin; i < (any_interior ? end : begin + 1); ++i) {
+            if (any_interior && !found[i].interior) continue;
+            const Tetrahedron& t = tetrahedra_[found[i].tetrahedron];
+            const std::array<float, 4> w =
+                barycentric(points[found[i].point], corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3));
+            hits.push_back({found[i].point, meshes_[found[i].mesh].id, t.index, {w[0], w[1], w[2], w[3]}});
+        }
+    }
+}
+
+// `which` of the points are to be looked for below the node; their order changes.
+void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
+                   std::pmr::vector<PointHit>& found) const {
+    const Box3f& box = tree_[node];
+    const auto end = std::partition(which.begin(), which.end(),
+                                    [&](std::uint32_t i) { return overlap(box, asked.boxes[i]); });
+    which = which.first(static_cast<std::size_t>(end - which.begin()));
+    if (which.empty()) return;
+    if (node < first_leaf_node()) {
+        find(2 * node, which, asked, found);
+        find(2 * node + 1, which, asked, found);
+        return;
+    }
+    const Leaf& leaf = leaves_[node - first_leaf_node()];
+    if (!wants(leaf, asked.mask)) return;
+    for (const std::uint32_t i : which) find_in_leaf(leaf, i, asked, found);
+}
+
+void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& asked,
+                           std::pmr::vector<PointHit>& found) const {
+    std::uint64_t exact_tests = 0;
+    const Vec3d& p = asked.points[point];
+    const Box3f& at = asked.boxes[point];
+    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+        if (!overlap(boxes_[i], at)) continue;
+        const Tetrahedron& t = tetrahedra_[i];
+        const Containment where =
+            locate(p, corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3), exact_tests);
+        if (where == Containment::interior || where == Containment::boundary)
+            found.push_back({point, leaf.mesh, i, where == Containment::interior});
+    }
+}
+
+void Queries::box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
+                  std::pmr::vector<vox_tet_hit>& hits) const {
+    const Box3f around{{round_down(min.x), round_down(min.y), round_down(min.z)},
+                       {round_up(max.x), round_up(max.y), round_up(max.z)}};
+    const auto meets = [&](const Tetrahedron& t) { // as doubles
+        bool below[3] = {true, true, true}, above[3] = {true, true, true};
+        for (std::size_t c = 0; c < 4; ++c) {
+            const Vec3d& p = corner(t, c);
+            below[0] &= p.x < min.x;
+            below[1] &= p.y < min.y;
+            below[2] &= p.z < min.z;
+            above[0] &= p.x > max.x;
+            above[1] &= p.y > max.y;
+            above[2] &= p.z > max.z;
+        }
+        return !(below[0] | below[1] | below[2] | above[0] | above[1] | above[2]);
+    };
+    const auto descend = [&](const auto& self, std::size_t node) -> void {
+        if (!overlap(tree_[node], around)) return;
+        if (node < first_leaf_node()) {
+            self(self, 2 * node);
+            self(self, 2 * node + 1);
+            return;
+        }
+        const Leaf& leaf = leaves_[node - first_leaf_node()];
+        if (!wants(leaf, mask)) return;
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
+            if (overlap(boxes_[i], around) && meets(tetrahedra_[i]))
+                hits.push_back({meshes_[leaf.mesh].id, tetrahedra_[i].index});
+    };
+    descend(descend, 1);
+    std::sort(hits.begin(), hits.end(), [](const vox_tet_hit& x, const vox_tet_hit& y) {
+        return std::tie(x.mesh, x.tet) < std::tie(y.mesh, y.tet);
+    });
+}
+
+} // namespace vox
