@@ -114,6 +114,10 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
              {"barycentric", {number(weight[0]), number(weight[1]), number(weight[2]), number(weight[3])}}});
     }
     json["contacts"] = std::move(contacts);
+    add_result(json, grid, profile);
+}
+
+void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
     json["hash"] = hash_of(grid);
     double cell_size = 0;
     check(vox_grid_cell_size(grid, &cell_size));

@@ -27,6 +27,9 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
+// Adds what a step gives besides its contacts: hash, cell_size, profile, counters.
+void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
+
 // {file, vertices, tets} of each body, in the order of the numbers that contacts use.
 Json body_list(const std::vector<Body>& bodies);
 
