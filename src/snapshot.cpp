@@ -7,6 +7,7 @@
 #include "snapshot_chunks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cinttypes>
 #include <cmath>
 #include <iterator>
@@ -21,7 +22,7 @@ namespace {
 constexpr std::uint32_t live_bit = 1u << 31; // of a slot's word; the generation is in the others
 
 // Of a MESH chunk.
-constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, known_bits = 3;
+constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, transform_bit = 4, known_bits = 7;
 
 // What loading knows that the grid does not show yet.
 struct Loading {
@@ -32,24 +33,27 @@ struct Loading {
     vox_mesh last_filtered = VOX_NULL_MESH;
 };
 
-void save_positions(const Positions& positions, std::uint32_t count, SnapshotWriter& out) {
-    for (std::uint32_t v = 0; v < count; ++v) {
-        const Vec3f p = positions[v];
-        out.f32(p.x);
-        out.f32(p.y);
-        out.f32(p.z);
-    }
+void save_point(const Vec3f& p, SnapshotWriter& out) {
+    for (const float x : {p.x, p.y, p.z}) out.f32(x);
 }
 
-void load_positions(SnapshotChunk& in, std::uint64_t count, std::pmr::vector<Vec3f>& positions) {
-    in.expect(count, sizeof(Vec3f), "positions");
-    positions.reserve(static_cast<std::size_t>(count));
-    for (std::uint64_t v = 0; v < count; ++v) {
-        Vec3f& p = positions.emplace_back();
-        p.x = in.f32();
-        p.y = in.f32();
-        p.z = in.f32();
-    }
+void save_point(const Vec3d& p, SnapshotWriter& out) {
+    for (const double x : {p.x, p.y, p.z}) out.f64(x);
+}
+
+void load_point(SnapshotChunk& in, Vec3f& p) {
+    for (float* x : {&p.x, &p.y, &p.z}) *x = in.f32();
+}
+
+void load_point(SnapshotChunk& in, Vec3d& p) {
+    for (double* x : {&p.x, &p.y, &p.z}) *x = in.f64();
+}
+
+template <class Point>
+void load_points(SnapshotChunk& in, std::uint64_t count, std::pmr::vector<Point>& points) {
+    in.expect(count, sizeof(Point), "positions");
+    points.reserve(static_cast<std::size_t>(count));
+    for (std::uint64_t i = 0; i < count; ++i) load_point(in, points.emplace_back());
 }
 
 // Calls what a program would call; where it says that an argument is wrong, the snapshot is.
@@ -153,7 +157,8 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc) {
     const bool choose = in.flag("whether the cell size was chosen");
     if (!choose && desc.cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
     if (choose) desc.cell_size = 0;
-    (void)in.flag("reserved");
+    if (const std::uint32_t reserved = in.u32(); reserved != 0)
+        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
     (void)in.u64(); // the epoch
     in.end();
     try {
@@ -170,7 +175,7 @@ void Snapshot::load_settings(SnapshotChunk& in, Loading& to) {
     for (int word = 0; word < 7; ++word) (void)in.u64();
     to.grid.cell_size_ = in.f64();
     to.grid.choose_cell_size_ = in.flag("");
-    (void)in.flag("");
+    (void)in.u32();
     to.grid.epoch_ = in.u64();
 }
 
@@ -230,18 +235,29 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
 void Snapshot::save_mesh(const vox_grid& grid, vox_mesh id, SnapshotWriter& out) {
     const Mesh& mesh = grid.mesh(id);
     const Body body = mesh.body(id);
-    const bool has_positions = body.positions.data != nullptr && body.vertex_count > 0;
+    const Positions& positions = mesh.positions_; // as given, not transformed
+    const bool has_positions = positions.data != nullptr && body.vertex_count > 0;
+    std::uint32_t bits = 0;
+    if (body.self_collision) bits |= self_collision_bit;
+    if (!mesh.is_enabled()) bits |= disabled_bit;
+    if (mesh.has_transform_) bits |= transform_bit;
     out.begin_chunk("MESH");
     out.u32(id);
-    out.u32((body.self_collision ? self_collision_bit : 0) | (mesh.is_enabled() ? 0 : disabled_bit));
+    out.u32(bits);
     out.u64(mesh.user_data());
     out.u64(body.vertex_count);
     out.u64(body.tets.size());
     out.u32(has_positions);
-    out.u32(VOX_FORMAT_FLOAT3);
+    out.u32(positions.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3);
+    if (mesh.has_transform_)
+        for (const double element : mesh.transform_) out.f64(element);
     for (const Tet& tet : body.tets)
         for (const std::uint32_t vertex : tet.v) out.u32(vertex);
-    if (has_positions) save_positions(body.positions, body.vertex_count, out);
+    for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
+        if (positions.doubles)
+            save_point(positions.exact(v), out);
+        else
+            save_point(positions.floats(v), out);
     out.end_chunk();
 }
 
@@ -268,8 +284,15 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     if (bits & ~known_bits)
         in.refuse(
             format("flags are 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", bits, bits & ~known_bits));
-    if (position_format != VOX_FORMAT_FLOAT3)
+    if (position_format != VOX_FORMAT_FLOAT3 && position_format != VOX_FORMAT_DOUBLE3)
         in.refuse(format("position format is %" PRIu32 ", not a vox_format", position_format));
+    desc.position_format = static_cast<vox_format>(position_format);
+    std::array<double, 12> transform{};
+    if (bits & transform_bit)
+        for (double& element : transform) {
+            element = in.f64();
+            if (!std::isfinite(element)) in.refuse(format("its transform has the element %g", element));
+        }
 
     std::pmr::vector<Tet> tets(&grid.memory_);
     in.expect(desc.tet_count, sizeof(Tet), "tetrahedra");
@@ -278,14 +301,20 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
         Tet& t = tets.emplace_back();
         for (std::uint32_t& vertex : t.v) vertex = in.u32();
     }
-    std::pmr::vector<Vec3f> positions(&grid.memory_);
-    if (has_positions) load_positions(in, desc.vertex_count, positions);
+    std::pmr::vector<Vec3f> floats(&grid.memory_);
+    std::pmr::vector<Vec3d> doubles(&grid.memory_);
+    if (has_positions && desc.position_format == VOX_FORMAT_DOUBLE3) {
+        load_points(in, desc.vertex_count, doubles);
+        desc.positions = doubles.data();
+    } else if (has_positions) {
+        load_points(in, desc.vertex_count, floats);
+        desc.positions = floats.data();
+    }
     in.end();
 
     desc.flags = VOX_MESH_COPY_POSITIONS;
     if (bits & self_collision_bit) desc.flags |= VOX_MESH_SELF_COLLISION;
     desc.tets = reinterpret_cast<const std::uint32_t*>(tets.data());
-    desc.positions = has_positions ? positions.data() : nullptr;
     // The slot becomes the only free one, and has had one mesh less: so the mesh gets its old id.
     const std::uint32_t slot = slot_of(id);
     grid.slots_[slot].generation = generation_of(id) - 1;
@@ -293,6 +322,7 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     or_refuse(in, id, [&] {
         (void)grid.insert(desc, check_mesh(desc, "", NullPositions::allowed));
         if (bits & disabled_bit) grid.set_enabled(id, false);
+        if (bits & transform_bit) grid.mesh(id).set_transform(transform.data());
     });
 }
 
@@ -315,8 +345,7 @@ void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
         out.u32(filter.self_rings);
         out.u32(!rest.empty());
         out.f64(filter.self_rest_distance);
-        const Positions positions{reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)};
-        if (!rest.empty()) save_positions(positions, mesh.vertex_count(), out);
+        for (const Vec3f& p : rest) save_point(p, out);
         out.end_chunk();
     });
 }
@@ -337,7 +366,7 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     const bool has_rest = in.flag("whether it has a rest pose");
     filter.self_rest_distance = in.f64();
     std::pmr::vector<Vec3f> rest(&to.grid.memory_);
-    if (has_rest) load_positions(in, mesh.vertex_count(), rest);
+    if (has_rest) load_points(in, mesh.vertex_count(), rest);
     in.end();
     or_refuse(in, id, [&] {
         if (has_rest) mesh.set_rest({reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)});

@@ -110,6 +110,7 @@ typedef struct scene {
     body bodies[6];
     vox_mesh ids[8]; /* of the bodies, of one without positions, of an empty one */
     float strided[5 * 4];
+    double doubles[3 * 64]; /* of body 5 */
 } scene;
 
 enum { scene_bodies = 6, removed_body = 2, disabled_body = 4 };
@@ -139,6 +140,12 @@ static void make_scene(scene* s, vox_engine engine, double cell_size) {
     filter.mask = ~2ull;
     ck_ok(vox_mesh_set_filter(s->grid, s->ids[0], &filter));
     ck_ok(vox_grid_set_pair_enabled(s->grid, s->ids[5], s->ids[0], 0));
+    ck_assert_uint_le(s->bodies[5].vertex_count, 64);
+    for (uint32_t i = 0; i < 3 * s->bodies[5].vertex_count; ++i)
+        s->doubles[i] = s->bodies[5].positions[i] + 1e-12 * i; /* what no float could keep */
+    ck_ok(vox_mesh_bind_positions(s->grid, s->ids[5], s->doubles, VOX_FORMAT_DOUBLE3, 0));
+    static const double turn[12] = {0.8, -0.6, 0, 0.2, 0.6, 0.8, 0, 0.1, 0, 0, 1, 0.05};
+    ck_ok(vox_mesh_set_transform(s->grid, s->ids[3], turn));
 
     vox_mesh_desc mesh = array_desc(NULL, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[6]));
@@ -454,6 +461,7 @@ static const defect defects[] = {
     {"GRID", 0, 72, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "cell size is inf"},
     {"GRID", 0, 72, 8, 0xbff0000000000000ull, VOX_ERROR_FORMAT, "cell size is -1"},
     {"GRID", 0, 80, 4, 2, VOX_ERROR_FORMAT, "whether the cell size was chosen is 2"},
+    {"GRID", 0, 84, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
     {"SLOT", 0, -16, 4, 0x4f4c4f53u, VOX_ERROR_UNSUPPORTED, "chunk SOLO is unknown"},
     {"SLOT", 0, -16, 4, 0xff4c4f53u, VOX_ERROR_UNSUPPORTED, "chunk SOL? is unknown"},
     {"SLOT", 0, -16, 4, 0x4f4c4f73u, VOX_ERROR_FORMAT,
@@ -474,6 +482,9 @@ static const defect defects[] = {
     {"MESH", 1, 0, 4, 1, VOX_ERROR_FORMAT, "it is of mesh 1, expected mesh 4097"},
     {"MESH", 1, 0, 4, 0, VOX_ERROR_FORMAT, "it is of mesh 0, expected mesh 4097"},
     {"MESH", 0, 4, 4, 64, VOX_ERROR_FORMAT, "of which 0x40 is unknown"},
+    {"MESH", 2, 40, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "its transform has the element inf"},
+    {"MESH", 0, 4, 4, 4, VOX_ERROR_FORMAT,
+     "chunk MESH"}, /* a transform that is not there: all else moves on */
     {"MESH", 0, 16, 8, 1ull << 60, VOX_ERROR_FORMAT, "1152921504606846976 positions of 12 bytes each"},
     {"MESH", 0, 16, 8, 5, VOX_ERROR_FORMAT, "expected"},
     {"MESH", 0, 24, 8, 1ull << 60, VOX_ERROR_FORMAT, "1152921504606846976 tetrahedra of 16 bytes each"},
@@ -481,6 +492,8 @@ static const defect defects[] = {
     {"MESH", 0, 32, 4, 2, VOX_ERROR_FORMAT, "whether it has positions is 2"},
     {"MESH", 0, 32, 4, 0, VOX_ERROR_FORMAT, "bytes, expected"},
     {"MESH", 0, 36, 4, 77, VOX_ERROR_FORMAT, "position format is 77"},
+    {"MESH", 0, 36, 4, 1, VOX_ERROR_FORMAT, "27 positions of 24 bytes each, it has 324 more bytes"},
+    {"MESH", 4, 36, 4, 0, VOX_ERROR_FORMAT, "bytes, expected"},
     {"MESH", 0, 40, 4, 27, VOX_ERROR_FORMAT, "mesh 1: tet 0 names vertex 27 of 27"},
     {"MESH", 5, 16, 8, 1ull << 60, VOX_ERROR_FORMAT, "positions"},
     {"MESH", 6, 16, 8, 1ull << 60, VOX_ERROR_LIMIT,

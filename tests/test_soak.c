@@ -356,17 +356,22 @@ static void save_and_load(soak* s) {
     bind_all(s, g);
 }
 
-/* Between the same two states, the third time round, nothing is allocated. */
+/* Between the same two states, the second time round, nothing is allocated. */
 static void steady_state(soak* s) {
+    static float here[max_members]
+                     [5 * max_vertices]; /* coming back by sums would not lead to the same bits */
     uint64_t calls[2] = {0, 0};
     good(vox_grid_set_worker_count(s->grids[0], 1));
+    for (uint32_t i = 0; i < s->count; ++i) memcpy(here[i], s->members[i].positions, sizeof here[i]);
     for (int round = 0; round < 4; ++round) {
-        const float offset = round % 2 ? -0.0625f : 0.0625f;
         if (round == 2)
             for (int g = 0; g < 2; ++g) calls[g] = s->ledgers[g].calls;
-        for (uint32_t i = 0; i < s->count; ++i)
-            for (uint32_t v = 0; i % 2 && v < s->members[i].shape.vertex_count; ++v)
-                s->members[i].positions[s->members[i].stride * v] += offset;
+        for (uint32_t i = 0; i < s->count; ++i) {
+            member* m = &s->members[i];
+            memcpy(m->positions, here[i], sizeof here[i]);
+            for (uint32_t v = 0; round % 2 == 0 && i % 2 && v < m->shape.vertex_count; ++v)
+                m->positions[m->stride * v] += 0.0625f;
+        }
         for (int rest = 0; rest < 3; ++rest, ++s->epoch)
             for (int g = 0; g < 2; ++g) good(vox_grid_step(s->grids[g]));
     }
