@@ -107,7 +107,7 @@ typedef struct vox_sim_body_desc {
      * its edges ran in all directions alike. >= 0, default 1e6. */
     double youngs_modulus;
     double bulk_modulus; /* resistance to change of volume, beyond that of the edges; >= 0, default 1e6 */
-    double damping;      /* time: edges resist the rate of their strain as the strain, times this; >= 0, default 0.001 */
+    double damping;      /* per time: how fast vibrations of the body die down; >= 0, default 1 */
     uint64_t user_data;  /* given back by vox_mesh_user_data on the sim's grid */
 } vox_sim_body_desc;
 

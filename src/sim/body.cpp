@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -140,7 +141,7 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
         const double length = (rest[side.a] - rest[side.b]).norm();
         const double scale = std::max(length, body.mean_edge / 1000);
         body.edges.push_back(
-            {side.a, side.b, length, scale * scale / (6 * modulus * std::max(side.volume, least_volume))});
+            {side.a, side.b, length, scale * scale / (6 * modulus * std::max(side.volume, least_volume)), 0});
     }
 }
 
@@ -156,13 +157,32 @@ void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double
                                           rest[c[3]] - rest[c[0]]};
         const std::array<Vec3, 3> gradient = {edge[1].cross(edge[2]), edge[2].cross(edge[0]),
                                               edge[0].cross(edge[1])};
-        double stiffness =
-            body.inverse_masses[c[0]] * (gradient[0] + gradient[1] + gradient[2]).squaredNorm();
+        double answer = body.inverse_masses[c[0]] * (gradient[0] + gradient[1] + gradient[2]).squaredNorm();
         for (std::size_t k = 0; k < 3; ++k)
-            stiffness += body.inverse_masses[c[k + 1]] * gradient[k].squaredNorm();
+            answer += body.inverse_masses[c[k + 1]] * gradient[k].squaredNorm();
         body.volumes.push_back(
-            {{c[0], c[1], c[2], c[3]}, volumes6[t], 6 * std::abs(volumes6[t]) / modulus, stiffness / 4});
+            {{c[0], c[1], c[2], c[3]}, volumes6[t], 6 * std::abs(volumes6[t]) / modulus, 0, answer});
     }
+}
+
+// Sorts constraints by greedy colours: those of one colour share no particle, so that the processor need not
+// wait for one before it begins the next. What 64 colours leave over comes last. `particles` gives a
+// constraint's particles.
+template <class Constraint, class Particles>
+void sort_by_color(std::vector<Constraint>& constraints, std::size_t particle_count, Particles particles) {
+    constexpr std::size_t color_count = 64;
+    std::vector<std::uint64_t> taken(particle_count, 0); // colours at a particle, one bit each
+    std::array<std::vector<Constraint>, color_count + 1> classes;
+    for (const Constraint& constraint : constraints) {
+        std::uint64_t around = 0;
+        for (const std::uint32_t p : particles(constraint)) around |= taken[p];
+        const auto color = static_cast<std::size_t>(std::countr_one(around));
+        if (color < color_count)
+            for (const std::uint32_t p : particles(constraint)) taken[p] |= std::uint64_t{1} << color;
+        classes[color].push_back(constraint);
+    }
+    constraints.clear();
+    for (const auto& same : classes) constraints.insert(constraints.end(), same.begin(), same.end());
 }
 
 } // namespace
@@ -179,10 +199,10 @@ Body make_body(const vox_sim_body_desc& desc) {
     body.tets.assign(desc.tets, desc.tets + 4 * desc.tet_count);
     const std::size_t count = static_cast<std::size_t>(desc.vertex_count);
     body.positions.resize(count);
+    body.previous.resize(count);
     body.velocities.assign(count, Vec3::Zero());
     body.grid_positions.resize(3 * count);
     set_state(body, desc.positions, desc.velocities);
-    body.previous = body.positions;
 
     std::vector<Vec3> rest(count);
     const double* rest_positions = desc.rest_positions ? desc.rest_positions : desc.positions;
@@ -202,6 +222,9 @@ Body make_body(const vox_sim_body_desc& desc) {
     lump_masses(body, volumes6, desc.density);
     make_edges(body, rest, volumes6, desc.youngs_modulus);
     make_volumes(body, rest, volumes6, desc.bulk_modulus);
+    sort_by_color(body.edges, count, [](const EdgeConstraint& edge) { return std::array{edge.a, edge.b}; });
+    sort_by_color(body.volumes, count,
+                  [](const VolumeConstraint& tet) { return std::to_array(tet.corners); });
     return body;
 }
 
@@ -210,7 +233,7 @@ void set_state(Body& body, const double* positions, const double* velocities) {
     if (positions) check_vectors(positions, count, "positions");
     if (velocities) check_vectors(velocities, count, "velocities");
     for (std::size_t v = 0; v < count; ++v) {
-        if (positions) body.positions[v] = vector_at(positions, v);
+        if (positions) body.positions[v] = body.previous[v] = vector_at(positions, v);
         if (velocities && !body.fixed) body.velocities[v] = vector_at(velocities, v);
     }
     write_grid_positions(body);

@@ -18,6 +18,7 @@ struct EdgeConstraint {
     std::uint32_t a, b;
     double rest_length;
     double compliance; // of the length
+    double softness;   // compliance over the squared substep, as far as that can answer it (set_substep)
 };
 
 // Keeps the signed volume of its four particles. "Six-fold volume" is the determinant of the three edges from
@@ -26,8 +27,8 @@ struct VolumeConstraint {
     std::uint32_t corners[4];
     double rest_volume6;
     double compliance; // of the six-fold volume
-    double
-        least_stiffness; // a quarter of what the constraint's gradients, weighted with 1/mass, sum to at rest
+    double softness;
+    double rest_answer; // squares of the constraint's gradients over the masses, summed up, at rest
 };
 
 struct Body {
@@ -47,6 +48,8 @@ struct Body {
     std::vector<EdgeConstraint> edges;
     std::vector<VolumeConstraint> volumes;
     double damping = 0;
+    double substep = 0;         // that the constraints are set up for; 0: none yet
+    std::uint64_t softened = 0; // constraints that are stiffer than that substep can answer
 
     Vec3 acceleration = Vec3::Zero(); // besides gravity
     double mean_edge = 0;

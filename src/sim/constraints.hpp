@@ -10,14 +10,22 @@
 
 namespace vox::sim {
 
+// Sets the constraints up for substeps of h. Stiffness that one sweep a substep cannot answer is cut down,
+// and counted: it would come out as energy from nowhere.
+void set_substep(Body& body, double h);
+
 // Semi-implicit Euler: velocities first, then positions with them.
 void move_freely(Body& body, const Vec3& gravity, double h);
 
-void solve_edges(Body& body, double h);
-void solve_volumes(Body& body, double h);
+void solve_edges(Body& body);
+void solve_volumes(Body& body);
 
 // Velocities from the way that the substep has moved the particles.
 void take_velocities(Body& body, double h);
+
+// Takes from the velocities a share of what is neither translation nor rotation of the body as a whole. Keeps
+// momentum and angular momentum (Mueller et al.: "Position Based Dynamics", 2007, Sect. 3.5).
+void damp(Body& body, double h);
 
 // Energy stored in the constraints.
 double elastic_energy(const Body& body);

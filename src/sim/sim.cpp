@@ -81,6 +81,7 @@ void vox_sim::step(double time_step) {
         time_step = max_time_step_;
     }
     const double h = time_step / substeps_;
+    set_substeps(h);
     for (std::uint32_t i = 0; i < substeps_; ++i) {
         if (detect_every_ != 0 && i % detect_every_ == 0) detect();
         substep(h);
@@ -89,6 +90,19 @@ void vox_sim::step(double time_step) {
     ++counts_.steps;
     counts_.step_ns = nanoseconds() - start;
     counts_.solve_ns = counts_.step_ns - counts_.detect_ns;
+}
+
+void vox_sim::set_substeps(double h) {
+    for (const auto& body : bodies_) {
+        set_substep(*body, h);
+        if (body->softened == 0 || softening_told_) continue;
+        softening_told_ = true;
+        write_log(
+            VOX_LOG_WARNING,
+            format("body %u: %llu of %zu constraints are stiffer than substeps of %g can answer and are made "
+                   "softer; so will be others",
+                   body->mesh, number(body->softened), body->edges.size() + body->volumes.size(), h));
+    }
 }
 
 void vox_sim::detect() {
@@ -104,14 +118,17 @@ void vox_sim::detect() {
 void vox_sim::substep(double h) {
     for (const auto& body : bodies_) move_freely(*body, gravity_, h);
     for (const auto& body : bodies_) {
-        solve_edges(*body, h);
-        solve_volumes(*body, h);
+        solve_edges(*body);
+        solve_volumes(*body);
     }
     solve_contacts(contacts_, contact_settings_, h);
     counts_.floor_contacts = 0;
     for (const auto& body : bodies_)
         counts_.floor_contacts += solve_floor(*body, floor_, contact_settings_, h);
-    for (const auto& body : bodies_) take_velocities(*body, h);
+    for (const auto& body : bodies_) {
+        take_velocities(*body, h);
+        damp(*body, h);
+    }
     ++counts_.substeps;
 }
 
@@ -172,7 +189,7 @@ vox_sim_energies vox_sim::energies(vox_mesh mesh) const {
             sum.kinetic += mass * speed * speed / 2;
             sum.max_speed = std::max(sum.max_speed, speed);
             momentum += mass * body.velocities[v];
-            moment += mass * body.positions[v];
+            moment += mass * (body.positions[v] + body.previous[v]) / 2;
         }
         sum.elastic += elastic_energy(body);
     };
@@ -201,6 +218,7 @@ vox_sim_counts vox_sim::counts() const {
         counts.flat_tets += body->flat_tets;
         counts.inverted_tets += body->inverted_tets;
         counts.raised_masses += body->raised_masses;
+        counts.softened += body->softened;
     }
     return counts;
 }

@@ -28,6 +28,7 @@ private:
         void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
     };
 
+    void set_substeps(double h);
     void detect();
     void substep(double h);
     void write_log(vox_log_level level, const std::string& text) const;
@@ -44,5 +45,6 @@ private:
     std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
     std::vector<vox::sim::Contact> contacts_;             // of the last detection
 
+    bool softening_told_ = false;
     vox_sim_counts counts_{};
 };
