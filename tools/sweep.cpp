@@ -433,6 +433,11 @@ void add_sweep(CLI::App& app) {
         app.add_subcommand("sweep", "Time of detection against cell size: the paper's experiment");
     command->add_option("A", options->a, "Mesh file");
     command->add_option("B", options->b, "Second mesh file; without it, A again");
+    command
+        ->add_option("--ball", options->ball,
+                     "In place of files: balls of radius 1, of about TETS tetrahedra")
+        ->type_name("TETS")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{VOX_MAX_TETS / 4}));
     add_fill(*command, options->fill);
     command->add_option("--axis", options->axis, "B comes along X Y Z")
         ->expected(3)
