@@ -53,22 +53,25 @@ void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&
         std::size_t node;
         double bound;
     };
-    Entry stack[64]; // one a level
+    Entry stack[64]; // two a level at most
     std::size_t size = 0;
-    const double whole = bound(tree[1]);
-    if (whole <= most) stack[size++] = {1, whole};
+    const auto put = [&](const Entry& entry) {
+        if (entry.bound <= most && entry.bound < std::numeric_limits<double>::infinity())
+            stack[size++] = entry;
+    };
+    put({1, bound(tree[1])});
     while (size > 0) {
         const Entry entry = stack[--size];
-        if (!(entry.bound <= most)) continue;
+        if (!(entry.bound <= most)) continue; // any more
         if (entry.node >= tree.size() / 2) {
             visit(entry.node - tree.size() / 2);
             continue;
         }
-        Entry near{2 * entry.node, bound(tree[2 * entry.node])},
-            far{near.node + 1, bound(tree[near.node + 1])};
+        Entry near{2 * entry.node, bound(tree[2 * entry.node])};
+        Entry far{near.node + 1, bound(tree[near.node + 1])};
         if (far.bound < near.bound) std::swap(near, far);
-        if (far.bound <= most) stack[size++] = far;
-        if (near.bound <= most) stack[size++] = near;
+        put(far);
+        put(near);
     }
 }
 

@@ -6,6 +6,8 @@
 #include "predicates.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -89,8 +91,10 @@ void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& 
 
 void Queries::box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
                   std::pmr::vector<vox_tet_hit>& hits) const {
-    const Box3f around{{round_down(min.x), round_down(min.y), round_down(min.z)},
-                       {round_up(max.x), round_up(max.y), round_up(max.z)}};
+    // Finite, so that it meets no empty box; no vertex lies beyond.
+    const auto low = [](double x) { return std::max(round_down(x), -std::numeric_limits<float>::max()); };
+    const auto high = [](double x) { return std::min(round_up(x), std::numeric_limits<float>::max()); };
+    const Box3f around{{low(min.x), low(min.y), low(min.z)}, {high(max.x), high(max.y), high(max.z)}};
     const auto meets = [&](const Tetrahedron& t) { // as doubles
         bool below[3] = {true, true, true}, above[3] = {true, true, true};
         for (std::size_t c = 0; c < 4; ++c) {
