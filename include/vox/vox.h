@@ -73,7 +73,7 @@ VOX_API const char* vox_result_string(vox_result result);
 VOX_API const char* vox_last_error(void);
 
 /* Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
- * libraries built on vox (vox_io among them) fail in the same words. A null text counts as "". */
+ * libraries built on vox (vox_io among them) fail in the same words. A null text counts as "". Cannot fail itself. */
 VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
 
 /* ---- version ---------------------------------------------------------------------------------- */
@@ -97,6 +97,7 @@ typedef struct vox_allocator {
     void* user;
 } vox_allocator;
 
+/* What a line of the log is about. */
 typedef enum vox_log_level {
     VOX_LOG_INFO = 0,
     VOX_LOG_WARNING = 1,
@@ -509,7 +510,7 @@ VOX_API vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view)
 /* Copies the first `capacity` of the last step's contacts that `mesh` has a part in, as mesh_a or as mesh_b: pair
  * by pair as in vox_grid_pairs, in the order given there. *out_count is how many there are, which may be more than
  * were copied. `contacts` may be null when capacity is 0. Also of a mesh that is disabled by now; not of one that
- * was removed. */
+ * was removed. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
                                           uint64_t capacity, uint64_t* out_count);
 
@@ -634,6 +635,7 @@ VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* point
                                          uint64_t byte_stride, uint64_t point_count, uint64_t mask,
                                          vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
+/* Tetrahedron `tet` of `mesh`. */
 typedef struct vox_tet_hit {
     vox_mesh mesh;
     uint32_t tet;
@@ -827,6 +829,7 @@ typedef struct vox_cell_size_rules {
     double median_box_side;    /* IPC Toolkit: median of the longest box sides */
 } vox_cell_size_rules;
 
+/* A point of a curve of costs. */
 typedef struct vox_cost_sample {
     double cell_size;
     double cost;
@@ -912,7 +915,7 @@ typedef struct vox_cost_weights {
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;
-    double reference_test_tet;
+    double reference_test_tet; /* or its own corner, which is in the box as well */
     double reference_clear_bucket;
     double fast_bin_vertex;
     double fast_clear_cell;
@@ -935,7 +938,7 @@ VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */
 
-/* Cost at a cell size. What is not a finite number counts as infinitely dear. */
+/* Cost at a cell size. What is not a finite number counts as infinitely dear. Called on the thread that asks. */
 typedef double vox_cost_function(double cell_size, void* user);
 
 /* coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them. */
@@ -985,7 +988,8 @@ VOX_API vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t 
 
 /* Eq. 9: how far cells-per-axis `n` lies from the optimum, in units of the optimal zone
  * [n_min, n_max]; 0 at n = n_opt, below 1 inside the zone. All in cells per axis, > 0, n_min <= n_opt <= n_max.
- * Where the zone has no width on the side n lies on, *out_epsilon is infinity (0 at n = n_opt). */
+ * Where the zone has no width on the side n lies on, *out_epsilon is infinity (0 at n = n_opt).
+ * Errors: INVALID_ARGUMENT (numbers that do not fit what is said here). */
 VOX_API vox_result vox_zone_distance(double n, double n_min, double n_opt, double n_max,
                                      double* out_epsilon);
 

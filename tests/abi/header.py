@@ -17,12 +17,13 @@ class Declaration:
     parameters: list = field(default_factory=list)  # (type, name)
     fields: list = field(default_factory=list)  # (type, name), of a struct; names alone, of an enum
     comments_inside: bool = False
+    inherited: str = ""  # comments of those before it, where its own says "The same ..."
 
 
 @dataclass
 class Header:
     conventions: str  # the comment that the file begins with
-    sections: list
+    sections: dict  # name: the comments that stand by themselves in it
     declarations: list
     constants: list  # names of numbers that are #defined
 
@@ -59,7 +60,8 @@ def parameters_of(text):
 
 
 def statements(text):
-    """(text, comment above, line) of each top-level statement, and sections as ('', name, line)."""
+    """(text, comment above, line) of each top-level statement, and of comments that stand by themselves ('', comment,
+    line)."""
     at, comment, comment_end = 0, "", 0
     while at < len(text):
         if text[at].isspace():
@@ -68,10 +70,8 @@ def statements(text):
         line = text.count("\n", 0, at) + 1
         if text.startswith("/*", at):
             end = text.index("*/", at) + 2
-            section = re.fullmatch(r"/\* -{4} (.+?) -{4,} \*/", text[at:end])
-            if section:
-                yield "", section[1], line
-                comment = ""
+            if re.match(r"[ \t]*\n[ \t]*\n", text[end:]):
+                yield "", text[at:end], line
             else:
                 comment, comment_end = text[at:end], end
             at = end
@@ -100,12 +100,16 @@ def statements(text):
 def parse(text):
     # Line counts stay right: blocks for C++ become blank lines.
     text = re.sub(r"#ifdef __cplusplus.*?#endif", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
-    header = Header(text[: text.index("*/") + 2], [], [], [])
+    header = Header(text[: text.index("*/") + 2], {}, [], [])
     section = ""
     for statement, above, line in statements(text):
         if not statement:
-            section = above
-            header.sections.append(section)
+            title = re.fullmatch(r"/\* -{4} (.+?) -{4,} \*/", above)
+            if title:
+                section = title[1]
+                header.sections[section] = ""
+            elif section:
+                header.sections[section] += " " + words_of(above)
             continue
         code = plain(statement)
         constant = re.match(r"#define (VOX_\w+) \(?-?[0-9.x]+\w*\)?", code)
@@ -138,6 +142,8 @@ def parse(text):
             new = Declaration("inline", re.search(r"(\w+)\(", code)[1], comment, line, section)
         else:
             raise ValueError(f"line {line}: cannot read '{code[:80]}'")
+        if comment.startswith("The same") and header.declarations:
+            new.inherited = header.declarations[-1].comment + header.declarations[-1].inherited
         new.comments_inside = "/*" in statement
         header.declarations.append(new)
     return header

@@ -71,7 +71,8 @@ class Rules:
         if not re.search(r"[.)]$", comment):
             self.fault(f, "its comment does not end as a sentence")
         if f.result == "vox_result":
-            if self.may_fail_in_its_own_way(f) and not re.search(r"\bErrors?\b|Cannot fail", comment):
+            told = comment + f.inherited + self.header.sections.get(f.section, "")
+            if self.may_fail_in_its_own_way(f) and not re.search(r"\berrors?\b|cannot fail", told, flags=re.I):
                 self.fault(f, "which errors?")
         elif not re.search(r"[Cc]annot fail|[Nn]ever null|Null does nothing|gives 0|returns `result`", comment):
             self.fault(f, "it gives no vox_result, and does not say that it cannot fail")
@@ -87,7 +88,7 @@ class Rules:
         """Beyond null pointers, ids and struct_size, which the conventions cover."""
         for type_text, name in f.parameters:
             kind = self.types.get(base(type_text))
-            if name.startswith("out_") or name == "struct_size" or base(type_text) == "vox_mesh":
+            if name.startswith("out") or name == "struct_size" or base(type_text) == "vox_mesh":
                 continue
             if f.name.endswith("_init") and kind and kind.kind == "struct":
                 continue
@@ -109,7 +110,7 @@ class Rules:
 
     def says(self, f, pattern):
         """In the function's comment, or in those of the types that it fills."""
-        texts = [f.comment] + [self.types[base(t)].comment for t, _ in f.parameters if base(t) in self.types]
+        texts = [f.comment + f.inherited] + [self.types[base(t)].comment for t, _ in f.parameters if base(t) in self.types]
         return any(re.search(pattern, text, flags=re.I) for text in texts)
 
     # ---- C ----
