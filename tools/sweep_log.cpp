@@ -51,7 +51,9 @@ bool parse_sample(const std::vector<std::string>& fields, SweepSample& sample) {
 SweepLog::SweepLog(const std::string& path, const std::string& experiment, std::size_t frames, bool resume)
     : path_(path), experiment_(experiment) {
     std::string text;
-    if (resume) {
+    if (resume && std::filesystem::exists(path)) {
+        if (!std::filesystem::is_regular_file(path))
+            throw Failure(path + ": cannot be written: it is no file");
         std::ifstream in(path, std::ios::binary);
         text.assign(std::istreambuf_iterator<char>(in), {});
         const std::size_t whole =
