@@ -43,11 +43,9 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
     penetrations.clear();
     if (hits.empty()) return;
     const Scene scene{bodies, topologies, hits};
-    list_points(scene, contacts);
-
     const std::size_t worker_count = workers ? workers->count() : 1;
-    workers_.reserve(worker_count);
-    while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
+    make_room(scene, worker_count);
+    list_points(scene, contacts);
     for (Worker& worker : workers_) worker.counts = {};
     // Points that are worth a task of their own.
     constexpr std::size_t least = 512;
@@ -66,6 +64,7 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
     for_each(rest_of_, rest_.size(),
              [&](const Range& rest, Worker& worker) { find_closest(scene, rest, worker); });
 
+    penetrations.reserve(hits.size());
     penetrations.resize(points_.size());
     for (const Point& point : points_) {
         const vox_contact& contact = contacts[point.hit];
@@ -86,6 +85,32 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
         counters.edge_tests += worker.counts.edge_tests;
         counters.closest_tests += worker.counts.closest_tests;
     }
+}
+
+// All that the same bodies could need with no more contacts, so that this is allocated once; but only what
+// they do need for the workers besides the first.
+void Depth::make_room(const Scene& scene, std::size_t worker_count) {
+    const std::size_t contacts = scene.hits.size();
+    points_.clear();
+    points_.reserve(contacts);
+    pairs_.reserve(contacts);
+    starts_.reserve(contacts);
+    rest_.reserve(contacts);
+    rest_of_.reserve(contacts);
+    workers_.reserve(worker_count);
+    while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
+    std::size_t vertices = 0, triangles = 0;
+    for (const Body& body : scene.bodies) vertices = std::max<std::size_t>(vertices, body.vertex_count);
+    for (const Topology* topology : scene.topologies)
+        triangles = std::max(triangles, topology->triangles.size());
+    workers_[0].reserve(contacts, vertices, triangles);
+}
+
+void Depth::Worker::reserve(std::size_t points, std::size_t vertices, std::size_t triangles) {
+    if (number.size() < vertices) number.resize(vertices, 0);
+    if (queue.size() < points) queue.resize(points);
+    normals.reserve(triangles);
+    tree.reserve(triangles);
 }
 
 // Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
@@ -122,9 +147,8 @@ void Depth::list_points(const Scene& scene, std::span<const vox_contact> contact
 
 void Depth::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
-    const std::size_t count = range.last - range.first, vertices = scene.bodies[hit.body_a].vertex_count;
-    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
-    if (worker.queue.size() < count) worker.queue.resize(count);
+    const std::size_t count = range.last - range.first;
+    worker.reserve(count, scene.bodies[hit.body_a].vertex_count, 0);
     const Pair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions, scene.solid(hit.body_b),
                     hit.body_a == hit.body_b};
     find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,

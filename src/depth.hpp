@@ -50,6 +50,9 @@ private:
     struct alignas(64) Worker {
         explicit Worker(std::pmr::memory_resource* memory);
 
+        // Room for pairs of that many points, of bodies with that many vertices and triangles.
+        void reserve(std::size_t points, std::size_t vertices, std::size_t triangles);
+
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
         depth::SurfaceTree tree;
@@ -63,6 +66,7 @@ private:
         depth::Solid solid(std::uint32_t body) const;
     };
 
+    void make_room(const Scene& scene, std::size_t worker_count);
     void list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void list_rest(const Scene& scene);
     void find_consistent(const Scene& scene, const Range& pair, Worker& worker);

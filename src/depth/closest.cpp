@@ -100,11 +100,22 @@ void SurfaceTree::sort_along_curve() {
     }
 }
 
+std::uint32_t SurfaceTree::leaves_of(std::size_t triangles) {
+    return static_cast<std::uint32_t>(
+        std::bit_ceil(std::max<std::size_t>((triangles + leaf_size - 1) / leaf_size, 1)));
+}
+
+void SurfaceTree::reserve(std::size_t triangles) {
+    order_.reserve(triangles);
+    scratch_.reserve(triangles);
+    boxes_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
+}
+
 void SurfaceTree::build(const Solid& solid) {
     solid_ = solid;
     sort_along_curve();
     const auto count = static_cast<std::uint32_t>(order_.size());
-    leaves_ = std::bit_ceil(std::max(count / leaf_size + (count % leaf_size != 0), 1u));
+    leaves_ = leaves_of(count);
     boxes_.assign(2 * std::size_t{leaves_} - 1,
                   {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -3,6 +3,7 @@
 
 #include "walk.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -30,6 +31,9 @@ public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
         : order_(memory), scratch_(memory), boxes_(memory) {}
 
+    // Room for surfaces of that many triangles.
+    void reserve(std::size_t triangles);
+
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
 
@@ -47,6 +51,7 @@ private:
     };
     static constexpr std::uint32_t leaf_size = 4;
 
+    static std::uint32_t leaves_of(std::size_t triangles);
     Box box_of(std::uint32_t triangle) const;
     void sort_along_curve();
     bool accept(const Vec3d& p, const Fold& fold, const Closest& found) const;

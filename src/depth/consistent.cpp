@@ -109,14 +109,14 @@ void Stages::find_border() {
 bool Stages::is_coincident(Point& point) const {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[point.tet];
-    const Vec3f p = pair_.positions_a[point.vertex];
+    const Vec3d p = position(point.vertex);
     std::uint32_t support[4], count = 0;
     int on = 0; // a facet that holds it
     std::uint64_t exact_tests = 0;
     for (int i = 0; i < 4; ++i) {
         const auto& [x, y, z] = facet_corners[i];
-        if (orientation(b.positions[tet.v[x]], b.positions[tet.v[y]], b.positions[tet.v[z]], p,
-                        exact_tests) != 0)
+        if (orientation(position_of(b.positions, tet.v[x]), position_of(b.positions, tet.v[y]),
+                        position_of(b.positions, tet.v[z]), p, exact_tests) != 0)
             support[count++] = tet.v[i];
         else
             on = i;
@@ -130,7 +130,7 @@ bool Stages::is_coincident(Point& point) const {
         if (count > 1 && !has_corner(triangle, support[1])) continue;
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
-        const Closest closest = closest_point(b, t, vec(p));
+        const Closest closest = closest_point(b, t, p);
         point.direction = normals_.at(closest.at, closest.at.point - position_of(b.positions, triangle.apex));
         if (length(point.direction) > 0) break;
     }

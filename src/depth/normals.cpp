@@ -12,11 +12,7 @@ namespace vox::depth {
 
 void Normals::begin(const Solid& solid) {
     solid_ = solid;
-    const std::size_t count = solid.topology->triangles.size();
-    if (count > faces_.size()) {
-        faces_.resize(count);
-        corners_.resize(count);
-    }
+    reserve(solid.topology->triangles.size());
     if (++age_ == 0) { // after 2^32 of them
         std::fill(faces_.begin(), faces_.end(), Face{});
         age_ = 1;
@@ -44,11 +40,10 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     return face;
 }
 
-const Normals::Corners& Normals::corners(std::uint32_t triangle) {
+const Normals::Face& Normals::face_with_corners(std::uint32_t triangle) {
     constexpr double crease = 0.5; // cosine
-    Corners& made = corners_[triangle];
     Face& asking = face(triangle);
-    if (asking.has_corners) return made;
+    if (asking.has_corners) return asking;
     asking.has_corners = true;
     const Triangle& t = solid_.topology->triangles[triangle];
     for (int i = 0; i < 3; ++i) {
@@ -62,16 +57,16 @@ const Normals::Corners& Normals::corners(std::uint32_t triangle) {
             // Seen from one side, however the other's tetrahedron is wound.
             sum = sum + (cosine < 0 ? -weight : weight) * f.normal;
         }
-        made.normal[i] = normalised(sum);
+        asking.corner[i] = normalised(sum);
     }
-    return made;
+    return asking;
 }
 
 Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
-    const Corners& c = corners(point.triangle);
-    const Vec3d normal = normalised(point.weight[0] * c.normal[0] + point.weight[1] * c.normal[1] +
-                                    point.weight[2] * c.normal[2]);
-    return dot(faces_[point.triangle].normal, outward) < 0 ? -1.0 * normal : normal;
+    const Face& face = face_with_corners(point.triangle);
+    const Vec3d normal = normalised(point.weight[0] * face.corner[0] + point.weight[1] * face.corner[1] +
+                                    point.weight[2] * face.corner[2]);
+    return dot(face.normal, outward) < 0 ? -1.0 * normal : normal;
 }
 
 } // namespace vox::depth

@@ -3,6 +3,7 @@
 
 #include "walk.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -11,7 +12,12 @@ namespace vox::depth {
 
 class Normals {
 public:
-    explicit Normals(std::pmr::memory_resource* memory) : faces_(memory), corners_(memory) {}
+    explicit Normals(std::pmr::memory_resource* memory) : faces_(memory) {}
+
+    // Room for surfaces of that many triangles.
+    void reserve(std::size_t triangles) {
+        if (triangles > faces_.size()) faces_.resize(triangles);
+    }
 
     // To be called before at(), for another solid or when positions have changed.
     void begin(const Solid& solid);
@@ -22,22 +28,19 @@ public:
 
 private:
     struct Face {
-        std::uint32_t age = 0;
+        std::uint32_t age = 0; // of the last begin() after which it was asked for
         bool has_corners = false;
-        Vec3d normal;            // unit, or zero
-        double corner_weight[3]; // of the normal in that of a corner
-    };
-    struct Corners {
-        Vec3d normal[3];
+        Vec3d normal{};            // unit, or zero
+        double corner_weight[3]{}; // of the normal in those of the corners
+        Vec3d corner[3]{};         // unit normals at the corners
     };
 
     Face& face(std::uint32_t triangle);
-    const Corners& corners(std::uint32_t triangle);
+    const Face& face_with_corners(std::uint32_t triangle);
 
     Solid solid_{};
     std::uint32_t age_ = 0;
     std::pmr::vector<Face> faces_;
-    std::pmr::vector<Corners> corners_;
 };
 
 } // namespace vox::depth
