@@ -7,6 +7,7 @@
 #include "snapshot_file.hpp"
 #include "stepping.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tool {
@@ -27,6 +28,25 @@ struct Options {
 };
 
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
+
+void print_penetrations(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    const vox_penetration_view view = penetrations_of(grid);
+    if (view.count == 0) return;
+    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
+                view.count == 1 ? "penetrating vertex" : "penetrating vertices");
+    const std::uint64_t shown = std::min(view.count, options.limit);
+    if (shown > 0) std::printf("  %12s in        depth   direction out, state\n", "vertex");
+    for (std::uint64_t i = 0; i < shown; ++i) {
+        const vox_penetration p = penetration_at(view, i);
+        std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f, %s\n",
+                    place_of(ids, p.mesh_a) == 0 ? 'A' : 'B', p.vertex,
+                    place_of(ids, p.mesh_b) == 0 ? 'A' : 'B', static_cast<double>(p.depth),
+                    static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
+                    static_cast<double>(p.direction[2]), state_name(p.state));
+    }
+    if (shown < view.count)
+        std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
+}
 
 void print_text(const Options& options, const vox_grid* grid, const std::vector<Body>& bodies,
                 const std::vector<vox_mesh>& ids, const vox_profile& profile) {
@@ -51,14 +71,16 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     if (shown < view.count)
         std::printf("  and %llu more (--limit N prints N of them, --json all)\n",
                     static_cast<unsigned long long>(view.count - shown));
+    print_penetrations(options, grid, ids);
     double cell_size = 0;
     check(vox_grid_cell_size(grid, &cell_size));
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size);
-    std::printf("step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f (%s)\n",
-                milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
-                milliseconds(profile.narrow_ns), milliseconds(profile.contacts_ns),
-                options.repeat == 1 ? "one step; --repeat N gives medians"
-                                    : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
+    std::printf(
+        "step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f, depth %.3f (%s)\n",
+        milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
+        milliseconds(profile.narrow_ns), milliseconds(profile.contacts_ns), milliseconds(profile.depth_ns),
+        options.repeat == 1 ? "one step; --repeat N gives medians"
+                            : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
 }
 
 void run(const Options& options) {

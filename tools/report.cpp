@@ -66,10 +66,50 @@ Json counters(const vox_grid* grid) {
             {"contacts", counters.contacts},
             {"skipped_degenerate", counters.skipped_degenerate},
             {"bytes", counters.bytes},
-            {"peak_bytes", counters.peak_bytes}};
+            {"peak_bytes", counters.peak_bytes},
+            {"penetrations", counters.penetrations},
+            {"leaving_edges", counters.leaving_edges},
+            {"edge_tests", counters.edge_tests},
+            {"closest_searches", counters.closest_searches},
+            {"closest_tests", counters.closest_tests}};
+}
+
+Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    const vox_penetration_view view = penetrations_of(grid);
+    Json list = Json::array();
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        const vox_penetration p = penetration_at(view, i);
+        list.push_back(
+            {{"mesh_a", place_of(ids, p.mesh_a)},
+             {"vertex", p.vertex},
+             {"mesh_b", place_of(ids, p.mesh_b)},
+             {"state", state_name(p.state)},
+             {"contact", p.contact},
+             {"depth", number(p.depth)},
+             {"direction", {number(p.direction[0]), number(p.direction[1]), number(p.direction[2])}}});
+    }
+    return list;
 }
 
 } // namespace
+
+const char* state_name(vox_penetration_state state) {
+    switch (state) {
+    case VOX_PENETRATION_SURFACE:
+        return "surface";
+    case VOX_PENETRATION_PROPAGATED:
+        return "propagated";
+    case VOX_PENETRATION_ENCLOSED:
+        return "enclosed";
+    case VOX_PENETRATION_CROSSING:
+        return "crossing";
+    case VOX_PENETRATION_COINCIDENT:
+        return "coincident";
+    case VOX_PENETRATION_STATE_FORCE_32_BITS:
+        break;
+    }
+    return "unknown";
+}
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -114,6 +154,7 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
              {"barycentric", {number(weight[0]), number(weight[1]), number(weight[2]), number(weight[3])}}});
     }
     json["contacts"] = std::move(contacts);
+    json["penetrations"] = penetrations(grid, ids);
     add_result(json, grid, profile);
 }
 
@@ -122,11 +163,9 @@ void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
     double cell_size = 0;
     check(vox_grid_cell_size(grid, &cell_size));
     json["cell_size"] = number(cell_size);
-    json["profile"] = {{"step_ns", profile.step_ns},
-                       {"bin_ns", profile.bin_ns},
-                       {"broad_ns", profile.broad_ns},
-                       {"narrow_ns", profile.narrow_ns},
-                       {"contacts_ns", profile.contacts_ns}};
+    json["profile"] = {{"step_ns", profile.step_ns},         {"bin_ns", profile.bin_ns},
+                       {"broad_ns", profile.broad_ns},       {"narrow_ns", profile.narrow_ns},
+                       {"contacts_ns", profile.contacts_ns}, {"depth_ns", profile.depth_ns}};
     json["counters"] = counters(grid);
 }
 

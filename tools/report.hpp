@@ -27,6 +27,9 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
+// surface, propagated, enclosed, crossing or coincident.
+const char* state_name(vox_penetration_state state);
+
 // Adds what a step gives besides its contacts: hash, cell_size, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
 

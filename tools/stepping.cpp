@@ -36,6 +36,12 @@ vox_contact_view contacts_of(const vox_grid* grid) {
     return view;
 }
 
+vox_penetration_view penetrations_of(const vox_grid* grid) {
+    vox_penetration_view view{};
+    check(vox_grid_penetrations(grid, &view));
+    return view;
+}
+
 vox_profile median(std::span<const vox_profile> profiles) {
     std::vector<std::uint64_t> times(profiles.size());
     const auto median_of = [&](std::uint64_t vox_profile::*time) {
@@ -46,7 +52,7 @@ vox_profile median(std::span<const vox_profile> profiles) {
     };
     vox_profile result = profiles.front();
     for (const auto time : {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns,
-                            &vox_profile::narrow_ns, &vox_profile::contacts_ns})
+                            &vox_profile::narrow_ns, &vox_profile::contacts_ns, &vox_profile::depth_ns})
         result.*time = median_of(time);
     return result;
 }

@@ -24,12 +24,20 @@ Grid make_grid(const vox_grid_desc& desc, std::span<const Body> bodies, bool sel
 
 vox_profile profile_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
+vox_penetration_view penetrations_of(const vox_grid* grid);
 
 inline vox_contact contact_at(const vox_contact_view& view, std::uint64_t index) {
     vox_contact contact;
     std::memcpy(&contact, reinterpret_cast<const char*>(view.data) + index * view.byte_stride,
                 sizeof contact);
     return contact;
+}
+
+inline vox_penetration penetration_at(const vox_penetration_view& view, std::uint64_t index) {
+    vox_penetration penetration;
+    std::memcpy(&penetration, reinterpret_cast<const char*>(view.data) + index * view.byte_stride,
+                sizeof penetration);
+    return penetration;
 }
 
 // The median of each time by itself. At least one profile.
