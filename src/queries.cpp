@@ -84,6 +84,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
 void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
     const Body& body = from.body;
     const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
+    const bool rounded = body.positions.rounded(); // else all are floats
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
     for (const fast::Tile& tile : from.tiles->tiles) {
         Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box()};
@@ -93,7 +94,13 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
             Box3f box = empty_box();
             for (std::size_t c = 0; c < 4; ++c) {
                 t.corner[c] = first_vertex + body.tets[index].v[c];
-                extend(box, vertices_[t.corner[c]]);
+                const Vec3d& p = vertices_[t.corner[c]];
+                if (rounded) {
+                    extend(box, p);
+                } else {
+                    const Vec3f at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+                    extend(box, {at, at});
+                }
                 const std::uint32_t across = from.topology->across[index][c];
                 if (across != depth::Topology::nothing && (across & depth::Topology::surface_bit))
                     t.facets |= 1u << c;

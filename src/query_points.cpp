@@ -82,8 +82,9 @@ void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& 
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
         if (!overlap(boxes_[i], at)) continue;
         const Tetrahedron& t = tetrahedra_[i];
+        // One of zero volume has sides of both signs, or none: it is never found to hold the point.
         const Containment where =
-            locate(p, corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3), exact_tests);
+            locate_in_solid(p, corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3), exact_tests);
         if (where == Containment::interior || where == Containment::boundary)
             found.push_back({point, leaf.mesh, i, where == Containment::interior});
     }

@@ -71,21 +71,24 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const
 // Not more than the t at which a segment enters a box; infinite when it misses it.
 class EntryBound {
 public:
-    EntryBound(const Vec3d& from, const Vec3d& to) noexcept
-        : from_{from.x, from.y, from.z}, way_{to.x - from.x, to.y - from.y, to.z - from.z} {}
+    EntryBound(const Vec3d& from, const Vec3d& to) noexcept : from_{from.x, from.y, from.z} {
+        const double way[3] = {to.x - from.x, to.y - from.y, to.z - from.z};
+        for (int axis = 0; axis < 3; ++axis) inverse_[axis] = way[axis] == 0 ? 0 : 1 / way[axis];
+    }
 
     double operator()(const Box3f& box) const noexcept {
         const float lo[3] = {box.min.x, box.min.y, box.min.z}, hi[3] = {box.max.x, box.max.y, box.max.z};
         double enter = 0, leave = 1;
         for (int axis = 0; axis < 3; ++axis) {
             if (lo[axis] > hi[axis]) return infinity;
-            if (way_[axis] == 0) {
+            if (inverse_[axis] == 0) { // no way along this axis
                 if (from_[axis] < double{lo[axis]} || from_[axis] > double{hi[axis]}) return infinity;
                 continue;
             }
-            double t0 = (double{lo[axis]} - from_[axis]) / way_[axis];
-            double t1 = (double{hi[axis]} - from_[axis]) / way_[axis];
+            double t0 = (double{lo[axis]} - from_[axis]) * inverse_[axis];
+            double t1 = (double{hi[axis]} - from_[axis]) * inverse_[axis];
             if (t0 > t1) std::swap(t0, t1);
+            // Not a number (0 times infinity) leaves both as they are.
             enter = std::max(enter, t0 - std::abs(t0) * slack);
             leave = std::min(leave, t1 + std::abs(t1) * slack);
         }
@@ -93,7 +96,7 @@ public:
     }
 
 private:
-    double from_[3], way_[3];
+    double from_[3], inverse_[3];
 };
 
 // The corners of facet i of a tetrahedron in ascending order, so that both sides of a facet compute the same;
@@ -136,6 +139,7 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t ma
         if (!wants(leaf, mask)) return;
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
             const Tetrahedron& t = tetrahedra_[i];
+            if (t.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
             for (std::size_t facet = 0; facet < 4; ++facet) {
                 if (!(t.facets >> facet & 1)) continue;
                 const ClosestPoint found = closest_on_triangle(p, corner(t, facet_corners[facet][0]),
@@ -190,10 +194,10 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t m
             if (!(bound(boxes_[i]) <= most)) continue;
             const Tetrahedron& tet = tetrahedra_[i];
             std::uint64_t exact_tests = 0;
-            const Containment where =
-                locate(from, corner(tet, 0), corner(tet, 1), corner(tet, 2), corner(tet, 3), exact_tests);
-            if (where == Containment::degenerate) continue;
-            double t = where == Containment::outside ? infinity : 0;
+            const Containment where = locate_in_solid(from, corner(tet, 0), corner(tet, 1), corner(tet, 2),
+                                                      corner(tet, 3), exact_tests);
+            const bool holds = where == Containment::interior || where == Containment::boundary;
+            double t = holds ? 0 : infinity;
             for (std::size_t facet = 0; facet < 4 && t > 0; ++facet) {
                 const Facet f(tet.corner, facet);
                 t = std::min(t, find_crossing(from, to, vertices_[f.vertex[0]], vertices_[f.vertex[1]],
@@ -201,11 +205,13 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t m
                                     .t);
             }
             const std::pair key(leaf.mesh, tet.index);
-            if (t < most || (t == most && (!any || key < best))) {
-                most = t;
-                best = key;
-                any = true;
-            }
+            if (!(t < most || (t == most && (!any || key < best)))) continue;
+            if (!holds &&
+                orientation(corner(tet, 0), corner(tet, 1), corner(tet, 2), corner(tet, 3), exact_tests) == 0)
+                continue; // of zero volume: holds nothing
+            most = t;
+            best = key;
+            any = true;
         }
     });
     if (!any) return;
