@@ -14,3 +14,8 @@ if(CMAKE_SIZEOF_VOID_P EQUAL 8 AND NOT CMAKE_CROSSCOMPILING AND NOT MSVC)
   add_test(NAME abi_layout
     COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/abi/layout.py ${CMAKE_C_COMPILER})
 endif()
+
+if(VOX_BUILD_TOOLS)
+  add_test(NAME replay COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/tools/replay.py)
+  set_tests_properties(replay PROPERTIES ENVIRONMENT "VOX_TOOL=$<TARGET_FILE:vox_tool>")
+endif()

@@ -79,6 +79,7 @@ typedef struct vox_io_mesh_view {
     uint64_t triangle_count;
 } vox_io_mesh_view;
 
+/* The mesh's arrays. */
 VOX_API vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
 
 /* Makes a mesh from arrays (copied). Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, LIMIT (more than
@@ -119,7 +120,7 @@ typedef struct vox_io_report {
 VOX_API vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report);
 
 /* The report's oddities as text, one line each ("3 tets are inverted"); "" when there are none. Lives until
- * vox_io_mesh_destroy. Null for a null mesh. */
+ * vox_io_mesh_destroy. Cannot fail; null for a null mesh. */
 VOX_API const char* vox_io_mesh_warnings(const vox_io_mesh* mesh);
 
 /* Name of a format, e.g. "Gmsh .msh". Static text; never null. */
@@ -235,8 +236,8 @@ typedef struct vox_io_sink {
     void* user;
 } vox_io_sink;
 
-/* The same into memory or anywhere else. desc->format must not be AUTO. A failing sink gives
- * VOX_ERROR_FILE; what it has received by then is of no use. */
+/* As vox_io_write, into memory or anywhere else. desc->format must not be AUTO. Errors: those, and FILE for a sink
+ * that fails; what it has received by then is of no use. */
 VOX_API vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* desc, const vox_io_sink* sink);
 
 /* ---- ready-made bodies ------------------------------------------------------------------------ */

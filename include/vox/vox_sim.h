@@ -107,7 +107,7 @@ typedef struct vox_sim_body_desc {
      * its edges ran in all directions alike. >= 0, default 1e6. */
     double youngs_modulus;
     double bulk_modulus; /* resistance to change of volume, beyond that of the edges; >= 0, default 1e6 */
-    double damping;      /* per time: how fast vibrations of the body die down; >= 0, default 1 */
+    double damping;      /* time: edges resist their rate of strain as they resist strain, times this; >= 0, default 0.01 */
     uint64_t user_data;  /* given back by vox_mesh_user_data on the sim's grid */
 } vox_sim_body_desc;
 
@@ -141,6 +141,7 @@ typedef struct vox_sim_body_view {
     uint64_t tet_count;
 } vox_sim_body_view;
 
+/* The body's arrays. */
 VOX_API vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_body_view* out_view);
 
 /* Puts a body elsewhere, or back: 3 * vertex_count numbers each, null: as they are. The rest shape stays.
@@ -262,10 +263,10 @@ typedef struct vox_experiment_facts {
     double bounds_max[3];
 } vox_experiment_facts;
 
-/* Writes the fields that out_facts->struct_size covers (set it first). */
+/* Writes the fields that out_facts->struct_size covers (set it first); the shares live as long as the experiment. */
 VOX_API vox_result vox_experiment_get(const vox_experiment* experiment, vox_experiment_facts* out_facts);
 
-/* vox_suggest_cell_size for the two bodies as they are in the first frame. */
+/* vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors. */
 VOX_API vox_result vox_experiment_suggest(const vox_experiment* experiment, const vox_suggest_desc* desc,
                                           vox_suggestion* out);
 
