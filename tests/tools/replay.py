@@ -1,0 +1,55 @@
+"""vox collide --save and vox replay: the same contacts whatever the engine, and files that are refused."""
+
+import os
+import tempfile
+import unittest
+
+from command_line import TETS, TWO_TETS, msh
+from vox import run, run_json
+
+
+class Replay(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.mesh = os.path.join(self.folder.name, "two.msh")
+        with open(self.mesh, "w", encoding="ascii") as file:
+            file.write(msh(TWO_TETS[:5], TETS))
+        self.snapshot = os.path.join(self.folder.name, "grid.vox")
+        self.collided = run_json("collide", self.mesh, self.mesh, "--offset", 0.1, 0.1, 0.1, "--save", self.snapshot)
+
+    def refused(self, code, pattern, *arguments):
+        done = run(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(done.stdout, b"")
+        self.assertRegex(done.stderr.decode(), pattern)
+
+    def test_same_contacts(self):
+        self.assertGreater(self.collided["contact_count"], 0)
+        for options in [], ["--engine", "reference"], ["--engine", "fast"], ["--steps", 5], ["--threads", 2]:
+            found = run_json("replay", self.snapshot, *options)
+            self.assertEqual(found["hash"], self.collided["hash"], options)
+            self.assertEqual(found["contact_count"], self.collided["contact_count"])
+            self.assertEqual(found["counters"]["tets"], 4)
+            self.assertEqual(found["saved_epoch"], 2)  # one step to warm up, one timed
+            self.assertGreaterEqual(found["profile"]["step_ns"], 0)
+
+    def test_as_text(self):
+        done = run("replay", self.snapshot)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 meshes, 10 vertices, 4 tetrahedra", done.stdout.decode())
+        self.assertIn(self.collided["hash"], done.stdout.decode())
+
+    def test_refused(self):
+        self.refused(1, "cannot be opened: No such file", "replay", self.snapshot + ".not")
+        self.refused(1, "two.msh: snapshot: byte 0 is 0x24, expected 0x89: not a snapshot", "replay", self.mesh)
+        with open(self.snapshot, "r+b") as file:
+            file.truncate(100)
+        self.refused(1, "grid.vox: snapshot: 100 bytes, the header says", "replay", self.snapshot)
+        self.refused(2, "FILE is required", "replay")
+        self.refused(2, "--steps", "replay", self.snapshot, "--steps", 0)
+        self.refused(1, "cannot be written", "collide", self.mesh, self.mesh, "--save", self.folder.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
