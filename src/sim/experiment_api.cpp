@@ -66,6 +66,13 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
+double median(std::vector<std::uint64_t>& values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    const double upper = static_cast<double>(values[middle]);
+    return values.size() % 2 ? upper : (static_cast<double>(values[middle - 1]) + upper) / 2;
+}
+
 TimeFit read_fit(const vox_time_fit* in) {
     const vox_time_fit fit = read_struct(in, vox_time_fit{}, "fit");
     TimeFit result;
@@ -152,12 +159,13 @@ vox_result vox_experiment_time(const std::uint64_t* frame_ns, std::uint64_t roun
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("%" PRIu64 " rounds of %" PRIu64 " frames, expected at least one of both",
                                rounds, frames));
+        std::vector<std::uint64_t> of_frame;
         double sum = 0;
         for (std::uint64_t frame = 0; frame < frames; ++frame) {
-            std::uint64_t least = frame_ns[frame];
-            for (std::uint64_t round = 1; round < rounds; ++round)
-                least = std::min(least, frame_ns[round * frames + frame]);
-            sum += static_cast<double>(least);
+            of_frame.clear();
+            for (std::uint64_t round = 0; round < rounds; ++round)
+                of_frame.push_back(frame_ns[round * frames + frame]);
+            sum += median(of_frame);
         }
         *out_ns = sum / static_cast<double>(frames);
     });
