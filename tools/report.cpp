@@ -16,6 +16,10 @@ const char* model_name(vox_cost_model model) {
     switch (model) {
     case VOX_COST_MODEL_PAPER:
         return "paper";
+    case VOX_COST_MODEL_REFERENCE:
+        return "reference";
+    case VOX_COST_MODEL_FAST:
+        return "fast";
     case VOX_COST_MODEL_FORCE_32_BITS:
         break;
     }
