@@ -10,6 +10,12 @@ namespace vox {
 
 namespace {
 
+// Grows as push_back() would: to more than is needed now.
+template <class T>
+void room_for(std::pmr::vector<T>& vector, std::size_t count) {
+    if (count > vector.capacity()) vector.reserve(std::max(count, vector.capacity() + vector.capacity() / 2));
+}
+
 bool pair_before(const vox_pair& x, const vox_pair& y) {
     return std::tie(x.mesh_a, x.mesh_b) < std::tie(y.mesh_a, y.mesh_b);
 }
@@ -49,9 +55,6 @@ void Events::hide_events() noexcept {
 }
 
 void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
-    const auto room_for = [](auto& vector, std::size_t count) {
-        if (count > vector.capacity()) vector.reserve(count);
-    };
     const std::size_t pairs = std::min(8 * mesh_count, contact_count);
     room_for(buffers_.last_of_slot, mesh_count);
     room_for(buffers_.runs, contact_count);
@@ -70,6 +73,14 @@ void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
 }
 
 void Events::compare(std::span<const vox_contact> contacts) {
+    // Room in both halves for what one has, and for all of it to end while as much begins: a later step that
+    // finds no more than this one allocates nothing.
+    const Touching& is = next();
+    Touching& was = touching_[current_];
+    room_for(was.pairs, is.pairs.size());
+    room_for(was.contacts, is.contacts.size());
+    room_for(touch_events_, 2 * std::max(was.pairs.size(), is.pairs.size()));
+    room_for(buffers_.runs, contacts.size());
     try {
         compare_pairs();
         if (of_contacts_) compare_contacts(contacts);
@@ -82,7 +93,11 @@ void Events::compare(std::span<const vox_contact> contacts) {
 }
 
 void Events::repeat() {
-    touch_events_.reserve(touching_[current_].pairs.size()); // all that can fail
+    // All that can fail: room for this step, and for the one that finds as much anew.
+    touch_events_.reserve(touching_[current_].pairs.size());
+    next().pairs.reserve(touching_[current_].pairs.size());
+    next().contacts.reserve(touching_[current_].contacts.size());
+    inside_[1 - current_].reserve(inside_[current_].size());
     for (const vox_pair& pair : touching_[current_].pairs) {
         const auto index = static_cast<std::uint32_t>(touch_events_.size());
         touch_events_.push_back(
@@ -114,6 +129,8 @@ void Events::compare_contacts(std::span<const vox_contact> contacts) {
         if (is.empty() || is.back() != inside)
             is.push_back(inside); // in the interior of several tets at once
     }
+    room_for(inside_[current_], is.size());
+    room_for(contact_events_, 2 * std::max(was.size(), is.size()));
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_ENDED})
         for_each_of_kind(kind, was, is, std::less<>(), [&](const Inside& inside) {
             contact_events_.push_back({inside.mesh_a, inside.vertex, inside.mesh_b, kind});

@@ -16,8 +16,10 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) map_positions();
     if (desc.rest_positions)
-        set_rest({static_cast<const std::byte*>(desc.rest_positions),
-                  check_stride(desc.rest_position_byte_stride, VOX_FORMAT_FLOAT3, vertex_count_, "rest_")});
+        set_rest({.data = static_cast<const std::byte*>(desc.rest_positions),
+                  .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
+                                              vertex_count_, "rest_"),
+                  .doubles = desc.position_format == VOX_FORMAT_DOUBLE3});
     set_filter(filter);
 }
 
@@ -68,12 +70,13 @@ Body Mesh::body(vox_mesh id) const noexcept {
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
+    std::pmr::vector<Vec3f> rest(self_filter_.rest.get_allocator());
     if (filter.self_rest_distance > 0 && self_filter_.rest.empty() && vertex_count_ > 0) {
         if (!has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
-        set_rest(positions_);
+        rest = copy_finite(body(VOX_NULL_MESH).positions); // as they collide
     }
     Rings rings(self_filter_.rings.near.get_allocator().resource());
     const bool other_rings = filter.self_rings != filter_.self_rings;
@@ -84,17 +87,20 @@ void Mesh::set_filter(const vox_filter& filter) {
         with_self.self_collision = true;
         tiles_.prepare(with_self); // more is prepared of bodies with self-collision
     }
+    if (!rest.empty()) self_filter_.rest = std::move(rest);
     if (other_rings) self_filter_.rings = std::move(rings);
     self_filter_.rest_distance = filter.self_rest_distance;
     filter_ = filter;
 }
 
-void Mesh::set_rest(const Positions& positions) {
+void Mesh::set_rest(const Positions& positions) { self_filter_.rest = copy_finite(positions); }
+
+std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions) const {
     check_finite({.vertex_count = vertex_count_, .positions = positions});
-    std::pmr::vector<Vec3f> rest(self_filter_.rest.get_allocator());
-    rest.reserve(vertex_count_);
-    for (std::uint32_t v = 0; v < vertex_count_; ++v) rest.push_back(positions[v]);
-    self_filter_.rest = std::move(rest);
+    std::pmr::vector<Vec3f> copy(self_filter_.rest.get_allocator());
+    copy.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertex_count_; ++v) copy.push_back(positions[v]);
+    return copy;
 }
 
 void Mesh::reserve_exception() {

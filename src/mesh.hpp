@@ -72,6 +72,8 @@ private:
     friend class Snapshot;
 
     void set_rest(const Positions& positions);
+    // For a rest pose. Throws Error(NON_FINITE or LIMIT).
+    std::pmr::vector<Vec3f> copy_finite(const Positions& positions) const;
 
     std::pmr::vector<Tet> tets_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed

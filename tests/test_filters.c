@@ -454,6 +454,32 @@ START_TEST(overlap_in_the_rest_pose) {
 }
 END_TEST
 
+/* A rest pose in double, with a stride: the vertex is 0.5 away from the tet at rest, and in it now. */
+START_TEST(rest_pose_in_double) {
+    const double rest[5][4] = {{0, 0, 0, 9}, {1, 0, 0, 9}, {0, 1, 0, 9}, {0, 0, 1, 9}, {0.25, 0.25, -0.5, 9}};
+    const double now[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.125, 0.25, 0.125};
+    vox_grid* grid = new_grid();
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = 1;
+    filter.self_rest_distance = 0.5;
+    desc.positions = now;
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.vertex_count = 5;
+    desc.tets = unit_tet;
+    desc.tet_count = 1;
+    desc.filter = &filter;
+    desc.rest_positions = rest;
+    desc.rest_position_byte_stride = sizeof rest[0];
+    const vox_mesh mesh = insert(grid, &desc);
+    ck_assert_uint_eq(stepped(grid).count, 1); /* not closer than that */
+    filter.self_rest_distance = 0.50000001;
+    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_assert_uint_eq(stepped(grid).count, 0);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 /* ---- memory and arguments --------------------------------------------------------------------- */
 
 static void* counted_allocate(size_t size, size_t alignment, void* user) {
@@ -540,6 +566,28 @@ START_TEST(failing_filters_change_nothing) {
         ck_assert_uint_eq(stepped(grid).count, count);
     }
     ck_assert_uint_gt(failures, 4);
+    const uint64_t filtered = stepped(grid).count;
+
+    /* Nor has a rest pose been taken: here every failing call sees another one, in which all is close to all. */
+    uint64_t fresh_calls[2] = {0, 0};
+    vox_grid* fresh = counted_grid(fresh_calls);
+    const size_t bytes = 3 * sizeof(float) * s.vertex_count;
+    float* kept = (float*)malloc(bytes);
+    memcpy(kept, s.positions, bytes);
+    const vox_mesh again = insert(fresh, &desc);
+    insert(fresh, &other);
+    ck_ok(vox_grid_step(fresh));
+    memset(s.positions, 0, bytes);
+    for (uint64_t failure = 1; failure <= failures; ++failure) {
+        fresh_calls[1] = fresh_calls[0] + failure;
+        ck_assert_int_eq(vox_mesh_set_filter(fresh, again, &filter), VOX_ERROR_OUT_OF_MEMORY);
+    }
+    memcpy(s.positions, kept, bytes);
+    fresh_calls[1] = 0;
+    ck_ok(vox_mesh_set_filter(fresh, again, &filter));
+    ck_assert_uint_eq(stepped(fresh).count, filtered);
+    vox_grid_destroy(fresh);
+    free(kept);
     for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK;) {
         static uint64_t at = 0;
         calls[1] = calls[0] + ++at;
@@ -644,6 +692,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, self_filters_by_definition);
     tcase_add_test(tests, lowest_tet_that_is_left);
     tcase_add_test(tests, overlap_in_the_rest_pose);
+    tcase_add_test(tests, rest_pose_in_double);
     tcase_add_test(tests, steps_with_filters_allocate_nothing);
     tcase_add_test(tests, failing_filters_change_nothing);
     tcase_add_test(tests, arguments);
