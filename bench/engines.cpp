@@ -104,6 +104,29 @@ Case coil(double tets) {
     return made;
 }
 
+// Two bodies of so many balls each, all over the world; every ball of one overlaps one of the other.
+Case clumps(double count, double tets) {
+    Case made;
+    Random random{1};
+    double radius = 0;
+    Mesh bodies[2];
+    for (int i = 0; i < int(count); ++i) {
+        const double x = random.uniform(-1e5, 1e5), y = random.uniform(-1e5, 1e5),
+                     z = random.uniform(-1e5, 1e5);
+        for (int b = 0; b < 2; ++b) {
+            Mesh mesh = ball(tets / 2 / count, &radius);
+            jitter(mesh, 0.1, random);
+            move(mesh, 1, x + b * 1.6 * radius, y, z);
+            append(bodies[b], mesh);
+        }
+    }
+    for (Mesh& mesh : bodies) made.meshes.push_back(std::move(mesh));
+    made.self = true;
+    made.wave_length = 2 * radius;
+    made.amplitude = 0.02 * radius;
+    return made;
+}
+
 struct Named {
     const char* name;
     std::function<Case(double)> make;
@@ -117,6 +140,8 @@ const Named scenes[] = {
     {"self_coil", coil},
     {"many_216", [](double n) { return many_balls(216, n / 216); }},
     {"many_1000", [](double n) { return many_balls(1000, n / 1000); }},
+    {"clumps_2", [](double n) { return clumps(2, n); }},
+    {"clumps_500", [](double n) { return clumps(500, n); }},
 };
 
 // ---- one scene ------------------------------------------------------------------------------------

@@ -173,6 +173,16 @@ Scene many_balls(double tets, bool shuffled, double tets_each) {
     return scene;
 }
 
+// The same, all but ten at rest.
+Scene balls_at_rest(double tets, bool shuffled, double tets_each) {
+    Scene scene = many_balls(tets, shuffled, tets_each);
+    const std::size_t count = scene.bodies.size(), moving = 10;
+    for (std::size_t b = 0; b < count; ++b)
+        if (b * moving / count == (b + 1) * moving / count) // no tenth part of all ends here
+            std::ranges::fill(scene.bodies[b].frames, scene.bodies[b].frames[0]);
+    return scene;
+}
+
 // A beam of w * w cubes wound up to a coil of six turns that touch here and there.
 Scene coil(double tets, bool shuffled) {
     const double turns = 6, bend = 3; // radius of the coil in widths
@@ -258,6 +268,8 @@ std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
          [](double n, bool s) { return many_balls(n, s, 5000); }},
         {"bodies-1k", "bodies of 1k, light contact", true,
          [](double n, bool s) { return many_balls(n, s, 1000); }},
+        {"bodies-1k-rest", "bodies of 1k, light contact, ten of them moving", true,
+         [](double n, bool s) { return balls_at_rest(n, s, 1000); }},
         {"overlap-50", "two bodies, 50 % overlap volume", true,
          [](double n, bool s) { return two_balls_by_volume(n, s, 0.5); }},
     };

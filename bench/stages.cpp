@@ -50,13 +50,14 @@ struct Bodies {
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
     std::pmr::vector<fast::Pair> pairs;
-    fast::Points points{memory};
+    fast::Points points{memory}, sparse{memory};
     fast::Lattice lattice{};
-    fast::Bins bins{memory};
+    fast::Bins bins{memory}, sparse_bins{memory};
     std::pmr::vector<std::uint32_t> cell_of;
     fast::Window window{};
     std::unique_ptr<fast::QueryScratch> scratch = std::make_unique<fast::QueryScratch>();
     fast::Certificate certificate{memory};
+    fast::Rest rest{memory};
     std::uint64_t exact_tests = 0;
     Count found;
 
@@ -75,6 +76,8 @@ struct Bodies {
         known.resize(tiles.tiles.size());
         fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
         fast::make_surface(a.tets, vertices, view(a), tiles, surface);
+        rest.positions.resize(std::size_t{vertices} * 3);
+        rest.parts.resize(1);
         box_b = fast::empty_box;
         for (const Vec3f& p : b.positions) fast::add(box_b, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
         region = box_a;
@@ -87,6 +90,7 @@ struct Bodies {
         collect();
         lattice = fast::make_lattice(points, fast::bounds(points), cell_size, 2 * std::size_t{points.count});
         bin();
+        scatter();
     }
 
     static constexpr double cell_size = 1.7; // 0.6 sides of a tile, about
@@ -100,6 +104,28 @@ struct Bodies {
     void bin() {
         bins.clear();
         window = fast::bin(points, lattice, region, cell_of, bins);
+    }
+
+    // The points of b in a thousand places far apart, neighbours staying together. (The order that bin_tree
+    // leaves is as good for the next round.)
+    void scatter() {
+        sparse.count = 0;
+        sparse.reserve(b.positions.size());
+        Random random{2};
+        float x = 0, y = 0, z = 0;
+        for (std::uint32_t v = 0; v < b.positions.size(); ++v) {
+            if (v % (b.positions.size() / 1000 + 1) == 0) {
+                x = random.uniform(-1e5, 1e5);
+                y = random.uniform(-1e5, 1e5);
+                z = random.uniform(-1e5, 1e5);
+            }
+            const Vec3f p = b.positions[v];
+            sparse.x[v] = p.x + x;
+            sparse.y[v] = p.y + y;
+            sparse.z[v] = p.z + z;
+            sparse.id[v] = v;
+        }
+        sparse.count = std::uint32_t(b.positions.size());
     }
 
     void query() {
@@ -136,8 +162,15 @@ std::vector<Stage> stages_of(Bodies& s) {
              fast::tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
                               s.tile_boxes.data(), s.known.data());
          }},
+        {"rest", "vertex", s.vertices,
+         [&s] { fast::compare_packed(s.rest, 0, packed(s.a), 0, s.vertices, s.box_a); }},
         {"collect", "vertex", s.b.positions.size(), [&s] { s.collect(); }},
         {"bin", "point", s.points.count, [&s] { s.bin(); }},
+        {"bin sparse", "point", s.sparse.count,
+         [&s] {
+             s.sparse_bins.clear();
+             fast::bin_tree(s.sparse, Bodies::cell_size, s.cell_of, s.sparse_bins);
+         }},
         {"query", "tet", tets, [&s] { s.query(); }},
         {"winding", "tet", tets,
          [&s] {

@@ -48,8 +48,7 @@ struct FastSettings {
     bool carry = false;
 };
 
-// The engine's buffers live here from step to step, so that the steady state allocates nothing (with several
-// workers: once each has met the largest body).
+// The engine's buffers live here from step to step, so that the steady state allocates nothing.
 class Fast {
 public:
     explicit Fast(std::pmr::memory_resource* memory);
@@ -73,6 +72,7 @@ public:
     double cell_size() const noexcept { return cell_size_; }
 
 private:
+    static constexpr std::uint32_t none = ~0u;
     struct BodyState {
         const float* positions;    // packed; rounded, when floats are not enough
         std::uint32_t first_super; // in super_boxes_
@@ -84,8 +84,10 @@ private:
         bool tiles_known;          // all of tile_boxes_ are
         bool self;                 // some vertices of the window may be in tets of the same body
         fast::Box own;             // where vertices of the window may be in tets of the same body
-        fast::Window window;
-        double cell_size; // of the window
+        std::uint32_t buffers;     // in large_buffers_, or none
+        const fast::Bins* bins;    // of its windows; null: there are none
+        std::uint32_t root;        // of their tree, in bins->windows
+        double cell_size;          // of the windows
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
     struct Reach {
@@ -103,14 +105,20 @@ private:
         std::uint32_t first, last;
     };
     static constexpr std::size_t group_vertices = 2048; // that make up a group
+    // What it takes to make the windows of a body.
+    struct WindowBuffers {
+        explicit WindowBuffers(std::pmr::memory_resource* memory);
+
+        fast::Certificate certificate;
+        std::pmr::vector<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
+        fast::Points points;                   // before they are binned
+        std::pmr::vector<std::uint32_t> cell_of;
+    };
     // The buffers of a worker.
     struct alignas(64) Worker {
         explicit Worker(std::pmr::memory_resource* memory);
 
-        fast::Certificate certificate;
-        std::pmr::vector<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
-        fast::Points points;                   // of one body, before they are binned
-        std::pmr::vector<std::uint32_t> cell_of;
+        WindowBuffers windows;                        // of bodies that have none of their own
         std::pmr::vector<fast::Source> sources, near; // of a piece of a body, and of a super-tile
         std::pmr::vector<std::uint32_t> stamps;
         std::pmr::vector<fast::QueryScratch> scratch;                 // one, once it is needed
@@ -132,8 +140,10 @@ private:
     void make_windows(Step& step);
     void make_window(const Step& step, std::uint32_t body, fast::Bins& bins, Worker& worker,
                      Workers* helpers);
-    bool cull_by_winding(const Step& step, std::uint32_t body, Worker& worker, Workers* helpers);
-    void activate_blocks(const Step& step, std::uint32_t body, Worker& worker) const;
+    bool cull_by_winding(const Step& step, std::uint32_t body, fast::Certificate& certificate,
+                         std::uint64_t& exact_tests, Workers* helpers);
+    void activate_blocks(const Step& step, std::uint32_t body, WindowBuffers& buffers) const;
+    void level_buffers();
     void sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides);
     void query(Step& step, const Piece& piece, Worker& worker);
 
@@ -152,7 +162,8 @@ private:
     std::pmr::vector<Group> groups_;
     std::pmr::vector<fast::Bins> bins_; // of the windows of each group
     std::pmr::vector<Worker> workers_;
-    std::pmr::vector<std::uint64_t> degenerate_; // body << 32 | tet
+    std::pmr::vector<WindowBuffers> large_buffers_; // of bodies that are more than a worker's share
+    std::pmr::vector<std::uint64_t> degenerate_;    // body << 32 | tet
     double cell_size_ = 0;
 };
 

@@ -20,7 +20,8 @@ typedef struct scheduler {
     uint32_t worker_count;
     uint32_t enqueued; /* since it was last set to 0 */
     uint64_t items;
-    uint32_t defect; /* what it does wrong on purpose */
+    uint32_t first_worker; /* runs the first range inline */
+    uint32_t defect;       /* what it does wrong on purpose */
     queued waiting;
 } scheduler;
 
@@ -47,7 +48,8 @@ static void* inline_enqueue(vox_task* task, uint64_t items, uint64_t min_range, 
     scheduler* s = (scheduler*)user;
     split(s, task, items, min_range, context);
     for (uint32_t i = s->defect == loses_items; i < s->waiting.count; ++i) {
-        const uint32_t worker = s->defect == wrong_worker ? s->worker_count : i % s->worker_count;
+        const uint32_t worker =
+            s->defect == wrong_worker ? s->worker_count : (s->first_worker + i) % s->worker_count;
         task(s->waiting.begin[i], s->waiting.end[i] + (s->defect == wrong_range), worker, context);
     }
     return NULL;
@@ -262,6 +264,46 @@ START_TEST(large_bodies_are_shared) {
 }
 END_TEST
 
+/* ---- memory ---- */
+
+static void* count_allocate(size_t size, size_t alignment, void* user) {
+    void* memory = NULL;
+    *(uint64_t*)user += 1;
+    return posix_memalign(&memory, alignment < sizeof memory ? sizeof memory : alignment, size) ? NULL
+                                                                                                : memory;
+}
+static void count_release(void* memory, size_t size, size_t alignment, void* user) {
+    (void)size, (void)alignment, (void)user;
+    free(memory);
+}
+
+START_TEST(steady_state_allocates_nothing) {
+    /* Whichever worker meets whichever body. */
+    scheduler s;
+    for (uint32_t workers = 1; workers <= 7; workers += 3) {
+        uint64_t allocations = 0, before = 0;
+        vox_counters counters;
+        vox_grid_desc desc = scheduled(suite_engine, &s, runs_inline, workers);
+        desc.allocator.allocate = count_allocate;
+        desc.allocator.release = count_release;
+        desc.allocator.user = &allocations;
+        desc.flags = 0;
+        make_bodies();
+        vox_grid* grid = new_scene(&desc);
+        for (int step = 0; step < 12; ++step) {
+            mark_all(grid);
+            (void)stepped_hash(grid, &counters);
+            if (step > 1) ck_assert_msg(allocations == before, "step %d of %u workers", step, workers);
+            before = allocations;
+            s.first_worker += 1 + (uint32_t)step / 4;
+        }
+        ck_assert_uint_gt(allocations, 0);
+        vox_grid_destroy(grid);
+        free_bodies();
+    }
+}
+END_TEST
+
 START_TEST(budget_that_ends_in_a_task) {
     scheduler s;
     vox_counters inserted, full;
@@ -350,6 +392,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, same_for_any_task_system);
     tcase_add_test(tests, same_for_any_worker_count);
     tcase_add_test(tests, non_finite_is_the_same_vertex);
+    tcase_add_test(tests, steady_state_allocates_nothing);
     tcase_add_test(tests, budget_that_ends_in_a_task);
     tcase_add_test(tests, large_bodies_are_shared);
     tcase_add_test(tests, defective_task_systems);

@@ -389,11 +389,10 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * Between meshes at rest, and of a mesh at rest with itself, contacts are taken over from the last step: such meshes
  * cost little more than reading their positions. (A mesh that has been moving is copied, and so looked at once more,
  * when it comes to rest.) A step that follows a failed one, or a change of a setting, looks at all meshes.
- * In the steady state (same meshes, no more contacts
- * than before) it allocates nothing; with several workers, a worker's buffers may still grow the first time it meets
- * a larger body, and the built-in scheduler's own memory is oneTBB's, not the grid's.
- * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE (names mesh and vertex), BUDGET,
- * OUT_OF_MEMORY. */
+ * In the steady state (same meshes, no more to do than before) it allocates nothing, with any number of workers; the
+ * built-in scheduler's own memory is oneTBB's, not the grid's.
+ * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
+ * allow; both name mesh and vertex), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
 /* Vertex `vertex` of mesh_a lies in the closed tetrahedron `tet` of mesh_b, which does not own it.

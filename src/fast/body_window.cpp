@@ -12,8 +12,6 @@ namespace {
 
 // Edge length of a cell in mean box sides of a tile: the optimum is flat from 0.4 to 0.9.
 constexpr double cells_per_tile = 0.6;
-// Most cells of a window, by vertices in it.
-constexpr std::size_t cells_per_vertex = 2;
 // A cell size asked for is kept up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
@@ -48,7 +46,7 @@ void Fast::make_windows(Step& step) {
                                     make_window(step, a, bins_[g], workers_[worker], nullptr);
                     });
     for (const BodyState& state : states_)
-        if (state.window.count) cell_size_ = state.cell_size;
+        if (state.bins) cell_size_ = state.cell_size;
 }
 
 // The sides of some tiles of a body.
@@ -65,8 +63,9 @@ void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& s
 }
 
 // Whether winding numbers tell which vertices may be in the body's own tets; then they are in
-// worker.certificate.
-bool Fast::cull_by_winding(const Step& step, std::uint32_t b, Worker& worker, Workers* helpers) {
+// `certificate`.
+bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
+                           std::uint64_t& exact_tests, Workers* helpers) {
     const FastMesh& mesh = *step.prepared[b];
     if (!step.settings.winding || !mesh.surface.is_closed) return false;
     const BodyState& state = states_[b];
@@ -83,15 +82,15 @@ bool Fast::cull_by_winding(const Step& step, std::uint32_t b, Worker& worker, Wo
                                  state.rounded,
                                  step.origin,
                                  step.bodies[b].positions};
-    return fast::certify(body, worker.certificate, worker.exact_tests);
+    return fast::certify(body, certificate, exact_tests);
 }
 
 // Marks the blocks with vertices that are not certified.
-void Fast::activate_blocks(const Step& step, std::uint32_t b, Worker& worker) const {
+void Fast::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buffers) const {
     const FastMesh& mesh = *step.prepared[b];
     const BodyState& state = states_[b];
-    const fast::Certificate& certificate = worker.certificate;
-    std::pmr::vector<std::uint8_t>& active = worker.active;
+    const fast::Certificate& certificate = buffers.certificate;
+    std::pmr::vector<std::uint8_t>& active = buffers.active;
     const std::uint32_t count = mesh.block_count();
     active.assign(count, 0);
     const std::pmr::vector<std::uint32_t>& first = mesh.block_first;
@@ -120,27 +119,28 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
         std::span(reaches_).subspan(first_of_a_[a], first_of_a_[a + 1] - first_of_a_[a]);
     if (body.vertex_count == 0 || (reaches.empty() && !self)) return;
 
-    const bool culled = self && cull_by_winding(step, a, worker, helpers);
+    WindowBuffers& buffers = state.buffers == none ? worker.windows : large_buffers_[state.buffers];
+    const bool culled = self && cull_by_winding(step, a, buffers.certificate, worker.exact_tests, helpers);
     const Box* blocks = block_boxes_.data() + state.first_block;
     const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
     const std::uint32_t count = step.prepared[a]->block_count();
     Box own =
         self && !culled ? body_boxes_[a] : fast::empty_box; // of the vertices that may be in the same body
     if (culled) {
-        activate_blocks(step, a, worker);
+        activate_blocks(step, a, buffers);
         for (std::uint32_t b = 0; b < count; ++b)
-            if (worker.active[b]) fast::add(own, blocks[b]);
+            if (buffers.active[b]) fast::add(own, blocks[b]);
     }
     state.self = !fast::is_empty(own);
     Box region = own;
     for (const Reach& reach : reaches) fast::add(region, reach.region);
     if (fast::is_empty(region)) return;
 
-    fast::Points& points = worker.points;
+    fast::Points& points = buffers.points;
     points.count = 0;
     points.reserve(body.vertex_count);
     const auto is_wanted = [&](std::uint32_t b) {
-        if (culled ? worker.active[b] != 0 : self) return true;
+        if (culled ? buffers.active[b] != 0 : self) return true;
         for (const Reach& reach : reaches)
             if (fast::overlap(blocks[b], reach.region)) return true;
         return false;
@@ -162,12 +162,10 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     const double automatic = cells_per_tile * sides.mean(), wanted = step.settings.cell_size;
     state.cell_size = wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
 
-    const Box box = fast::bounds(points);
-    const fast::Lattice lattice =
-        fast::make_lattice(points, box, state.cell_size, cells_per_vertex * std::size_t{points.count} + 64);
-    state.window = fast::bin(points, lattice, box, worker.cell_of, bins);
+    state.root = fast::bin_tree(points, state.cell_size, buffers.cell_of, bins);
+    state.bins = &bins;
     state.own = own;
-    fast::intersect(state.own, box);
+    fast::intersect(state.own, bins.windows[state.root].box);
 }
 
 } // namespace vox

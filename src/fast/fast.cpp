@@ -36,8 +36,9 @@ void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pie
         pieces.push_back({body, first, std::min(first + most, count)});
 }
 
-// Far from zero floats are far apart: bodies whose positions are rounded anyway are rounded around a point among
-// them. Zero where that is near enough, seen from a few of their vertices: it matters to the time alone.
+// Far from zero floats are far apart: bodies whose positions are rounded anyway are rounded around a point
+// among them. Zero where that is near enough, seen from a few of their vertices: it matters to the time
+// alone.
 Vec3d choose_origin(std::span<const Body> bodies) {
     constexpr std::uint32_t samples = 8;
     constexpr double far = 256; // sizes away
@@ -125,9 +126,9 @@ private:
     Containment decide(const fast::Finding& f) {
         const Tet& tet = tets_[f.tet];
         const Positions& q = step_.bodies[body_].positions;
-        const Containment where = locate(step_.bodies[f.body].positions.exact(f.vertex), q.exact(tet.v[0]),
-                                         q.exact(tet.v[1]), q.exact(tet.v[2]), q.exact(tet.v[3]),
-                                         worker_.exact_tests);
+        const Containment where =
+            locate(step_.bodies[f.body].positions.exact(f.vertex), q.exact(tet.v[0]), q.exact(tet.v[1]),
+                   q.exact(tet.v[2]), q.exact(tet.v[3]), worker_.exact_tests);
         if (where == Containment::degenerate) {
             const std::lock_guard lock(step_.mutex);
             engine_.degenerate_.push_back(std::uint64_t{body_} << 32 | f.tet);
@@ -150,16 +151,18 @@ private:
     const SelfFilter* self_filter_;
 };
 
+Fast::WindowBuffers::WindowBuffers(std::pmr::memory_resource* memory)
+    : certificate(memory), active(memory), points(memory), cell_of(memory) {}
+
 Fast::Worker::Worker(std::pmr::memory_resource* memory)
-    : certificate(memory), active(memory), points(memory), cell_of(memory), sources(memory), near(memory),
-      stamps(memory), scratch(memory) {}
+    : windows(memory), sources(memory), near(memory), stamps(memory), scratch(memory) {}
 
 Fast::Fast(std::pmr::memory_resource* memory)
     : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
       tile_known_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
       piece_moved_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
       first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
-      degenerate_(memory) {}
+      large_buffers_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -180,6 +183,8 @@ void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepa
                         for (std::size_t p = begin; p < end; ++p)
                             query(step, super_pieces_[p], workers_[worker]);
                     });
+
+    level_buffers();
 
     // Sums, and largest ones: which worker did what does not matter.
     counters.cells = counters.entries = counters.fullest_cell = 0;
@@ -231,6 +236,7 @@ void Fast::prepare(Step& step) {
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
         FastMesh& mesh = *step.prepared[b];
         states_[b] = {};
+        states_[b].buffers = none;
         states_[b].rounded = moved_origin || step.bodies[b].positions.rounded();
         mesh.rest.expect(states_[b].rounded);
         states_[b].positions = !states_[b].rounded && fast::is_packed(step.bodies[b].positions)
@@ -252,12 +258,48 @@ void Fast::prepare(Step& step) {
         groups_.back().last = b + 1;
         vertices += step.bodies[b].vertex_count;
     }
+    // Each worker may meet any body: one that is more than its share of all gets buffers of its own, so that
+    // all buffers together are no more than twice what one worker per body would need.
+    std::size_t all_vertices = 0;
+    for (const Body& body : step.bodies) all_vertices += body.vertex_count;
+    std::uint32_t large = 0;
+    for (std::size_t b = 0; b < step.bodies.size() && step.worker_count() > 1; ++b)
+        if (std::size_t{step.bodies[b].vertex_count} * step.worker_count() > all_vertices)
+            states_[b].buffers = large++;
+    while (large_buffers_.size() < large)
+        large_buffers_.emplace_back(large_buffers_.get_allocator().resource());
     while (bins_.size() < groups_.size()) bins_.emplace_back(bins_.get_allocator().resource());
     for (fast::Bins& bins : bins_) bins.clear();
     block_boxes_.resize(blocks);
     super_boxes_.resize(supers);
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
+}
+
+// Gives the buffers of all workers the same room: in a later step each may have to do what another did in
+// this one.
+void Fast::level_buffers() {
+    if (workers_.size() == 1) return;
+    const auto level = [this](auto&& buffer) {
+        std::size_t most = 0;
+        for (Worker& worker : workers_) most = std::max(most, buffer(worker).capacity());
+        for (Worker& worker : workers_) buffer(worker).reserve(most);
+    };
+    level([](Worker & w) -> auto& { return w.sources; });
+    level([](Worker & w) -> auto& { return w.near; });
+    level([](Worker & w) -> auto& { return w.stamps; });
+    level([](Worker & w) -> auto& { return w.scratch; });
+    level([](Worker & w) -> auto& { return w.windows.active; });
+    level([](Worker & w) -> auto& { return w.windows.cell_of; });
+    level([](Worker & w) -> auto& { return w.windows.points.x; });
+    level([](Worker & w) -> auto& { return w.windows.points.y; });
+    level([](Worker & w) -> auto& { return w.windows.points.z; });
+    level([](Worker & w) -> auto& { return w.windows.points.id; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.directions; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.queue; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.touched; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.bad; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.certified; });
 }
 
 // Packed positions of the bodies, their boxes, and which of them moved.
@@ -419,7 +461,7 @@ void Fast::shrink_to_tiles(const Step& step, Reach& reach) const {
 void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     const std::uint32_t b = piece.body;
     const BodyState& state = states_[b];
-    const bool self = state.self && state.window.count;
+    const bool self = state.self && state.bins;
     const std::span<const std::uint32_t> reaches = reaching(b);
     if (!self && reaches.empty()) return;
     if (!state.reached) know_super_tiles(step, piece);
@@ -429,16 +471,18 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
 
     std::pmr::vector<fast::Source>& sources = worker.sources;
     sources.clear();
-    if (self && fast::overlap(box, state.own)) sources.push_back({state.window, state.own, b});
-    for (const std::uint32_t r : reaches) {
-        const Reach& reach = reaches_[r];
-        if (!fast::overlap(box, reach.region)) continue;
-        const fast::Window& window = states_[reach.a].window;
-        if (!window.count) continue;
-        fast::Source source{window, reach.region, reach.a};
-        fast::intersect(source.region, window.box);
-        if (!fast::is_empty(source.region)) sources.push_back(source);
-    }
+    const auto add = [&](std::uint32_t a, const Box& region) {
+        Box both = box;
+        fast::intersect(both, region);
+        if (!states_[a].bins || fast::is_empty(both)) return;
+        fast::for_windows(*states_[a].bins, states_[a].root, both, [&](const fast::Window& window) {
+            fast::Source source{window, region, a};
+            fast::intersect(source.region, window.box);
+            sources.push_back(source);
+        });
+    };
+    if (self) add(b, state.own);
+    for (const std::uint32_t r : reaches) add(reaches_[r].a, reaches_[r].region);
     if (sources.empty()) return;
 
     const FastMesh& mesh = *step.prepared[b];

@@ -432,7 +432,7 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
             if (!overlap(w.box, sources[i].region)) continue;
             if (!met) PrefetchTile(*query.tiles, w.tile);
             met = true;
-            n = Fetch(w, sources[i], query.stamps && i == 0, n, own_count);
+            n = Fetch(w, sources[i], query.stamps && sources[i].body == sources[0].body, n, own_count);
         }
         if (n) Process(w, n, own_count);
     }

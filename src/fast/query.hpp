@@ -79,8 +79,8 @@ struct Query {
     // Boxes of the tiles of the body; one that is not known is made when it is needed.
     Box* boxes;
     std::uint8_t* known;
-    // Not null: the first source holds vertices of the same body, and tets do not meet their own corners. One
-    // zeroed word a vertex, kept with the scratch.
+    // Not null: the first source, and all of the same body that follow it, hold vertices of the body of the
+    // tiles, and tets do not meet their own corners. One zeroed word a vertex, kept with the scratch.
     std::uint32_t* stamps;
     bool rounded; // some positions, of the tiles or the sources
 };

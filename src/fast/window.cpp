@@ -1,4 +1,6 @@
 // Binning by counting sort (D. E. Knuth, The Art of Computer Programming, vol. 3, 5.2): count, sum, place.
+// Sparse space is halved at the middle of the longest side, as in a k-d tree (J. L. Bentley, Multidimensional
+// binary search trees used for associative searching, CACM 18, 1975), until what is left is not sparse.
 #include "window.hpp"
 #include "../simd.hpp"
 
@@ -142,18 +144,34 @@ Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells) {
     return lattice;
 }
 
-Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells) {
-    Lattice lattice = make_lattice(box, cell_size, most_cells);
-    constexpr std::uint32_t most_samples = 1024,
-                            tail = 16; // samples on either side that are no bulk, at most
-    if (points.count < most_samples || !(double{lattice.inverse} * cell_size < 0.5)) return lattice;
+namespace {
+
+// Points [first, first + count).
+struct Range {
+    std::uint32_t first, count;
+};
+
+constexpr std::uint32_t few_points = 128;  // are never too many for a cell
+constexpr std::uint64_t most_crowded = 16; // other points in the cell of a point, on average
+
+constexpr std::uint32_t most_samples = 256;
+
+// Its cells are much larger than wanted.
+bool is_coarse(const Lattice& lattice, double cell_size) { return double{lattice.inverse} * cell_size < 0.5; }
+
+// The lattice covers the bulk of some points where a few that lie far away would make the cells large.
+Lattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
+                     std::size_t most_cells) {
+    const Lattice lattice = make_lattice(box, cell_size, most_cells);
+    constexpr std::uint32_t tail = 4; // samples on either side that are no bulk, at most
+    if (range.count < 4 * most_samples || !is_coarse(lattice, cell_size)) return lattice;
     // The bulk: what is left of some samples without the outermost on either side, and half of that again.
     const float* coordinates[3] = {points.x.data(), points.y.data(), points.z.data()};
     Box bulk = box;
     for (int a = 0; a < 3; ++a) {
         std::array<float, most_samples> sample;
         for (std::uint32_t i = 0; i < most_samples; ++i)
-            sample[i] = coordinates[a][std::uint64_t{points.count} * i / most_samples];
+            sample[i] = coordinates[a][range.first + std::uint64_t{range.count} * i / most_samples];
         std::nth_element(sample.begin(), sample.begin() + tail, sample.end());
         std::nth_element(sample.begin() + tail, sample.end() - 1 - tail, sample.end());
         const double lo = sample[tail], hi = sample[most_samples - 1 - tail],
@@ -164,39 +182,64 @@ Lattice make_lattice(const Points& points, const Box& box, double cell_size, std
     return make_lattice(bulk, cell_size, most_cells);
 }
 
-void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,
-             Points& points) {
-    const std::size_t n = points.count;
-    points.count +=
-        VOX_SIMD_DISPATCH(Collect)(positions, first, last, region, points.x.data() + n, points.y.data() + n,
-                                   points.z.data() + n, points.id.data() + n);
-}
-
-Box bounds(const Points& points) {
+Box bounds(const Points& points, Range range) {
     const auto min_max = VOX_SIMD_DISPATCH(MinMax);
     Box box{};
-    min_max(points.x.data(), points.count, box.lo[0], box.hi[0]);
-    min_max(points.y.data(), points.count, box.lo[1], box.hi[1]);
-    min_max(points.z.data(), points.count, box.lo[2], box.hi[2]);
+    min_max(points.x.data() + range.first, range.count, box.lo[0], box.hi[0]);
+    min_max(points.y.data() + range.first, range.count, box.lo[1], box.hi[1]);
+    min_max(points.z.data() + range.first, range.count, box.lo[2], box.hi[2]);
     return box;
 }
 
-Window bin(const Points& points, const Lattice& lattice, const Box& box,
-           std::pmr::vector<std::uint32_t>& buffer, Bins& bins) {
-    const std::uint32_t n = points.count;
+// Some points by themselves: far too many of them share a cell.
+bool looks_crowded(const Points& points, Range range, const Lattice& lattice) {
+    if (range.count < 4 * most_samples) return false;
+    std::array<std::size_t, most_samples> cell;
+    for (std::uint32_t i = 0; i < most_samples; ++i) {
+        const std::size_t p = range.first + std::uint64_t{range.count} * i / most_samples;
+        cell[i] =
+            (std::size_t{lattice.cell(points.z[p], 2)} * lattice.cells[1] + lattice.cell(points.y[p], 1)) *
+                lattice.cells[0] +
+            lattice.cell(points.x[p], 0);
+    }
+    std::sort(cell.begin(), cell.end());
+    std::uint64_t pairs = 0, same = 0; // of samples in one cell; samples in the cell before i
+    for (std::uint32_t i = 1; i < most_samples; ++i) {
+        same = cell[i] == cell[i - 1] ? same + 1 : 0;
+        pairs += same;
+    }
+    constexpr std::uint64_t all_pairs = most_samples * (most_samples - 1) / 2;
+    return pairs > 8 && pairs * range.count > 4 * most_crowded * all_pairs;
+}
+
+// By the number of points in each cell: a point finds too many others in its own.
+bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t points) {
+    std::uint64_t sum = 0;
+    for (std::size_t c = 0; c < cells; ++c) sum += std::uint64_t{counts[c]} * counts[c];
+    return sum > (most_crowded + 1) * points;
+}
+
+// Adds a window of some points, unless `unless_crowded` and it would be; returns whether it did.
+bool try_bin(const Points& points, Range range, const Lattice& lattice, const Box& box, bool unless_crowded,
+             std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
+    const std::uint32_t n = range.count;
     const std::size_t cells = lattice.count();
-    const Window window{&bins, lattice, box, bins.points.count, bins.cells, n};
+    window = {&bins, lattice, box, bins.points.count, bins.cells, n};
     bins.points.reserve(bins.points.count + std::size_t{n});
     if (buffer.size() < n + Points::padding) buffer.resize(n + n / 8 + Points::padding);
     const std::size_t used = bins.cells + cells + 2;
     if (bins.begin.size() < used) bins.begin.resize(used + used / 8);
     std::uint32_t* cell_of = buffer.data();
-    VOX_SIMD_DISPATCH(Cells)(lattice, points.x.data(), points.y.data(), points.z.data(), n, cell_of);
+    const float *from_x = points.x.data() + range.first, *from_y = points.y.data() + range.first,
+                *from_z = points.z.data() + range.first;
+    const std::uint32_t* from_id = points.id.data() + range.first;
+    VOX_SIMD_DISPATCH(Cells)(lattice, from_x, from_y, from_z, n, cell_of);
 
     // begin[c + 1] is first the number of points in c, then where c begins, and in the end where it ends.
     std::uint32_t* begin = bins.begin.data() + window.first_cell;
     std::fill_n(begin, cells + 2, 0u);
     for (std::uint32_t i = 0; i < n; ++i) ++begin[cell_of[i] + 1];
+    if (unless_crowded && is_crowded(begin + 1, cells, n)) return false;
     std::uint32_t sum = 0, occupied = 0, fullest = 0;
     for (std::size_t c = 1; c <= cells; ++c) {
         const std::uint32_t count = begin[c];
@@ -211,16 +254,97 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
     std::uint32_t* id = bins.points.id.data() + window.first_point;
     for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t place = begin[cell_of[i] + 1]++;
-        x[place] = points.x[i];
-        y[place] = points.y[i];
-        z[place] = points.z[i];
-        id[place] = points.id[i];
+        x[place] = from_x[i];
+        y[place] = from_y[i];
+        z[place] = from_z[i];
+        id[place] = from_id[i];
     }
     bins.points.count += n;
     bins.cells = used;
     bins.occupied_cells += occupied;
     bins.fullest_cell = std::max<std::uint64_t>(bins.fullest_cell, fullest);
+    return true;
+}
+
+// Puts the points on the low side of the middle of the longest side of their box first, and returns how many
+// there are: some, but not all. 0 where all points are in one place.
+std::uint32_t halve(Points& points, Range range, const Box& box) {
+    float* coordinates[3] = {points.x.data() + range.first, points.y.data() + range.first,
+                             points.z.data() + range.first};
+    std::uint32_t* id = points.id.data() + range.first;
+    int axis = 0;
+    const auto side = [&](int a) { return double{box.hi[a]} - double{box.lo[a]}; };
+    for (int a = 1; a < 3; ++a)
+        if (side(a) > side(axis)) axis = a;
+    if (!(side(axis) > 0)) return 0;
+    float middle = 0.5f * box.lo[axis] + 0.5f * box.hi[axis];
+    if (!(middle >= box.lo[axis] && middle < box.hi[axis])) middle = box.lo[axis]; // next to each other
+    std::uint32_t low = 0, high = range.count;
+    const float* along = coordinates[axis];
+    for (;;) {
+        while (low < high && along[low] <= middle) ++low;
+        while (low < high && along[high - 1] > middle) --high;
+        if (low == high) return low;
+        --high;
+        for (float* c : coordinates) std::swap(c[low], c[high]);
+        std::swap(id[low], id[high]);
+        ++low;
+    }
+}
+
+void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
+              Bins& bins) {
+    const std::size_t index = bins.windows.size();
+    bins.windows.emplace_back();
+    const Box box = bounds(points, range);
+    const std::size_t cells = 2 * std::size_t{range.count} + std::min(64u, 2 * range.count);
+    const Lattice lattice = bulk_lattice(points, range, box, cell_size, cells);
+    const bool may_halve =
+        range.count > few_points && is_coarse(make_lattice(box, cell_size, cells), cell_size);
+    Window window;
+    if ((may_halve && looks_crowded(points, range, lattice)) ||
+        !try_bin(points, range, lattice, box, may_halve, buffer, bins, window)) {
+        const std::uint32_t low = halve(points, range, box);
+        if (low == 0) {
+            (void)try_bin(points, range, lattice, box, false, buffer, bins, window);
+        } else {
+            window = {&bins, {}, box, 0, 0, 0};
+            add_tree(points, {range.first, low}, cell_size, buffer, bins);
+            add_tree(points, {range.first + low, range.count - low}, cell_size, buffer, bins);
+        }
+    }
+    window.end = static_cast<std::uint32_t>(bins.windows.size());
+    bins.windows[index] = window;
+}
+
+} // namespace
+
+Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells) {
+    return bulk_lattice(points, {0, points.count}, box, cell_size, most_cells);
+}
+
+void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,
+             Points& points) {
+    const std::size_t n = points.count;
+    points.count +=
+        VOX_SIMD_DISPATCH(Collect)(positions, first, last, region, points.x.data() + n, points.y.data() + n,
+                                   points.z.data() + n, points.id.data() + n);
+}
+
+Box bounds(const Points& points) { return bounds(points, {0, points.count}); }
+
+Window bin(const Points& points, const Lattice& lattice, const Box& box,
+           std::pmr::vector<std::uint32_t>& buffer, Bins& bins) {
+    Window window;
+    (void)try_bin(points, {0, points.count}, lattice, box, false, buffer, bins, window);
     return window;
+}
+
+std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
+                       Bins& bins) {
+    const auto root = static_cast<std::uint32_t>(bins.windows.size());
+    add_tree(points, {0, points.count}, cell_size, buffer, bins);
+    return root;
 }
 
 } // namespace vox::fast

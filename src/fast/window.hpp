@@ -1,6 +1,7 @@
 // Stage 3: the vertices of one body that may be in contact, binned into a dense window of cells. Compressed
 // rows over all cells, x fastest, so that the cells of a tile's box along x are one range of vertices;
-// coordinates as a structure of arrays.
+// coordinates as a structure of arrays. Where space is so sparse that one window would need cells that crowd
+// the vertices together (clumps far apart in one body), a k-d tree of windows.
 #pragma once
 
 #include "box.hpp"
@@ -52,7 +53,7 @@ Lattice make_lattice(const Points& points, const Box& box, double cell_size, std
 
 struct Bins;
 
-// The binned vertices of one body.
+// The binned vertices of a body, or some of them; or, without any, a node of the tree over several windows.
 struct Window {
     const Bins* bins; // where they are
     Lattice lattice;
@@ -60,19 +61,22 @@ struct Window {
     std::size_t first_point; // in Bins::points
     std::size_t
         first_cell; // in Bins::begin: of each cell its first point, counted from first_point, and the end
-    std::uint32_t count; // points; 0: there is no window
+    std::uint32_t count;   // points; 0: a node, the windows of its two parts come next
+    std::uint32_t end = 0; // in Bins::windows: after this one and, of a node, all that are below it
 };
 
 struct Bins {
-    explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory) {}
+    explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory), windows(memory) {}
 
     Points points; // window after window, sorted by cell
     std::pmr::vector<std::uint32_t> begin;
-    std::size_t cells = 0; // of `begin` that are in use
+    std::pmr::vector<Window> windows; // tree after tree, each in preorder
+    std::size_t cells = 0;            // of `begin` that are in use
     std::uint64_t occupied_cells = 0, fullest_cell = 0;
 
     void clear() noexcept {
         points.count = 0;
+        windows.clear();
         cells = occupied_cells = fullest_cell = 0;
     }
 };
@@ -89,5 +93,24 @@ Box bounds(const Points& points);
 // call: the cell of each unsorted point.
 Window bin(const Points& points, const Lattice& lattice, const Box& box,
            std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
+
+// Appends to bins.windows a tree of windows of all points in cells of `cell_size`, or of larger ones where
+// those would be too many; a single window unless its cells were crowded. The order of `points` is lost.
+// Returns the root.
+std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
+
+// Calls function(window) for each window with points of the tree at `root` whose box meets `box`.
+template <class Function>
+void for_windows(const Bins& bins, std::uint32_t root, const Box& box, Function&& function) {
+    for (std::uint32_t i = root; i < bins.windows[root].end;) {
+        const Window& window = bins.windows[i];
+        if (!overlap(window.box, box)) {
+            i = window.end;
+            continue;
+        }
+        if (window.count) function(window);
+        ++i;
+    }
+}
 
 } // namespace vox::fast

@@ -87,6 +87,16 @@ inline void move(Mesh& mesh, double scale, double x, double y, double z) {
         p = {float(p.x * scale + x), float(p.y * scale + y), float(p.z * scale + z)};
 }
 
+// Both in one mesh.
+inline void append(Mesh& mesh, const Mesh& other) {
+    const auto first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    for (vox::Tet tet : other.tets) {
+        for (std::uint32_t& v : tet.v) v += first;
+        mesh.tets.push_back(tet);
+    }
+}
+
 template <class T>
 void shuffle(std::vector<T>& list, Random& random) {
     for (std::size_t i = list.size(); i > 1; --i)

@@ -347,6 +347,42 @@ START_TEST(outliers_do_not_fill_a_cell) {
 }
 END_TEST
 
+// Clumps far apart in one body: the same hits, and no clump in a cell of its own.
+START_TEST(clumps_far_apart) {
+    Random r{15};
+    for (int kind = 0; kind < 3; ++kind) {
+        Mesh meshes[2];
+        const int clumps = kind == 0 ? 2 : kind == 1 ? 60 : 24;
+        for (int i = 0; i < clumps; ++i) {
+            const double far = kind == 2 ? std::ldexp(4.0, i) : 1e6;
+            const double x = r.uniform(-far, far), y = r.uniform(-far, far), z = r.uniform(-far, far);
+            for (int b = 0; b < 2; ++b) {
+                const int n = kind == 0 ? 14 : 5;
+                Mesh mesh = block(n, n, n);
+                jitter(mesh, 0.1, r);
+                move(mesh, 1, x + b * 0.4 * n, y, z);
+                append(meshes[b], mesh);
+            }
+        }
+        Scene scene;
+        for (Mesh& mesh : meshes) scene.add(std::move(mesh), true);
+        if (kind == 0) {
+            check_exactly(scene, "two clumps far apart");
+        } else {
+            scene.prepare();
+            check_scene(scene, run_reference(scene, 1.3), "clumps far apart");
+        }
+        CountingMemory memory;
+        Fast engine(&memory);
+        vox_counters counters{};
+        (void)run_fast(engine, scene, 0, &counters);
+        ck_assert_uint_lt(counters.fullest_cell, 129);
+        ck_assert_uint_lt(counters.visited_entries, 40 * scene.bodies()[0].tets.size());
+        ck_assert_uint_lt(memory.peak, 8u << 20); // 25000 vertices, 75000 tets at most
+    }
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -369,6 +405,7 @@ int main() {
     tcase_add_test(tests, steady_state_allocates_nothing);
     tcase_add_test(tests, memory_is_bounded);
     tcase_add_test(tests, outliers_do_not_fill_a_cell);
+    tcase_add_test(tests, clumps_far_apart);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

@@ -393,6 +393,82 @@ public:
     }
 };
 
+// Clumps far apart, one in another's shadow at every scale, or one body: every point is in one window, no
+// cell is crowded, and the windows that a box does not meet hold no point of it.
+START_TEST(windows_of_sparse_space) {
+    Random r{31};
+    for (int kind = 0; kind < 4; ++kind) {
+        Mesh mesh;
+        for (int clump = 0; clump < 40; ++clump) {
+            Mesh one = block(4, 4, 4);
+            jitter(one, 0.2, r);
+            const double far = kind == 0 ? 1e6 : kind == 1 ? std::ldexp(4.0, clump) : kind == 2 ? 1e30 : 0;
+            move(one, 1, r.uniform(-far, far), kind == 2 ? 0 : r.uniform(-far, far), r.uniform(-far, far));
+            append(mesh, one);
+        }
+        const std::size_t count = mesh.positions.size();
+        fast::Points points = collected(mesh, box_of(mesh));
+        ck_assert_uint_eq(points.count, count);
+        fast::Bins bins(std::pmr::get_default_resource());
+        std::pmr::vector<std::uint32_t> buffer;
+        (void)fast::bin(points, fast::make_lattice(box_of(mesh), 1, 10), box_of(mesh), buffer, bins);
+        const std::uint64_t before = bins.points.count, cells = bins.cells;
+        const std::uint32_t root = fast::bin_tree(points, 1, buffer, bins);
+        ck_assert_uint_eq(bins.points.count, before + count);
+        ck_assert_uint_lt(bins.cells - cells, 5 * count);
+        ck_assert_msg(kind == 3 ? bins.windows.size() == 1 : bins.windows.size() > 20, "kind %d: %zu windows",
+                      kind, bins.windows.size());
+
+        std::vector<int> met(count);
+        std::uint64_t together = 0;
+        fast::for_windows(bins, root, box_of(mesh), [&](const fast::Window& window) {
+            Box box = fast::empty_box;
+            for (std::uint32_t i = 0; i < window.count; ++i) {
+                const std::uint32_t v = bins.points.id[window.first_point + i];
+                fast::add(box, box_around(mesh.positions[v]));
+                ++met[v];
+            }
+            ck_assert(same(box, window.box));
+            const std::uint32_t* begin = bins.begin.data() + window.first_cell;
+            for (std::size_t c = 0; c < window.lattice.count(); ++c)
+                together += std::uint64_t{begin[c + 1] - begin[c]} * (begin[c + 1] - begin[c]);
+        });
+        for (const int times : met) ck_assert_int_eq(times, 1);
+        if (kind != 3)
+            ck_assert_msg(together < 130 * count, "kind %d: %g", kind, double(together) / double(count));
+
+        for (int k = 0; k < 50; ++k) {
+            Box box = box_around(mesh.positions[r.below(std::uint32_t(count))]);
+            fast::add(box, box_around(mesh.positions[r.below(std::uint32_t(count))]));
+            std::vector<int> found(count);
+            fast::for_windows(bins, root, box, [&](const fast::Window& window) {
+                for (std::uint32_t i = 0; i < window.count; ++i)
+                    found[bins.points.id[window.first_point + i]] = 1;
+            });
+            for (std::size_t v = 0; v < count; ++v)
+                if (inside(mesh.positions[v], box)) ck_assert_int_eq(found[v], 1);
+        }
+    }
+}
+END_TEST
+
+// All points in one place, or in two next to each other: nothing to halve.
+START_TEST(windows_of_one_place) {
+    for (int places = 1; places <= 2; ++places) {
+        Mesh mesh;
+        for (int i = 0; i < 1000; ++i)
+            mesh.positions.push_back({i % places ? std::nextafter(1e6f, 2e6f) : 1e6f, 0, -1e-20f});
+        mesh.positions.push_back({-1e30f, 1e30f, 0});
+        fast::Points points = collected(mesh, box_of(mesh));
+        fast::Bins bins(std::pmr::get_default_resource());
+        std::pmr::vector<std::uint32_t> buffer;
+        (void)fast::bin_tree(points, 1e-3, buffer, bins);
+        ck_assert_uint_eq(bins.points.count, 1001);
+        ck_assert_uint_lt(bins.windows.size(), 10);
+    }
+}
+END_TEST
+
 // Vertices of `meshes` against the tets of `meshes[0]`, its own vertices first where `self`; each mesh's
 // within its region.
 std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
@@ -536,6 +612,8 @@ int main() {
     tcase_add_test(tests, window_collects_and_bins);
     tcase_add_test(tests, lattice_is_monotone);
     tcase_add_test(tests, lattice_covers_the_bulk);
+    tcase_add_test(tests, windows_of_sparse_space);
+    tcase_add_test(tests, windows_of_one_place);
     tcase_add_test(tests, query_misses_nothing);
     tcase_add_test(tests, query_of_crowds);
     suite_add_tcase(suite, tests);
