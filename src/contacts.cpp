@@ -3,6 +3,7 @@
 #include "contacts.hpp"
 
 #include "barycentric.hpp"
+#include "parallel.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -68,10 +69,28 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
     return kept;
 }
 
+// The contacts of the block of hits from `first` on; returns how many.
+std::size_t write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits,
+                        std::size_t first, vox_contact* out) {
+    BarycentricWeights weights;
+    barycentric(bodies, rounded, hits, first, weights);
+    const std::size_t count = std::min(barycentric_block, hits.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Hit& hit = hits[first + i];
+        const std::array<float, 4>& w = weights[i];
+        out[i] = {bodies[hit.body_a].mesh_id,
+                  hit.vertex,
+                  bodies[hit.body_b].mesh_id,
+                  std::uint32_t(hit.tet),
+                  {w[0], w[1], w[2], w[3]}};
+    }
+    return count;
+}
+
 } // namespace
 
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
-                   std::pmr::vector<vox_contact>& contacts) {
+                   std::pmr::vector<vox_contact>& contacts, Workers* workers) {
     if (hits.size() <= UINT32_MAX) // what 32-bit counts are enough for
         radix_sort(hits, scratch);
     else
@@ -91,22 +110,22 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, st
 
     contacts.clear();
     contacts.reserve(hits.size());
-    const bool rounded = std::any_of(bodies.begin(), bodies.end(),
-                                     [](const Body& body) { return body.positions.rounded(); });
-    BarycentricWeights weights;
+    const bool rounded =
+        std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
+    const std::size_t blocks = (hits.size() + barycentric_block - 1) / barycentric_block;
+    constexpr std::size_t least_blocks = 16; // worth a task
+    if (workers && workers->count() > 1 && blocks > least_blocks) {
+        contacts.resize(hits.size());
+        workers->for_ranges(blocks, least_blocks, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t b = begin; b < end; ++b)
+                write_block(bodies, rounded, hits, b * barycentric_block,
+                            contacts.data() + b * barycentric_block);
+        });
+        return;
+    }
     std::array<vox_contact, barycentric_block> block;
-    for (std::size_t first = 0; first < hits.size(); first += barycentric_block) {
-        barycentric(bodies, rounded, hits, first, weights);
-        const std::size_t count = std::min(barycentric_block, hits.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Hit& hit = hits[first + i];
-            const std::array<float, 4>& w = weights[i];
-            block[i] = {bodies[hit.body_a].mesh_id,
-                        hit.vertex,
-                        bodies[hit.body_b].mesh_id,
-                        std::uint32_t(hit.tet),
-                        {w[0], w[1], w[2], w[3]}};
-        }
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const std::size_t count = write_block(bodies, rounded, hits, b * barycentric_block, block.data());
         contacts.insert(contacts.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
     }
 }

@@ -12,10 +12,13 @@
 
 namespace vox {
 
+class Workers;
+
 // Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to; `hits` is left
-// with the ones that became contacts. `scratch` is a buffer kept from step to step.
+// with the ones that became contacts. `scratch` is a buffer kept from step to step. `workers` share the
+// barycentric coordinates, as one task of the step; null: the calling thread computes them.
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
-                   std::pmr::vector<vox_contact>& contacts);
+                   std::pmr::vector<vox_contact>& contacts, Workers* workers = nullptr);
 
 // vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
 // order and padding do not matter. Each contact is taken as the four 64-bit words

@@ -262,7 +262,7 @@ void vox_grid::step() {
         // Where these are all there were and all there are, they and what follows from them stay as they are.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
-        if (!all_carried) make_contacts(bodies_, hits_, scratch_, contacts_);
+        if (!all_carried) make_contacts(bodies_, hits_, scratch_, contacts_, &workers_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
 
