@@ -29,7 +29,7 @@ vox_sim_body_desc body_defaults() {
     desc.density = 1000;
     desc.youngs_modulus = 1e6;
     desc.bulk_modulus = 1e6;
-    desc.damping = 1;
+    desc.damping = 0.01;
     return desc;
 }
 

@@ -23,8 +23,7 @@ void solve_volumes(Body& body);
 // Velocities from the way that the substep has moved the particles.
 void take_velocities(Body& body, double h);
 
-// Takes from the velocities a share of what is neither translation nor rotation of the body as a whole. Keeps
-// momentum and angular momentum (Mueller et al.: "Position Based Dynamics", 2007, Sect. 3.5).
+// Slows the edges' change of length. Keeps momentum and angular momentum.
 void damp(Body& body, double h);
 
 // Energy stored in the constraints.

@@ -1,0 +1,441 @@
+/* What nobody should do to bodies: clear errors with numbers, or motion that stays finite and slow. Also: what must not
+ * change the motion. */
+#include "scene.h"
+
+/* ---- starts that penetrate -------------------------------------------------------------------- */
+
+/* Two seconds without gravity; the bodies stay finite, nothing is faster than `speed`, and they calm down. */
+static void stays_calm(vox_sim* sim, double speed) {
+    double last = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+        ck_ok(vox_sim_step(sim, 1.0 / 60));
+        if (frame == 0) ck_assert_uint_gt(counts(sim).penetrations, 0);
+        const vox_sim_energies now = energies(sim, VOX_NULL_MESH);
+        ck_assert(isfinite(total(&now)));
+        ck_assert_msg(now.max_speed <= speed, "frame %d: speed %g", frame, now.max_speed);
+        last = now.max_speed;
+    }
+    ck_assert_double_le(last, speed / 2);
+}
+
+START_TEST(crossing_bars) {
+    const vox_sim_desc desc = weightless();
+    vox_sim* sim = open_sim(&desc);
+    vox_io_mesh* bar = box(4, 0.5, 0.5, 0.25);
+    const vox_mesh a = insert(sim, bar, NULL, 0, 0, 0, 0), b = insert(sim, bar, NULL, acos(-1.0) / 2, 0, 0, 0.1);
+    stays_calm(sim, 5);
+    ck_finite(sim, a);
+    ck_finite(sim, b);
+    vox_io_mesh_destroy(bar);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+START_TEST(coincident_bodies) {
+    const vox_sim_desc desc = weightless();
+    vox_sim* sim = open_sim(&desc);
+    vox_io_mesh* mesh = ball(0.5, 0.2);
+    const vox_mesh a = insert(sim, mesh, NULL, 0, 0, 0, 0), b = insert(sim, mesh, NULL, 0, 0, 0, 0);
+    stays_calm(sim, 5);
+    ck_finite(sim, a);
+    ck_finite(sim, b);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+START_TEST(enclosed_body) {
+    const vox_sim_desc desc = weightless();
+    vox_sim* sim = open_sim(&desc);
+    vox_io_mesh *outer = ball(1, 0.25), *inner = ball(0.2, 0.1);
+    const vox_mesh a = insert(sim, outer, NULL, 0, 0, 0, 0), b = insert(sim, inner, NULL, 0.3, 0.2, 0.1, 0.05);
+    stays_calm(sim, 20); /* squeezed out through the wall, which springs back */
+    ck_finite(sim, a);
+    ck_finite(sim, b);
+    vox_io_mesh_destroy(outer);
+    vox_io_mesh_destroy(inner);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+START_TEST(below_the_floor) {
+    vox_sim* sim = open_sim(NULL);
+    vox_io_mesh* mesh = ball(0.5, 0.2);
+    const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, -0.2);
+    double fastest = 0;
+    for (int frame = 0; frame < 180; ++frame) {
+        ck_ok(vox_sim_step(sim, 1.0 / 60));
+        fastest = fmax(fastest, energies(sim, body).max_speed);
+    }
+    ck_assert_double_le(fastest, 5); /* it is pushed up at 1 */
+    ck_assert_double_gt(energies(sim, body).centre[2], 0.4);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* ---- shapes ----------------------------------------------------------------------------------- */
+
+/* A ball squashed flat, or turned inside out, comes back without an explosion. */
+START_TEST(squashed_and_inverted) {
+    static const double scales[] = {0, -1, 1e-9};
+    vox_io_mesh* mesh = ball(0.5, 0.2);
+    vox_io_mesh_view rest;
+    ck_ok(vox_io_mesh_get(mesh, &rest));
+    for (int s = 0; s < 3; ++s) {
+        const vox_sim_desc desc = weightless();
+        vox_sim* sim = open_sim(&desc);
+        const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, 0);
+        double* squashed = (double*)malloc(3 * sizeof(double) * rest.vertex_count);
+        for (uint64_t i = 0; i < 3 * rest.vertex_count; ++i)
+            squashed[i] = rest.positions[i] * (i % 3 == 2 ? scales[s] : 1);
+        ck_ok(vox_sim_body_set_state(sim, body, squashed, NULL));
+        free(squashed);
+        const vox_sim_energies before = energies(sim, body);
+        for (int frame = 0; frame < 120; ++frame) {
+            ck_ok(vox_sim_step(sim, 1.0 / 60));
+            ck_assert_double_le(energies(sim, body).max_speed, 100);
+        }
+        const vox_sim_energies after = energies(sim, body);
+        ck_finite(sim, body);
+        ck_assert_double_le(total(&after), total(&before) * (1 + 1e-9));
+        vox_sim_destroy(sim);
+    }
+    vox_io_mesh_destroy(mesh);
+}
+END_TEST
+
+/* One good tet, one flat, one inverted, and a vertex in none. */
+static const double odd_positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, -1, 5, 5, 5};
+static const uint32_t odd_tets[] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
+
+static vox_sim_body_desc odd_body(void) {
+    vox_sim_body_desc desc = vox_default_sim_body_desc();
+    desc.positions = odd_positions;
+    desc.vertex_count = 7;
+    desc.tets = odd_tets;
+    desc.tet_count = 3;
+    return desc;
+}
+
+START_TEST(flat_and_inverted_tets_are_counted) {
+    log_book book = {0, ""};
+    vox_sim_desc settings = vox_default_sim_desc();
+    settings.log.write = write_log;
+    settings.log.user = &book;
+    vox_sim* sim = open_sim(&settings);
+    const vox_sim_body_desc desc = odd_body();
+    vox_mesh body;
+    ck_ok(vox_sim_body_insert(sim, &desc, &body));
+    const vox_sim_counts c = counts(sim);
+    ck_assert_uint_eq(c.tets, 3);
+    ck_assert_uint_eq(c.flat_tets, 1);
+    ck_assert_uint_eq(c.inverted_tets, 1);
+    ck_assert_uint_eq(c.volumes, 2);
+    ck_assert_uint_eq(c.edges, 12);
+    ck_assert_uint_eq(c.raised_masses, 2); /* of the flat tet's own corner, and of the loose vertex */
+    ck_assert_int_eq(book.lines, 1);
+    ck_assert_ptr_nonnull(strstr(book.text, "1 of 3 tets have no rest volume"));
+    ck_assert_double_eq_tol(energies(sim, body).mass, 1000.0 / 3, 100);
+    steps(sim, 120);
+    ck_finite(sim, body);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* ---- time steps and stiffness ----------------------------------------------------------------- */
+
+START_TEST(too_large_a_step_is_cut_down) {
+    log_book book = {0, ""};
+    vox_io_mesh* mesh = ball(0.5, 0.25);
+    vox_sim_desc desc = vox_default_sim_desc();
+    vox_sim* regular = open_sim(&desc);
+    desc.log.write = write_log;
+    desc.log.user = &book;
+    vox_sim* clamped = open_sim(&desc);
+    vox_sim_body_desc soft = vox_default_sim_body_desc();
+    soft.youngs_modulus = soft.bulk_modulus = 1e4;
+    const vox_mesh a = insert(regular, mesh, &soft, 0, 0, 0, 1), b = insert(clamped, mesh, &soft, 0, 0, 0, 1);
+    for (int i = 0; i < 60; ++i) {
+        ck_ok(vox_sim_step(regular, 1.0 / 30));
+        ck_ok(vox_sim_step(clamped, i % 2 ? 5 : 1e300));
+    }
+    ck_assert_int_eq(book.lines, 1);
+    ck_assert_ptr_nonnull(strstr(book.text, "time step 1e+300 is cut down to max_time_step, 0.0333333"));
+    ck_assert_uint_eq(counts(clamped).clamped_steps, 60);
+    ck_assert_uint_eq(counts(regular).clamped_steps, 0);
+    const vox_sim_body_view x = view_of(regular, a), y = view_of(clamped, b);
+    ck_assert_mem_eq(x.positions, y.positions, 3 * sizeof(double) * x.vertex_count);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(regular);
+    vox_sim_destroy(clamped);
+}
+END_TEST
+
+START_TEST(absurd_stiffness_is_cut_down) {
+    log_book book = {0, ""};
+    vox_io_mesh* mesh = ball(0.5, 0.25);
+    vox_sim_desc desc = vox_default_sim_desc();
+    desc.log.write = write_log;
+    desc.log.user = &book;
+    vox_sim* sim = open_sim(&desc);
+    vox_sim_body_desc hard = vox_default_sim_body_desc();
+    hard.youngs_modulus = 1e60;
+    hard.bulk_modulus = 1e60;
+    hard.damping = 1e60;
+    insert(sim, mesh, &hard, 0, 0, 0, 0.6);
+    insert(sim, mesh, &hard, 0, 0.1, 0, 1.7);
+    for (int frame = 0; frame < 120; ++frame) {
+        ck_ok(vox_sim_step(sim, 1.0 / 60));
+        ck_assert_double_le(energies(sim, VOX_NULL_MESH).max_speed, 10);
+    }
+    const vox_sim_counts c = counts(sim);
+    ck_assert_uint_eq(c.softened, c.edges + c.volumes);
+    ck_assert_int_eq(book.lines, 1);
+    ck_assert_ptr_nonnull(strstr(book.text, "are stiffer than substeps of 0.00166667 can answer"));
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* ---- what does not change the motion ---------------------------------------------------------- */
+
+/* Three bodies fall on each other; the state of the last after a second goes to `state`. */
+static size_t fall(vox_engine engine, uint32_t workers, double cell_size, double* state) {
+    vox_grid_desc grid = vox_default_grid_desc();
+    grid.engine = engine;
+    grid.worker_count = workers;
+    grid.cell_size = cell_size;
+    vox_sim_desc desc = vox_default_sim_desc();
+    desc.grid = &grid;
+    vox_sim* sim = open_sim(&desc);
+    vox_io_mesh* mesh = ball(0.5, 0.2);
+    vox_mesh body = VOX_NULL_MESH;
+    for (int i = 0; i < 3; ++i) body = insert(sim, mesh, NULL, 0.4 * i, 0.1 * i, -0.05 * i, 0.55 + 1.05 * i);
+    uint64_t most = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        ck_ok(vox_sim_step(sim, 1.0 / 60));
+        const vox_sim_counts c = counts(sim);
+        if (c.penetrations > most) most = c.penetrations;
+    }
+    ck_assert_uint_gt(most, 10);
+    const vox_sim_body_view view = view_of(sim, body);
+    const size_t count = 3 * (size_t)view.vertex_count;
+    memcpy(state, view.positions, count * sizeof(double));
+    memcpy(state + count, view.velocities, count * sizeof(double));
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+    return 2 * count;
+}
+
+START_TEST(the_same_bits_every_time) {
+    static double first[20000], other[20000];
+    const size_t count = fall(VOX_ENGINE_FAST, 1, 0, first);
+    ck_assert_uint_le(count, 20000);
+    static const struct {
+        vox_engine engine;
+        uint32_t workers;
+        double cell_size;
+    } ways[] = {{VOX_ENGINE_FAST, 1, 0},   {VOX_ENGINE_FAST, 2, 0},        {VOX_ENGINE_FAST, 5, 0},
+                {VOX_ENGINE_FAST, 1, 0.7}, {VOX_ENGINE_REFERENCE, 1, 0.3}};
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
+        fall(ways[i].engine, ways[i].workers, ways[i].cell_size, other);
+        ck_assert_msg(memcmp(first, other, count * sizeof(double)) == 0, "way %zu moves differently", i);
+    }
+}
+END_TEST
+
+/* ---- the interface ---------------------------------------------------------------------------- */
+
+START_TEST(refuses_bad_settings) {
+    vox_sim* sim = NULL;
+    vox_sim_desc desc = vox_default_sim_desc();
+#define REFUSED(field, value, words) \
+    desc = vox_default_sim_desc(); \
+    desc.field = (value); \
+    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_ARGUMENT, words); \
+    ck_assert_ptr_null(sim)
+    REFUSED(substeps, 0, "substeps is 0");
+    REFUSED(substeps, 10001, "substeps is 10001");
+    REFUSED(reserved, 7, "reserved is 7");
+    REFUSED(gravity[1], NAN, "gravity is nan on axis 1");
+    REFUSED(max_time_step, 0, "max_time_step is 0");
+    REFUSED(max_time_step, INFINITY, "max_time_step is inf");
+    REFUSED(floor_normal[0], INFINITY, "floor_normal is inf on axis 0");
+    REFUSED(floor_offset, NAN, "floor_offset is nan");
+    REFUSED(friction, -1, "friction is -1");
+    REFUSED(contact_compliance, -2, "contact_compliance is -2");
+    REFUSED(max_push_speed, NAN, "max_push_speed is nan");
+    REFUSED(contact_slop, NAN, "contact_slop is nan");
+    REFUSED(struct_size, 3, "struct_size is 3");
+#undef REFUSED
+    vox_grid_desc grid = vox_default_grid_desc();
+    grid.flags = 0;
+    desc = vox_default_sim_desc();
+    desc.grid = &grid;
+    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_STATE, "PENETRATIONS");
+    grid = vox_default_grid_desc();
+    grid.cell_size = -1;
+    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_ARGUMENT, "cell_size is -1");
+    ck_fails(vox_sim_create(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_sim is null");
+    ck_fails(vox_sim_desc_init(NULL, 4), VOX_ERROR_INVALID_ARGUMENT, "null");
+    vox_sim_destroy(NULL);
+}
+END_TEST
+
+START_TEST(refuses_bad_bodies) {
+    vox_sim* sim = open_sim(NULL);
+    vox_mesh body = VOX_NULL_MESH;
+    double bad[21];
+    vox_sim_body_desc desc;
+#define REFUSED(field, value, code, words) \
+    desc = odd_body(); \
+    desc.field = (value); \
+    ck_fails(vox_sim_body_insert(sim, &desc, &body), code, words); \
+    ck_assert_uint_eq(body, VOX_NULL_MESH)
+    REFUSED(positions, NULL, VOX_ERROR_INVALID_ARGUMENT, "positions are null");
+    REFUSED(tets, NULL, VOX_ERROR_INVALID_ARGUMENT, "at least one tet");
+    REFUSED(tet_count, 0, VOX_ERROR_INVALID_ARGUMENT, "tet_count is 0");
+    REFUSED(vertex_count, 4, VOX_ERROR_INVALID_MESH, "tet 1 names vertex 4 of 4");
+    REFUSED(vertex_count, 1ull << 40, VOX_ERROR_LIMIT, "1099511627776 vertices");
+    REFUSED(flags, 4, VOX_ERROR_INVALID_ARGUMENT, "flags are 0x4");
+    REFUSED(density, 0, VOX_ERROR_INVALID_ARGUMENT, "density is 0");
+    REFUSED(density, NAN, VOX_ERROR_INVALID_ARGUMENT, "density is nan");
+    REFUSED(youngs_modulus, -1, VOX_ERROR_INVALID_ARGUMENT, "youngs_modulus is -1");
+    REFUSED(bulk_modulus, INFINITY, VOX_ERROR_INVALID_ARGUMENT, "bulk_modulus is inf");
+    REFUSED(damping, NAN, VOX_ERROR_INVALID_ARGUMENT, "damping is nan");
+    memcpy(bad, odd_positions, sizeof bad);
+    bad[5] = NAN;
+    REFUSED(positions, bad, VOX_ERROR_NON_FINITE, "positions of vertex 1");
+    REFUSED(rest_positions, bad, VOX_ERROR_NON_FINITE, "rest_positions of vertex 1");
+    bad[5] = -INFINITY;
+    REFUSED(velocities, bad, VOX_ERROR_NON_FINITE, "velocities of vertex 1");
+    bad[5] = 1e20;
+    REFUSED(positions, bad, VOX_ERROR_INVALID_ARGUMENT, "is 1e+20, expected at most 1e+15");
+    for (int i = 2; i < 21; i += 3) bad[i] = 0;
+    REFUSED(rest_positions, bad, VOX_ERROR_INVALID_ARGUMENT, "mass of 0: 3 of its 3 tets");
+#undef REFUSED
+    ck_assert_uint_eq(counts(sim).bodies, 0);
+    ck_fails(vox_sim_body_insert(NULL, &desc, &body), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
+    ck_fails(vox_sim_body_insert(sim, NULL, &body), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_sim_body_insert(sim, &desc, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_body is null");
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+START_TEST(refuses_bad_calls) {
+    vox_sim* sim = open_sim(NULL);
+    const vox_sim_body_desc desc = odd_body();
+    vox_mesh body, again;
+    ck_ok(vox_sim_body_insert(sim, &desc, &body));
+    static const double steps[] = {0, -1, NAN, INFINITY};
+    for (int i = 0; i < 4; ++i) ck_fails(vox_sim_step(sim, steps[i]), VOX_ERROR_INVALID_ARGUMENT, "time_step is");
+    double bad[21];
+    memcpy(bad, odd_positions, sizeof bad);
+    bad[20] = NAN;
+    ck_fails(vox_sim_body_set_state(sim, body, bad, NULL), VOX_ERROR_NON_FINITE, "vertex 6");
+    ck_fails(vox_sim_body_set_state(sim, body, odd_positions, bad), VOX_ERROR_NON_FINITE, "vertex 6");
+    ck_assert_mem_eq(view_of(sim, body).positions, odd_positions, sizeof odd_positions);
+    const double push[3] = {0, NAN, 0};
+    ck_fails(vox_sim_body_set_acceleration(sim, body, push), VOX_ERROR_INVALID_ARGUMENT, "nan on axis 1");
+    ck_fails(vox_sim_body_set_acceleration(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "acceleration is null");
+
+    vox_sim_body_view view;
+    vox_sim_energies e;
+    e.struct_size = sizeof e;
+    vox_grid* grid;
+    ck_fails(vox_sim_step(NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
+    ck_fails(vox_sim_grid(NULL, &grid), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
+    ck_fails(vox_sim_grid(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_grid is null");
+    ck_fails(vox_sim_body_get(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
+    ck_fails(vox_sim_energy(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_energies is null");
+    ck_fails(vox_sim_counters(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_counts is null");
+    e.struct_size = 2;
+    ck_fails(vox_sim_energy(sim, body, &e), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
+    e.struct_size = sizeof e;
+
+    ck_ok(vox_sim_body_remove(sim, body));
+    ck_ok(vox_sim_body_insert(sim, &desc, &again)); /* in the same slot of the grid */
+    const vox_mesh ids[] = {VOX_NULL_MESH, body, 12345};
+    for (int i = 0; i < 3; ++i) {
+        ck_fails(vox_sim_body_remove(sim, ids[i]), VOX_ERROR_INVALID_HANDLE, "names no body");
+        ck_fails(vox_sim_body_get(sim, ids[i], &view), VOX_ERROR_INVALID_HANDLE, "names no body");
+        ck_fails(vox_sim_body_set_state(sim, ids[i], NULL, NULL), VOX_ERROR_INVALID_HANDLE, "names no body");
+        if (i > 0) ck_fails(vox_sim_energy(sim, ids[i], &e), VOX_ERROR_INVALID_HANDLE, "names no body");
+    }
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* A smaller struct of an older program: what it does not cover keeps its default, or is not written. */
+START_TEST(structs_may_be_smaller) {
+    vox_sim_desc desc;
+    memset(&desc, 0xab, sizeof desc);
+    ck_ok(vox_sim_desc_init(&desc, 12));
+    ck_assert_uint_eq(desc.struct_size, 12);
+    ck_assert_uint_eq(desc.substeps, 10);
+    ck_assert_uint_eq(desc.reserved, 0xababababu);
+    vox_sim* sim = open_sim(&desc);
+    vox_sim_counts small;
+    memset(&small, 0xab, sizeof small);
+    small.struct_size = 8;
+    ck_ok(vox_sim_counters(sim, &small));
+    ck_assert_uint_eq(small.bodies, 0);
+    ck_assert_uint_eq(small.vertices, 0xababababababababull);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* A mesh that somebody else put into the grid is detected but not answered; the grid tells the contacts' bodies. */
+START_TEST(the_grid_is_within_reach) {
+    const vox_sim_desc desc = weightless();
+    vox_sim* sim = open_sim(&desc);
+    vox_io_mesh* mesh = ball(0.5, 0.25);
+    vox_sim_body_desc like = vox_default_sim_body_desc();
+    like.user_data = 77;
+    const vox_mesh body = insert(sim, mesh, &like, 0, 0, 0, 0);
+    vox_grid* grid;
+    ck_ok(vox_sim_grid(sim, &grid));
+    static const float point[3] = {0.1f, 0.1f, 0.1f};
+    vox_mesh_desc probe = vox_default_mesh_desc();
+    probe.positions = point;
+    probe.vertex_count = 1;
+    vox_mesh probe_id;
+    ck_ok(vox_mesh_insert(grid, &probe, &probe_id));
+    steps(sim, 10);
+    vox_contact_view contacts;
+    ck_ok(vox_grid_contacts(grid, &contacts));
+    ck_assert_uint_gt(contacts.count, 0);
+    ck_assert_uint_eq(contacts.data[0].mesh_a, probe_id);
+    ck_assert_uint_eq(contacts.data[0].mesh_b, body);
+    uint64_t user_data = 0;
+    ck_ok(vox_mesh_user_data(grid, body, &user_data));
+    ck_assert_uint_eq(user_data, 77);
+    ck_assert_uint_eq(counts(sim).penetrations, 0);
+    ck_assert_double_le(energies(sim, body).max_speed, 1e-9);
+    vox_io_mesh_destroy(mesh);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("sim_bad_input");
+    TCase* tests = tcase_create("bad input");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, crossing_bars);
+    tcase_add_test(tests, coincident_bodies);
+    tcase_add_test(tests, enclosed_body);
+    tcase_add_test(tests, below_the_floor);
+    tcase_add_test(tests, squashed_and_inverted);
+    tcase_add_test(tests, flat_and_inverted_tets_are_counted);
+    tcase_add_test(tests, too_large_a_step_is_cut_down);
+    tcase_add_test(tests, absurd_stiffness_is_cut_down);
+    tcase_add_test(tests, the_same_bits_every_time);
+    tcase_add_test(tests, refuses_bad_settings);
+    tcase_add_test(tests, refuses_bad_bodies);
+    tcase_add_test(tests, refuses_bad_calls);
+    tcase_add_test(tests, structs_may_be_smaller);
+    tcase_add_test(tests, the_grid_is_within_reach);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
