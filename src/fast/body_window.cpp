@@ -138,7 +138,6 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
 
     fast::Points& points = buffers.points;
     points.count = 0;
-    points.reserve(body.vertex_count);
     const auto is_wanted = [&](std::uint32_t b) {
         if (culled ? buffers.active[b] != 0 : self) return true;
         for (const Reach& reach : reaches)
@@ -148,10 +147,12 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     for (std::uint32_t b = 0; b < count;) { // runs of wanted blocks
         const std::uint32_t begin = b;
         while (b < count && is_wanted(b)) ++b;
-        if (b > begin)
-            fast::collect(state.positions, first[begin], first[b], region, points);
-        else
+        if (b == begin) {
             ++b;
+            continue;
+        }
+        points.reserve(std::size_t{points.count} + (first[b] - first[begin]));
+        fast::collect(state.positions, first[begin], first[b], region, points);
     }
     if (points.count == 0) return;
 
