@@ -38,11 +38,11 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of one query at a time (one worker). About 80 KiB.
+// Buffers of one query at a time (one worker). About 40 KiB.
 struct alignas(64) QueryScratch : TileVertices {
-    static constexpr std::uint32_t most_candidates = 1024; // handled at a time
-    static constexpr std::uint32_t most_pairs = 4096;
-    static constexpr std::uint32_t most_findings = 1024;
+    static constexpr std::uint32_t most_candidates = 512; // handled at a time
+    static constexpr std::uint32_t most_pairs = 2048;
+    static constexpr std::uint32_t most_findings = 512;
 
     // the tile
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
