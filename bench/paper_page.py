@@ -1,0 +1,335 @@
+"""docs/paper.md and its plots, from the CSV files of paper.py."""
+import csv
+import math
+import os
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy
+
+
+@dataclass
+class Published:
+    """A model's row in the paper's Tables 1 to 5. n: cells per axis of a world of edge 4."""
+
+    name: str
+    tets: int
+    n_a: float
+    n_min: float
+    n_opt: float
+    n_max: float
+    n_trad: float
+    eps_a: float
+    eps_trad: float
+
+
+PAPER = [
+    Published("Sphere01", 41937, 28.73, 20, 28.33, 39, 41.90, 0.038, 1.272),
+    Published("Sphere02", 52326, 30.94, 22, 28.16, 38, 45.16, 0.283, 1.727),
+    Published("Sphere03", 60688, 32.49, 16, 34.04, 54, 47.40, 0.086, 0.669),
+    Published("Sphere04", 72631, 34.48, 8, 26.63, 47, 50.29, 0.385, 1.162),
+    Published("Sphere05", 80927, 35.65, 20, 37.87, 57, 51.90, 0.124, 0.734),
+    Published("Bunny", 20462, 31.35, 16, 22.97, 34, 44.94, 0.759, 1.992),
+    Published("Cow", 50380, 48.80, 13, 31.15, 54, 70.93, 0.772, 1.741),
+    Published("Armadillo", 16377, 31.55, 13, 20.49, 37, 45.48, 0.669, 1.516),
+]
+
+RULES = {
+    "suggestion": "**the paper's cost function**",
+    "traditional": "mean edge (Teschner et al. 2003)",
+    "mean_edge_multiple": "twice the mean edge (after Gregory et al. 2000)",
+    "object_512": "512 cells an object (García-Alonso et al. 1994)",
+    "mean_volume": "cube root of the mean volume",
+    "median_box_side": "median box side (IPC Toolkit)",
+}
+
+OURS, TRADITIONAL, MEASURED, COST, PAPERS = "#c2185b", "#e07b00", "#333333", "#1f77b4", "#7b5ea7"
+
+
+class Model:
+    """What was measured on one model: its row, its samples, and the paper's row."""
+
+    def __init__(self, row, samples):
+        self.row = row
+        self.samples = samples
+        self.paper = next(paper for paper in PAPER if paper.name == row["model"])
+        self.name = self.paper.name
+
+    def __getitem__(self, key):
+        return float(self.row[key])
+
+    def get(self, key):
+        return float(self.row[key]) if self.row[key] else None
+
+    def column(self, key):
+        return numpy.array([float(sample[key]) for sample in self.samples])
+
+    def in_fit(self):
+        """Which samples the fit was made of."""
+        sizes = self.column("cell_size")
+        return (sizes >= self["range_min"]) & (sizes <= self["range_max"])
+
+    def fitted(self, n):
+        """Fitted milliseconds at n cells per axis: the power series of vox_time_fit."""
+        low, high = math.log(self["range_min"]), math.log(self["range_max"])
+        u = 2 * (numpy.log(4 / n) - low) / (high - low) - 1
+        powers = [float(word) for word in self.row["coefficients"].split()]
+        return numpy.exp(sum(c * u ** k for k, c in enumerate(powers))) / 1e6
+
+    def fitted_range(self):
+        return numpy.geomspace(4 / self["range_max"] * (1 + 1e-9), 4 / self["range_min"] * (1 - 1e-9), 300)
+
+    def weights(self):
+        """Nanoseconds of a cell visited, of a particle met there, and of a step beside them, by least squares relative
+        to the times: (cell, particle, rest, root mean square relative error)."""
+        frames = self["frames"]
+        times = self.column("time_ms") * 1e6
+        terms = numpy.stack([self.column("visited_cells") / frames, self.column("visited_entries") / frames,
+                             numpy.ones(len(times))], axis=1) / times[:, None]
+        found, *_ = numpy.linalg.lstsq(terms, numpy.ones(len(times)), rcond=None)
+        error = math.sqrt(float(numpy.mean((terms @ found - 1) ** 2)))
+        return (*found, error)
+
+
+def read(folder):
+    def rows(name):
+        with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    samples = rows("paper.csv")
+    return [Model(row, [s for s in samples if s["model"] == row["model"]]) for row in rows("paper-models.csv")]
+
+
+# ---- plots -------------------------------------------------------------------------------------------
+
+
+def draw_times(axes, model):
+    """Time over cells per axis with the fit, the zone, both rules, and the paper's zone and optimum below."""
+    line = model.fitted_range()
+    top = 2.6 * model["optimum_ms"]
+    axes.axvspan(model["n_min"], model["n_max"], color="#dfeadf", lw=0, label="at most 1 ms above the optimum")
+    axes.axvspan(model["n_min_5"], model["n_max_5"], color="#bcd9bc", lw=0, label="at most 5 % above it")
+    axes.plot(line, model.fitted(line), color=MEASURED, lw=1, label="fit and its optimum")
+    axes.plot([model["n_opt"]], [model["optimum_ms"]], "o", mfc="white", mec=MEASURED, ms=7, zorder=4)
+    axes.plot(model.column("n"), model.column("time_ms"), "o", color=MEASURED, ms=3, label="measured")
+    axes.axvline(model["n_a"], color=OURS, lw=1.4, label="cost function, $n_a$")
+    axes.axvline(model["n_trad"], color=TRADITIONAL, lw=1.4, ls="--", label="mean edge, $n_{trad}$")
+    paper = model.paper
+    low = 0.1 * top
+    axes.plot([paper.n_min, paper.n_max], [low, low], color=PAPERS, lw=3, solid_capstyle="butt",
+              label="the paper's zone and optimum")
+    axes.plot([paper.n_opt], [low], "D", color=PAPERS, ms=6)
+    axes.set_ylim(0, top)
+    axes.set_ylabel("detection in a frame (ms)", fontsize=8)
+
+
+def draw_cost(axes, model):
+    """The cost function and the measured time, both over their least."""
+    n = model.column("n")
+    order = numpy.argsort(n)
+    cost = model.column("cost")
+    axes.plot(n[order], (cost / cost.min())[order], color=COST, lw=1.4, label="cost function z over its least")
+    axes.plot(n, model.column("time_ms") / model["optimum_ms"], "o", color=MEASURED, ms=3,
+              label="measured time over the fit's least")
+    axes.axvline(model["n_a"], color=OURS, lw=1.2, label="least of the cost function, $n_a$")
+    axes.set_ylim(0.9, 3.6)
+    axes.set_ylabel("over the least", fontsize=8)
+
+
+def finish(axes, model):
+    axes.set_xlim(0, 1.7 * model["n_trad"])
+    axes.set_title(f"{model.name}: $n_a$ = {model['n_a']:.1f}, measured optimum {model['n_opt']:.1f}", fontsize=8.5)
+    axes.set_xlabel("voxels per axis, n", fontsize=8)
+    axes.tick_params(labelsize=8)
+
+
+def save(figure, folder, name):
+    figure.savefig(os.path.join(folder, name), bbox_inches="tight", metadata={"Date": None})
+    plt.close(figure)
+
+
+def plots(models, folder):
+    # svg.hashsalt: the same results give the same file.
+    plt.rcParams.update({"font.family": "DejaVu Sans", "svg.hashsalt": "vox", "axes.spines.top": False,
+                         "axes.spines.right": False})
+    def panels(shown, draw, name, columns, height):
+        rows = (len(shown) + columns - 1) // columns
+        figure, axes = plt.subplots(rows, columns, figsize=(4.6 * columns if columns > 1 else 7, height * rows),
+                                    squeeze=False, gridspec_kw={"hspace": 0.5, "wspace": 0.2})
+        for panel in axes.flat[len(shown):]:
+            panel.axis("off")
+        for panel, model in zip(axes.flat, shown):
+            draw(panel, model)
+            finish(panel, model)
+        lines, words = axes.flat[0].get_legend_handles_labels()
+        figure.legend(lines, words, loc="upper center", bbox_to_anchor=(0.5, 0.11 - 0.45 / (height * rows)), ncol=3,
+                      fontsize=8, frameon=False)
+        save(figure, folder, name)
+
+    panels(models[:1], draw_times, "paper-figure-3.svg", 1, 3.8)
+    panels(models, draw_times, "paper-times.svg", 2, 2.4)
+    panels(models, draw_cost, "paper-cost.svg", 2, 2.4)
+
+
+# ---- tables ------------------------------------------------------------------------------------------
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def tables_2_and_4(models):
+    head = ["model"] + [word for key in ("n_a", "n_min", "n_opt", "n_max", "n_trad") for word in (key, "ours")]
+    rows = []
+    for model in models:
+        row = [model.name]
+        for key in "n_a", "n_min", "n_opt", "n_max", "n_trad":
+            row += [f"{getattr(model.paper, key):g}", f"**{model[key]:.2f}**"]
+        rows.append(row)
+    return table(head, rows)
+
+
+def judged(value):
+    return f"**{value:.3f}**" if value <= 1 else f"{value:.3f}"
+
+
+def tables_3_and_5(models):
+    rows = []
+    for model in models:
+        rows.append([model.name, judged(model.paper.eps_a), judged(model["epsilon:suggestion"]),
+                     judged(model["epsilon_5_percent:suggestion"]), judged(model.paper.eps_trad),
+                     judged(model["epsilon:traditional"]), judged(model["epsilon_5_percent:traditional"])])
+    return table(["model", "ε(n_a), paper", "ours, 1 ms", "ours, 5 %", "ε(n_trad), paper", "ours, 1 ms", "ours, 5 %"],
+                 rows)
+
+
+def percent(value):
+    return "-" if value is None else f"{100 * value:+.1f} %"
+
+
+def mean(values):
+    values = [value for value in values if value is not None]
+    return sum(values) / len(values) if values else None
+
+
+def regrets(models):
+    rows = []
+    for rule, words in RULES.items():
+        found = [model.get(f"regret:{rule}") for model in models]
+        fitted = [model.get(f"regret_fitted:{rule}") for model in models]
+        rows.append([words, *map(percent, found), f"**{percent(mean(found))}**", percent(mean(fitted))])
+    return table(["rule", *(model.name for model in models), "mean", "mean, by the fits"], rows)
+
+
+def weights(models):
+    rows = []
+    for model in models:
+        cell, particle, rest, error = model.weights()
+        rows.append([model.name, f"{cell:.1f} ns", f"{particle:.2f} ns", f"{particle / cell:.2f}", f"{rest / 1e6:.2f} ms",
+                     f"{100 * error:.1f} %"])
+    return table(["model", "a cell visited", "a particle met there", "their ratio (the paper: 5)", "the rest of a step",
+                  "error of the sum"], rows)
+
+
+def terms(models):
+    """The two terms of the cost function at n_a, as its formulas have them and as counted there."""
+    rows = []
+    for model in models:
+        sample = next(s for s in model.samples if s["rule"] == "suggestion")
+        edges = float(sample["mean_edges"])
+        steps = model["frames"] * 2 * model["tets"]
+        cells, entries = float(sample["visited_cells"]), float(sample["visited_entries"])
+        v_o = (1 / edges + 2) ** 3
+        p_v = (float(sample["cost"]) / v_o - 0.99) / (0.01 * 5)
+        rows.append([model.name, f"{v_o:.1f}", f"{cells / steps:.2f}", f"{p_v:.1f}", f"{entries / cells:.2f}"])
+    return table(["model", "v_o, cells a tetrahedron visits", "counted", "p_v, particles in a cell",
+                  "counted, in a cell visited"], rows)
+
+
+def fit_in_n(model):
+    """The same fit by a polynomial in n, as in the paper's Fig. 3: (relative leave-one-out error, degree, n_opt)."""
+    inside = model.in_fit()
+    n, times = model.column("n")[inside], model.column("time_ms")[inside]
+    u = 2 * (n - n.min()) / (n.max() - n.min()) - 1
+    fits = []
+    for degree in range(2, 9):
+        basis, _ = numpy.linalg.qr(numpy.polynomial.legendre.legvander(u, degree))
+        residual = times - basis @ (basis.T @ times)
+        unseen = residual / (1 - (basis ** 2).sum(axis=1))
+        # In logarithms as the other fit's; a prediction below 0, which has none, counts as 1 % of the time.
+        error = numpy.log(numpy.maximum(1 - unseen / times, 0.01))
+        fits.append((math.sqrt(float(numpy.mean(error ** 2))), degree))
+    error, degree = min(fits)
+    series = numpy.polynomial.Legendre.fit(n, times, degree)
+    line = numpy.linspace(n.min(), n.max(), 4001)
+    return error, degree, float(line[numpy.argmin(series(line))])
+
+
+def fits(models):
+    rows = []
+    for model in models:
+        error, degree, n_opt = fit_in_n(model)
+        rows.append([model.name, f"{100 * error:.1f} %", str(degree), f"{n_opt:.1f}", f"{model['n_trad'] / n_opt:.2f}",
+                     f"{100 * model['prediction_error']:.1f} %", f"{model['degree']:.0f}", f"{model['n_opt']:.1f}",
+                     f"{model['n_trad'] / model['n_opt']:.2f}"])
+    return table(["model", "in n: error", "degree", "n_opt", "in mean edges", "in logarithms: error", "degree", "n_opt",
+                  "in mean edges"], rows)
+
+
+def met(good):
+    return "met" if good else "**missed**"
+
+
+def figures_to_reach(models):
+    eps_a = [model["epsilon:suggestion"] for model in models]
+    below = all(model["epsilon:suggestion"] < model["epsilon:traditional"] for model in models)
+    regret = mean([model.get("regret:suggestion") for model in models])
+    return "\n".join([
+        f"* ε of the cost function's value at most 1 on all {len(models)} models: the largest is {max(eps_a):.3f}, "
+        f"{met(max(eps_a) <= 1)}.",
+        f"* ε of it below that of the mean edge on all of them: {met(below)}.",
+        f"* Mean regret of it at most 5 %: {100 * regret:.1f} %, {met(regret <= 0.05)}; that of the mean edge is "
+        f"{100 * mean([model.get('regret:traditional') for model in models]):.1f} %.", ""])
+
+
+def numbers(models):
+    """What the text below the tables quotes."""
+    first = models[0]
+    return {
+        "models": len(models), "count": int((first.column("n") > 0).sum()), "rounds": int(first["rounds"]),
+        "frames": int(first["frames"]), "date": first.row["date"], "cpu": first.row["cpu"],
+        "build": first.row["build"], "load_min": min(m["load"] for m in models),
+        "load_max": max(m["load"] for m in models),
+        "first_share": 100 * mean([m["first_share"] for m in models]),
+        "last_share": 100 * mean([m["last_share"] for m in models]),
+        "share_min": 100 * min(m["share"] for m in models), "share_max": 100 * max(m["share"] for m in models),
+        "degree_min": int(min(m["degree"] for m in models)), "degree_max": int(max(m["degree"] for m in models)),
+        "error_min": 100 * min(m["prediction_error"] for m in models),
+        "error_max": 100 * max(m["prediction_error"] for m in models),
+        "millisecond_min": 100 / max(m["optimum_ms"] for m in models),
+        "millisecond_max": 100 / min(m["optimum_ms"] for m in models),
+        "ratio_min": min(m.weights()[1] / m.weights()[0] for m in models),
+        "ratio_max": max(m.weights()[1] / m.weights()[0] for m in models),
+        "opt_edges_min": min(m["n_trad"] / m["n_opt"] for m in models),
+        "opt_edges_max": max(m["n_trad"] / m["n_opt"] for m in models),
+        "paper_edges_min": min(m.paper.n_trad / m.paper.n_opt for m in models),
+        "paper_edges_max": max(m.paper.n_trad / m.paper.n_opt for m in models),
+    }
+
+
+def write(folder):
+    models = read(folder)
+    plots(models, folder)
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "paper.md.in"), encoding="utf-8") as file:
+        text = file.read()
+    parts = {"table_1": table(["model", "tetrahedra, paper", "ours"],
+                              [[m.name, str(m.paper.tets), f"{m['tets']:.0f}"] for m in models]),
+             "tables_2_and_4": tables_2_and_4(models), "tables_3_and_5": tables_3_and_5(models),
+             "regrets": regrets(models), "weights": weights(models), "terms": terms(models), "fits": fits(models),
+             "figures": figures_to_reach(models)}
+    with open(os.path.join(folder, "paper.md"), "w", encoding="utf-8") as file:
+        file.write(text.format(**parts, **numbers(models)))
