@@ -11,7 +11,6 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 INCLUDE = os.path.join(HERE, "..", "..", "include", "vox")
 LIBRARIES = ["vox", "vox_io", "vox_sim"]
-PUBLIC = ["--drop-private-types", "--exported-interfaces-only", "--no-show-locs"]
 
 
 def find(folder, name):
@@ -22,15 +21,17 @@ def find(folder, name):
 
 
 def describe(library):
-    done = subprocess.run(["abidw", *PUBLIC, "--headers-dir", INCLUDE, "--no-corpus-path", "--no-comp-dir-path",
-                           "--no-elf-needed", "--no-architecture", "--no-write-default-sizes",
+    done = subprocess.run(["abidw", "--drop-private-types", "--exported-interfaces-only", "--no-show-locs",
+                           "--headers-dir", INCLUDE, "--no-corpus-path", "--no-comp-dir-path",
+                           "--no-elf-needed", "--no-write-default-sizes",
                            "--no-parameter-names", library], check=True, capture_output=True, text=True)
     return re.sub(r" path='[^']*/", " path='", done.stdout)  # file names alone: where they lie does not matter
 
 
 def compare(name, library):
-    done = subprocess.run(["abidiff", *PUBLIC, "--headers-dir2", INCLUDE, "--no-added-syms",
-                           os.path.join(HERE, name + ".abi"), library])
+    # Not told which types are private: then it would overlook changes of public ones. What vox_grid is inside is in
+    # the library but not in the baseline, which is no difference.
+    done = subprocess.run(["abidiff", "--no-show-locs", "--no-added-syms", os.path.join(HERE, name + ".abi"), library])
     if done.returncode == 0:
         print(f"lib{name}: as in the baseline, new functions aside")
     return done.returncode == 0
