@@ -110,8 +110,9 @@ def draw_times(axes, model):
     """Time over cells per axis with the fit, the zone, both rules, and the paper's zone and optimum below."""
     line = model.fitted_range()
     top = 2.6 * model["optimum_ms"]
-    axes.axvspan(model["n_min"], model["n_max"], color="#dfeadf", lw=0, label="at most 1 ms above the optimum")
-    axes.axvspan(model["n_min_5"], model["n_max_5"], color="#bcd9bc", lw=0, label="at most 5 % above it")
+    axes.axvspan(model["n_min"], model["n_max"], color="#9fc5e8", alpha=0.5, lw=0,
+                 label="at most 1 ms above the optimum")
+    axes.axvspan(model["n_min_5"], model["n_max_5"], color="#a9d18e", alpha=0.5, lw=0, label="at most 5 % above it")
     axes.plot(line, model.fitted(line), color=MEASURED, lw=1, label="fit and its optimum")
     axes.plot([model["n_opt"]], [model["optimum_ms"]], "o", mfc="white", mec=MEASURED, ms=7, zorder=4)
     axes.plot(model.column("n"), model.column("time_ms"), "o", color=MEASURED, ms=3, label="measured")
