@@ -589,7 +589,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t cap
  * until its first step. The meshes own their positions: bind others where they are to move.
  * Of `desc`, the allocator, log, tasks, worker_count and byte_budget count, and the engine unless it is AUTO; null:
  * the defaults. The caller owns *out_grid and ends it with vox_grid_destroy.
- * The bytes need not be trusted: everything in them is checked, and memory is in proportion to `size`.
+ * The bytes need not be trusted: everything in them is checked, no count is believed before its bytes are there, and
+ * the byte budget holds for what is made of them.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* desc, vox_grid** out_grid);
