@@ -32,7 +32,8 @@ vox_suggest_desc suggest_defaults() {
 }
 
 vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
-    vox_suggest_desc settings = desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
+    vox_suggest_desc settings =
+        desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
     check_suggest_desc(settings);
     return settings;
 }
@@ -118,8 +119,9 @@ vox_cost_minimum minimise_within(const CostFunction& cost, const vox_cost_bounds
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("no finite cost for a cell size from %g to %g", bounds.min, bounds.max));
     if (best.cost < 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("the cost is %g at cell size %g, expected none below 0", best.cost, best.cell_size));
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("the cost is %g at cell size %g, expected none below 0", best.cost, best.cell_size));
     vox_cost_minimum result{};
     result.cell_size = best.cell_size;
     result.cost = best.cost;
@@ -129,9 +131,10 @@ vox_cost_minimum minimise_within(const CostFunction& cost, const vox_cost_bounds
     result.curve_count = VOX_COST_CURVE_CAPACITY;
     for (std::uint32_t i = 0; i < result.curve_count; ++i) {
         const double part = static_cast<double>(i) / (result.curve_count - 1);
-        const double at = i == 0                          ? bounds.min
-                          : i == result.curve_count - 1 ? bounds.max
-                                                          : bounds.min * std::pow(bounds.max / bounds.min, part);
+        const double at = i == 0 ? bounds.min
+                          : i == result.curve_count - 1
+                              ? bounds.max
+                              : bounds.min * std::pow(bounds.max / bounds.min, part);
         result.curve[i] = {at, cost(at)};
     }
     return result;
@@ -169,7 +172,8 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     });
 }
 
-vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc, vox_suggestion* out) {
+vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
+                                      vox_suggestion* out) {
     return border([&] {
         require(grid, "grid");
         check_out_struct(out, "out");
@@ -233,12 +237,13 @@ vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost
     return border([&] {
         check_out_struct(out, "out");
         if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");
-        write_struct(out, minimise_within([&](double cell_size) { return cost(cell_size, user); }, bounds), "out");
+        write_struct(out, minimise_within([&](double cell_size) { return cost(cell_size, user); }, bounds),
+                     "out");
     });
 }
 
-vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count, const vox_cost_bounds* bounds,
-                                   vox_cost_minimum* out) {
+vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
+                                   const vox_cost_bounds* bounds, vox_cost_minimum* out) {
     return border([&] {
         check_out_struct(out, "out");
         require(terms, "terms");

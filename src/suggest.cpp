@@ -169,7 +169,8 @@ double world_edge(const vox_suggest_desc& desc, const vox_geometry_stats& stats)
 
 } // namespace
 
-void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY], std::uint32_t& count) {
+void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY],
+                  std::uint32_t& count) {
     const double cost = terms.cost();
     count = 0;
     for (const CostTerm& term : terms) {
@@ -238,10 +239,11 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
 }
 
 [[noreturn]] void throw_no_size(const vox_geometry_stats& stats) {
-    throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                stats.tets == 0
-                    ? format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices)
-                    : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
+    throw Error(
+        VOX_ERROR_INVALID_ARGUMENT,
+        stats.tets == 0
+            ? format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices)
+            : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
 void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
@@ -254,8 +256,9 @@ void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const C
     result.zone_max = zone.max;
 }
 
-vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
-                                 const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
+vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
+                                 const SuggestScene& scene, const vox_cost_weights& weights,
+                                 std::pmr::memory_resource* memory) {
     const ReferenceCost cost(scene.bodies, desc.storage, thorough, weights, memory);
     CellSizeRange range{};
     if (!cost.range(range.min, range.max)) throw_no_size(geometry.stats);

@@ -32,6 +32,7 @@ vox_suggestion suggest(const vox_suggest_desc& desc, const Geometry& geometry, c
 CostTerms predict(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                   const vox_cost_weights& weights, double cell_size, std::pmr::memory_resource* memory);
 
-void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY], std::uint32_t& count);
+void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY],
+                  std::uint32_t& count);
 
 } // namespace vox

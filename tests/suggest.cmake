@@ -5,3 +5,6 @@ target_link_libraries(test_suggest PRIVATE $<$<BOOL:${UNIX}>:m>)
 if(VOX_BUILD_IO)
   vox_test(paper_tables test_paper_tables.c LIBS vox::io)
 endif()
+# The cost models' counts against the engines' own.
+vox_test(cost internal/test_cost.cpp LIBS vox_internal)
+target_include_directories(test_cost PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)

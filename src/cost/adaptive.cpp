@@ -14,7 +14,8 @@ namespace vox {
 
 namespace {
 
-// The size stays as long as following would change it by less than this part: that loses about half a per cent.
+// The size stays as long as following would change it by less than this part: that loses about half a per
+// cent.
 constexpr double hysteresis = 0.08;
 // At most by this factor in one step: what is far off is off the straight line, too.
 constexpr double most_at_once = 2;
@@ -22,8 +23,8 @@ constexpr double most_at_once = 2;
 constexpr double far_off = 1.5;
 // Of the time of the steps, for choosing.
 constexpr double time_share = 0.01;
-// Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near it or
-// one of the few far ones.
+// Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
+// it or one of the few far ones.
 constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 300;
 
 double choice_ns(double vertices, double tets, const Effort& effort) {
@@ -48,8 +49,9 @@ double few_box_sides(std::span<const Body> bodies) {
             double longest = 0;
             for (const std::uint32_t v : body.tets[t].v) {
                 const auto p = body.positions[v], q = body.positions[body.tets[t].v[0]];
-                longest = std::max({longest, std::abs(double{p.x} - double{q.x}), std::abs(double{p.y} - double{q.y}),
-                                    std::abs(double{p.z} - double{q.z})});
+                longest =
+                    std::max({longest, std::abs(double{p.x} - double{q.x}),
+                              std::abs(double{p.y} - double{q.y}), std::abs(double{p.z} - double{q.z})});
             }
             if (!std::isfinite(longest)) continue;
             sum += longest;
@@ -94,7 +96,8 @@ bool AdaptiveCellSize::must_choose() const noexcept {
 
 void AdaptiveCellSize::follow() noexcept {
     if (!balanced_ || !(slope_ > 0)) return;
-    const double part = std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
+    const double part =
+        std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
     if (std::abs(part) < hysteresis) return;
     cell_size_ = std::max(cell_size_ * std::exp(part), floor_);
     last_balance_ = balance_; // as it will be
@@ -110,7 +113,8 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
     const Effort effort = quick(tets);
     const vox_cost_weights weights = weights_in_use();
     // The first choice has to be made.
-    if (cell_size_ != 0) credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
+    if (cell_size_ != 0)
+        credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
     const ReferenceCost cost(bodies, setting.storage, effort, weights, memory);
     CellSizeRange range{};
     if (!cost.range(range.min, range.max)) return false;

@@ -1,11 +1,13 @@
-// The cell size of a grid that chooses it: before the first step by the cost model, and then as the bodies change.
+// The cell size of a grid that chooses it: before the first step by the cost model, and then as the bodies
+// change.
 //
-// Near the optimum a cell size d trades visits V(d) for reads R(d): at the best one c_visit V and c_read R stand in a
-// fixed ratio, that of the slopes of log V and log R. So log(R / V), which every step counts anyway, tells how far d
-// is from where it was best: when the bodies grow by a factor, or come into deeper contact, d follows by
-// the change of log(R / V) over its slope. That costs nothing. The model itself is asked again, over a sample of
-// the scene, after meshes came or went or d has moved far, and only as often as that stays below a hundredth of
-// the time of the steps, told by counts: the same calls always give the same sizes.
+// Near the optimum a cell size d trades visits V(d) for reads R(d): at the best one c_visit V and c_read R
+// stand in a fixed ratio, that of the slopes of log V and log R. So log(R / V), which every step counts
+// anyway, tells how far d is from where it was best: when the bodies grow by a factor, or come into deeper
+// contact, d follows by the change of log(R / V) over its slope. That costs nothing. The model itself is
+// asked again, over a sample of the scene, after meshes came or went or d has moved far, and only as often as
+// that stays below a hundredth of the time of the steps, told by counts: the same calls always give the same
+// sizes.
 #pragma once
 
 #include "../scene.hpp"
@@ -30,8 +32,8 @@ public:
     // Forgets everything: the next step chooses anew.
     void restart() noexcept { *this = {}; }
 
-    // Before a step with these bodies: the cell size for it. Where memory for the choice is refused, it is made from a
-    // few tetrahedra. Positions may be anything.
+    // Before a step with these bodies: the cell size for it. Where memory for the choice is refused, it is
+    // made from a few tetrahedra. Positions may be anything.
     double cell_size(std::span<const Body> bodies, const Setting& setting, std::pmr::memory_resource* memory);
 
     // After that step: what it did.
@@ -45,10 +47,10 @@ private:
     void follow() noexcept;
     bool choose(std::span<const Body> bodies, const Setting& setting, std::pmr::memory_resource* memory);
 
-    double cell_size_ = 0;    // 0: not chosen yet
-    double floor_ = 0;        // of the byte limit
-    double chosen_ = 0;       // by the model, the last time
-    bool sized_ = false;      // the model found tetrahedra with a size
+    double cell_size_ = 0; // 0: not chosen yet
+    double floor_ = 0;     // of the byte limit
+    double chosen_ = 0;    // by the model, the last time
+    bool sized_ = false;   // the model found tetrahedra with a size
     bool scene_changed_ = false;
     double slope_ = 0;        // of log(R / V) over log d, at chosen_
     double balance_ = 0;      // log(R / V) of the first step after the choice ...

@@ -1,6 +1,7 @@
 // Times are fitted as sums of counts times weights by least squares with weights that are not negative (C. L.
-// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent: there are four of
-// them. What a few short steps cannot tell apart stays near what is shipped, scaled to the machine's speed.
+// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent: there are four
+// of them. What a few short steps cannot tell apart stays near what is shipped, scaled to the machine's
+// speed.
 #include "calibrate.hpp"
 
 #include "fast_cost.hpp"
@@ -30,9 +31,10 @@ struct Timing {
     std::array<double, unknowns> count;
 };
 
-// The weights that fit the timings best, in parts of each, within a factor of three of those shipped as they would be on
-// a machine of this speed.
-std::array<double, unknowns> fit(const std::vector<Timing>& timings, const std::array<double, unknowns>& shipped) {
+// The weights that fit the timings best, in parts of each, within a factor of three of those shipped as they
+// would be on a machine of this speed.
+std::array<double, unknowns> fit(const std::vector<Timing>& timings,
+                                 const std::array<double, unknowns>& shipped) {
     // The machine's speed beside the one the shipped weights are for.
     double ratio = 0;
     for (const Timing& t : timings) {
@@ -43,7 +45,9 @@ std::array<double, unknowns> fit(const std::vector<Timing>& timings, const std::
     constexpr double leeway = 3, pull = 0.02;
     std::array<double, unknowns> x{};
     for (std::size_t i = 0; i < unknowns; ++i) x[i] = 1; // in units of shipped * ratio
-    const auto part = [&](const Timing& t, std::size_t i) { return t.count[i] * shipped[i] * ratio / t.time; };
+    const auto part = [&](const Timing& t, std::size_t i) {
+        return t.count[i] * shipped[i] * ratio / t.time;
+    };
     for (int round = 0; round < 200; ++round)
         for (std::size_t i = 0; i < unknowns; ++i) {
             double square = pull, product = pull; // towards 1
@@ -60,8 +64,8 @@ std::array<double, unknowns> fit(const std::vector<Timing>& timings, const std::
     return x;
 }
 
-// A block of n * n * n cubes from `corner` on along x, six tetrahedra around the diagonal of each (Kuhn), its vertices
-// moved about a little.
+// A block of n * n * n cubes from `corner` on along x, six tetrahedra around the diagonal of each (Kuhn), its
+// vertices moved about a little.
 struct Block {
     std::vector<Vec3f> positions;
     std::vector<Tet> tets;
@@ -95,12 +99,13 @@ struct Block {
 
 struct Scene {
     Scene(std::uint32_t n, float overlap)
-        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)},
-          meshes{FastMesh(memory()), FastMesh(memory())} {
+        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)}, meshes{FastMesh(memory()),
+                                                                                 FastMesh(memory())} {
         for (std::size_t b = 0; b < 2; ++b) {
             bodies[b].mesh_id = static_cast<std::uint32_t>(b);
             bodies[b].vertex_count = static_cast<std::uint32_t>(blocks[b].positions.size());
-            bodies[b].positions = {reinterpret_cast<const std::byte*>(blocks[b].positions.data()), sizeof(Vec3f)};
+            bodies[b].positions = {reinterpret_cast<const std::byte*>(blocks[b].positions.data()),
+                                   sizeof(Vec3f)};
             bodies[b].tets = blocks[b].tets;
             meshes[b].prepare(bodies[b]);
         }
@@ -146,18 +151,20 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 hits.clear();
                 engine.detect(scene.bodies, settings, hits, counters, profile);
             });
-            const double tets = static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
+            const double tets =
+                static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
             const auto bin = static_cast<double>(profile.bin_ns);
             bin_ns += bin;
             vertices += static_cast<double>(counters.entries);
-            timings.push_back({time - bin,
-                               {tets, static_cast<double>(counters.visited_cells),
-                                static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
+            timings.push_back(
+                {time - bin,
+                 {tets, static_cast<double>(counters.visited_cells),
+                  static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
         }
     }
     const std::array<double, unknowns> x =
-        fit(timings, {weights.reference_prepare_tet, weights.reference_visit_cell, weights.reference_read_vertex,
-                      weights.reference_test_box});
+        fit(timings, {weights.reference_prepare_tet, weights.reference_visit_cell,
+                      weights.reference_read_vertex, weights.reference_test_box});
     const double speed = x[1] / weights.reference_visit_cell;
     weights.reference_prepare_tet = x[0];
     weights.reference_visit_cell = x[1];

@@ -5,8 +5,8 @@
 
 namespace vox {
 
-// Steps both engines over a small scene at a few cell sizes and fits the weights to their times and counters. Takes
-// about ten milliseconds; throws std::bad_alloc.
+// Steps both engines over a small scene at a few cell sizes and fits the weights to their times and counters.
+// Takes about ten milliseconds; throws std::bad_alloc.
 vox_cost_weights measure_weights();
 
 // The same, once in a process.

@@ -72,7 +72,8 @@ void measure(std::span<const Body> bodies, std::span<const fast::Tiles* const> t
             out.blocks.push_back(block_box(bodies[b], *tiles[b], i));
             fast::add(all, out.blocks.back());
         }
-        for (const fast::Tile& tile : tiles[b]->tiles) out.tiles.push_back(tile_box(bodies[b], *tiles[b], tile));
+        for (const fast::Tile& tile : tiles[b]->tiles)
+            out.tiles.push_back(tile_box(bodies[b], *tiles[b], tile));
         out.bodies.push_back(all);
     }
     out.first_block.push_back(out.blocks.size());
@@ -112,8 +113,8 @@ std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, const Boxes& 
 
 } // namespace
 
-FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles, const Effort& effort,
-                   const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                   const Effort& effort, const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights) {
     Boxes boxes(memory);
     measure(bodies, tiles, boxes);
@@ -213,7 +214,8 @@ void FastCost::Pool::add(double cell_size, Lie lie, Counts& sum) const noexcept 
         double met[3], laid[3]; // cells along each axis, and so much of them that is in the window
         double volume = 1, volume_laid = 1;
         for (int a = 0; a < 3; ++a) {
-            const double below = std::min(look.below[a] * inverse, 1.0), above = std::min(look.above[a] * inverse, 1.0);
+            const double below = std::min(look.below[a] * inverse, 1.0),
+                         above = std::min(look.above[a] * inverse, 1.0);
             const double side = look.side[a] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
             met[a] = std::max(side, 1.0);
             volume *= side;
@@ -278,11 +280,13 @@ double window_cell_size(const fast::TileSides& sides, std::uint32_t points, cons
     if (!(side > 0)) return 0;
     const Sides extent = sides_of(box);
     const Moments window = cells_met(extent.w);
-    const double density = points / std::max(window.at(side) * side * side * side, std::numeric_limits<double>::min());
+    const double density =
+        points / std::max(window.at(side) * side * side * side, std::numeric_limits<double>::min());
     const double most = static_cast<double>(most_cells(points));
     const auto cost = [&](double x) { // x = cell size / side
         const double rows = (1 / x + 1) * (1 / x + 1), reach = side * (1 + x);
-        return sides.count * (weights.fast_visit_row * rows + weights.fast_read_vertex * density * reach * reach * reach) +
+        return sides.count * (weights.fast_visit_row * rows +
+                              weights.fast_read_vertex * density * reach * reach * reach) +
                weights.fast_clear_cell * std::min(window.at(x * side), most);
     };
     // One minimum, flat: a golden-section search to a few per cent is enough.

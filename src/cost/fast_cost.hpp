@@ -7,9 +7,9 @@
 //        + c_read sum over these of the vertices in these rows' cells: contiguous, hence cheap
 //        + c_test            those of them in the tile's box, against its tets: independent of d
 //
-// The unit is the tile, not the tet, and the row, not the cell: so the power of 1/d is 2 instead of 3, and the best
-// cell is larger. Bodies that touch nothing, and those that collide with themselves but are cleared by winding
-// numbers, have no window and cost nothing here.
+// The unit is the tile, not the tet, and the row, not the cell: so the power of 1/d is 2 instead of 3, and
+// the best cell is larger. Bodies that touch nothing, and those that collide with themselves but are cleared
+// by winding numbers, have no window and cost nothing here.
 #pragma once
 
 #include "effort.hpp"
@@ -30,14 +30,14 @@ namespace vox {
 
 class FastCost {
 public:
-    // `tiles` of each body. Measures the positions as they are now; all of them are finite. All bodies that collide
-    // with themselves get a window.
+    // `tiles` of each body. Measures the positions as they are now; all of them are finite. All bodies that
+    // collide with themselves get a window.
     FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles, const Effort& effort,
              const vox_cost_weights& weights, std::pmr::memory_resource* memory);
 
-    // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in small
-    // windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size and what
-    // to choose one by: bodies move on.
+    // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
+    // small windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size
+    // and what to choose one by: bodies move on.
     enum class Lie { as_it_is, in_the_mean };
 
     CostTerms terms(double cell_size, Lie lie) const;
@@ -60,7 +60,8 @@ private:
     };
     // Windows whose smallest possible cells are alike, so that one effective cell size does for all.
     struct Pool {
-        Pool(int key, std::pmr::memory_resource* memory) : key(key), profile(memory), points(memory), looks(memory) {}
+        Pool(int key, std::pmr::memory_resource* memory)
+            : key(key), profile(memory), points(memory), looks(memory) {}
 
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
         void add(double cell_size, Lie lie, Counts& sum) const noexcept;
@@ -70,7 +71,7 @@ private:
         fast::Points points;
         std::pmr::vector<Look> looks;
         double windows = 0, smallest_cell = 0; // of a window, in the mean
-        Moments cells; // of the windows themselves
+        Moments cells;                         // of the windows themselves
     };
 
     Pool& pool_of(double smallest_cell);
@@ -79,9 +80,9 @@ private:
     vox_cost_weights weights_;
 };
 
-// The cell size for one window of `points` vertices in `box`, from the tiles that will look into it, by the terms
-// above for tiles and vertices spread evenly: what the engine calls for each of its windows, in well under a
-// microsecond. 0 where no tile has a size.
+// The cell size for one window of `points` vertices in `box`, from the tiles that will look into it, by the
+// terms above for tiles and vertices spread evenly: what the engine calls for each of its windows, in well
+// under a microsecond. 0 where no tile has a size.
 double window_cell_size(const fast::TileSides& sides, std::uint32_t points, const fast::Box& box,
                         const vox_cost_weights& weights);
 

@@ -48,7 +48,8 @@ Levels choose_levels(const ReferenceCost& cost) {
     levels.cost = best[chosen][n].cost + cost.shared();
     levels.count = static_cast<std::uint32_t>(chosen + 1);
     std::size_t end = n;
-    for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from) levels.cell_size[l] = best[l][end].cell_size;
+    for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from)
+        levels.cell_size[l] = best[l][end].cell_size;
     return levels;
 }
 

@@ -1,5 +1,5 @@
-// Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953), in the logarithm
-// of the cell size: costs are sums of powers of it.
+// Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953), in the
+// logarithm of the cell size: costs are sums of powers of it.
 #include "minimise.hpp"
 
 #include <algorithm>
@@ -23,11 +23,10 @@ double finite_cost(const CostFunction& cost, double cell_size) {
 
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range) {
     const double low = std::log(range.min), high = std::log(range.max);
-    const int scan_count =
-        static_cast<int>(std::clamp((high - low) * scans_per_octave / std::log(2.0), double{least_scans},
-                                    double{most_scans}));
+    const int scan_count = static_cast<int>(
+        std::clamp((high - low) * scans_per_octave / std::log(2.0), double{least_scans}, double{most_scans}));
     const auto at = [&](int i) {
-        return i == 0              ? range.min
+        return i == 0                ? range.min
                : i == scan_count - 1 ? range.max
                                      : std::exp(low + (high - low) * i / (scan_count - 1));
     };
@@ -66,7 +65,8 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range) {
     return best;
 }
 
-Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost, const CellSizeRange& range) {
+Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
+                 const CellSizeRange& range) {
     // Out from the minimum by small steps, then to the last bits by halving.
     const auto end = [&](double factor, double last) {
         double inside = minimum.cell_size;

@@ -20,12 +20,13 @@ struct CostMinimum {
     double cost; // infinite where the function is, throughout
 };
 
-// The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section search
-// around its best place. The function may have several minima; those that lie between two places of the scan
-// can be missed.
+// The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section
+// search around its best place. The function may have several minima; those that lie between two places of
+// the scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range);
 
 // The interval around the minimum where the cost is at most `limit`, as far as the range goes.
-Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost, const CellSizeRange& range);
+Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
+                 const CellSizeRange& range);
 
 } // namespace vox

@@ -1,6 +1,6 @@
-// Sampling without knowing how many there are: Algorithm R (J. S. Vitter, Random sampling with a reservoir, ACM
-// Trans. Math. Software 11, 1985), with random numbers by splitmix64 (Steele, Lea, Flood, 2014): the same scene
-// gives the same sample.
+// Sampling without knowing how many there are: Algorithm R (J. S. Vitter, Random sampling with a reservoir,
+// ACM Trans. Math. Software 11, 1985), with random numbers by splitmix64 (Steele, Lea, Flood, 2014): the same
+// scene gives the same sample.
 #include "profile.hpp"
 
 #include <bit>
@@ -17,6 +17,8 @@ constexpr double near_sides = 1;
 constexpr std::size_t most_rows = 1024, most_points = 4096;
 // Points in a cell, about.
 constexpr double points_per_cell = 6;
+// Points whose neighbours tell how many cells are occupied.
+constexpr std::size_t crowd_samples = 64;
 
 std::uint64_t next_random(std::uint64_t& state) {
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
@@ -49,11 +51,6 @@ Distances distances(const Lookup& l, const double (&p)[3]) {
     return d;
 }
 
-void count_point(SizeClass& c, const Lookup& l, std::uint32_t id, const Distances& d, double weight) {
-    if (id < l.first_read || id >= l.last_read) return;
-    (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, weight);
-}
-
 // Points in cells, and a few of them spread evenly.
 struct Binned {
     const fast::Window& window;
@@ -62,9 +59,10 @@ struct Binned {
     std::size_t stride;         // every so many points are the few
 };
 
-// The points around one lookup: near ones from the cells, far ones from the few.
-void count_around(SizeClass& c, const Lookup& l, double near, double weight, const Binned& in,
-                  std::uint64_t& random) {
+// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
+// from the few. The weight is how many of their like they stand for.
+template <class Count>
+void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
     const fast::Lattice& lattice = in.window.lattice;
     std::uint32_t lo[3], hi[3];
     for (int a = 0; a < 3; ++a) {
@@ -86,7 +84,7 @@ void count_around(SizeClass& c, const Lookup& l, double near, double weight, con
     for (std::size_t r = first_row; r < rows; r += row_stride)
         there += in.begin[row_of(r) + hi[0] + 1] - in.begin[row_of(r) + lo[0]];
     const std::size_t stride = there / most_points + 1;
-    const double near_weight = weight * static_cast<double>(row_stride * stride);
+    const auto near_weight = static_cast<double>(row_stride * stride);
     std::size_t skip = stride > 1 ? next_below(random, stride) : 0;
     for (std::size_t r = first_row; r < rows; r += row_stride) {
         const std::size_t row = row_of(r), end = in.begin[row + hi[0] + 1];
@@ -94,15 +92,15 @@ void count_around(SizeClass& c, const Lookup& l, double near, double weight, con
         for (; i < end; i += stride) {
             const std::array<double, 3> p = position(i);
             const Distances d = distances(l, {p[0], p[1], p[2]});
-            if (d.largest <= near) count_point(c, l, in.points.id[i], d, near_weight);
+            if (d.largest <= near) count(in.points.id[i], d, near_weight);
         }
         skip = i - end;
     }
-    const double far_weight = weight * static_cast<double>(in.stride);
+    const auto far_weight = static_cast<double>(in.stride);
     for (std::size_t i = in.stride / 2; i < in.points.count; i += in.stride) {
         const std::array<double, 3> p = position(i);
         const Distances d = distances(l, {p[0], p[1], p[2]});
-        if (d.largest > near) count_point(c, l, in.points.id[i], d, far_weight);
+        if (d.largest > near) count(in.points.id[i], d, far_weight);
     }
 }
 
@@ -144,7 +142,8 @@ Profile::Profile(std::pmr::memory_resource* memory) : classes_(memory) { index_.
 
 SizeClass& Profile::class_of(double side) {
     // A box without sides counts as very small; scaled, it would have no class of points.
-    const int exponent = side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
+    const int exponent =
+        side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
     std::int16_t& index = index_[static_cast<std::size_t>(exponent + exponents / 2)];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
@@ -155,7 +154,8 @@ SizeClass& Profile::class_of(double side) {
 
 void Profile::add(const Lookup& lookup, double weight) {
     SizeClass& c = class_of(longest_side(lookup));
-    const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]};
+    const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
+                         lookup.hi[2] - lookup.lo[2]};
     c.count += weight;
     c.added += 1;
     c.cells.add(cells_met(w), weight);
@@ -179,23 +179,58 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
         bins.points.reserve(points.count);
         const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
         const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
+        double smallest = 1, largest = 1;
+        if (sides(smallest, largest)) {
+            first_size_ = smallest / 16;
+            size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
+        }
         const Binned binned{window, bins.points, bins.begin.data() + window.first_cell,
                             points.count / sizes.far_points + 1};
-        bin_size_ = 1 / double{lattice.inverse};
-        for (std::size_t i = 0; i < lattice.count(); ++i)
-            ++crowds_[std::min<std::size_t>(binned.begin[i + 1] - binned.begin[i], crowds_.size() - 1)];
         for (SizeClass& c : classes_) {
             // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
             const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
-            const auto size = std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes.lookups) * share) + 1);
+            const auto size = std::min(
+                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes.lookups) * share) + 1);
             const double near = near_sides * std::ldexp(2.0, c.exponent);
-            for (std::size_t i = 0; i < size; ++i)
-                count_around(c, c.sample[i], near, c.count / static_cast<double>(size), binned, random_);
+            const double each = c.count / static_cast<double>(size);
+            for (std::size_t i = 0; i < size; ++i) {
+                const Lookup& l = c.sample[i];
+                for_points_around(l, near, binned, random_,
+                                  [&](std::uint32_t id, const Distances& d, double w) {
+                                      if (id < l.first_read || id >= l.last_read) return;
+                                      (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested)
+                                          .add(d.along, each * w);
+                                  });
+            }
+            count_crowds(c, near, binned, static_cast<double>(points.count) / lookups);
         }
     }
     for (SizeClass& c : classes_) {
         c.passed.finish();
         c.tested.finish();
+    }
+}
+
+// Every point has 1 / (points in its cell) of an occupied cell. Corners of sampled boxes stand for all
+// points, and their neighbours for a random number of the same mean (Poisson): E[1 / (1 + N)] = (1 - exp(-m))
+// / m.
+template <class In>
+void Profile::count_crowds(const SizeClass& c, double near, const In& in, double points_per_lookup) {
+    const std::size_t size = std::min(c.sample.size(), crowd_samples / classes_.size() + 1);
+    const double each = c.count * points_per_lookup / static_cast<double>(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        Lookup corner = c.sample[i];
+        for (int a = 0; a < 3; ++a) corner.hi[a] = corner.lo[a];
+        PointsMet met(std::ldexp(1.0, c.exponent));
+        for_points_around(corner, near, in, random_,
+                          [&](std::uint32_t, const Distances& d, double w) { met.add(d.along, w); });
+        met.finish();
+        double size_at = first_size_;
+        for (double& occupied : occupied_) {
+            const double others = std::max(met.at(size_at) - 1, 0.0);
+            occupied += each * (others > 1e-9 ? -std::expm1(-others) / others : 1);
+            size_at *= size_ratio_;
+        }
     }
 }
 
@@ -232,14 +267,21 @@ double Profile::candidates() const noexcept {
     return sum;
 }
 
-// Points thrown at random into the small cells that a counted one is cut into; larger ones are full.
-double Profile::occupied(double cell_size) const noexcept {
-    const double parts = std::pow(bin_size_ / cell_size, 3);
+double Profile::found(double cell_size) const noexcept {
     double sum = 0;
-    for (std::size_t points = 1; points < crowds_.size(); ++points)
-        sum += crowds_[points] *
-               (parts > 1 ? parts * -std::expm1(-static_cast<double>(points) / parts) : parts);
-    return std::max(sum, 1.0);
+    for (const SizeClass& c : classes_) {
+        const double cells = c.cells.at(cell_size), read = c.passed.at(cell_size) + c.tested.at(cell_size);
+        sum += cells * -std::expm1(-read / cells);
+    }
+    return sum;
+}
+
+double Profile::occupied(double cell_size) const noexcept {
+    const double place = std::clamp(std::log(cell_size / first_size_) / std::log(size_ratio_), 0.0,
+                                    static_cast<double>(occupied_sizes - 1));
+    const auto below = std::min(static_cast<std::size_t>(place), occupied_sizes - 2);
+    const double part = place - static_cast<double>(below);
+    return std::max(occupied_[below] * (1 - part) + occupied_[below + 1] * part, 1.0);
 }
 
 bool Profile::sides(double& smallest, double& largest) const noexcept {

@@ -2,8 +2,8 @@
 // the cell size.
 //
 // A box of sides w, w', w'' laid at random into a lattice of cell size d meets (w/d + 1)(w'/d + 1)(w''/d + 1)
-// cells in the mean, exactly; and a point beside it, at distances e, e', e'' from it along the axes, lies in one
-// of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), and with 0 as soon as one factor is not
+// cells in the mean, exactly; and a point beside it, at distances e, e', e'' from it along the axes, lies in
+// one of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), and with 0 as soon as one factor is not
 // positive. Both are polynomials in 1/d, so that four sums over all boxes give the cells at any d; and four
 // sums for each class of the largest e give the points. No mean size is taken anywhere: graded meshes,
 // slivers and bodies of unlike resolution come out as they are.
@@ -39,16 +39,17 @@ inline Moments rows_met(const double (&w)[3]) noexcept { return {{1, w[1] + w[2]
 // Points met, from their distances to the box along the axes.
 class PointsMet {
 public:
-    // Sums of points by the largest of their distances, in classes of a sixteenth of an octave from `scale` / 256
-    // on, where `scale` is a length of the size of the boxes; points further away than 4096 times that do not
-    // count.
+    // Sums of points by the largest of their distances, in classes of a sixteenth of an octave from `scale` /
+    // 256 on, where `scale` is a length of the size of the boxes; points further away than 4096 times that do
+    // not count.
     explicit PointsMet(double scale) noexcept : inverse_least_(256 / scale) {}
 
     void add(const double (&distance)[3], double weight) noexcept;
     // Once, after the last add(): makes of each class the sum of all up to it.
     void finish() noexcept;
 
-    // Of points as far away as the cell size itself next to none are met: their class counts with those beyond.
+    // Of points as far away as the cell size itself next to none are met: their class counts with those
+    // beyond.
     double at(double cell_size) const noexcept {
         const std::size_t c = class_of(cell_size);
         return c == 0 ? sums_[0].sum[0] : sums_[std::min(c, classes) - 1].at(cell_size);
@@ -64,11 +65,11 @@ private:
     std::array<Moments, classes> sums_{};
 };
 
-// Something that is looked up in the lattice: a box, the points that it looks at there, and those of them that it
-// does not test. Points by their index in the scene.
+// Something that is looked up in the lattice: a box, the points that it looks at there, and those of them
+// that it does not test. Points by their index in the scene.
 struct Lookup {
     double lo[3], hi[3];
-    std::uint32_t first_read, last_read;   // [first, last)
+    std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
 };
 
@@ -77,9 +78,9 @@ struct SizeClass {
     SizeClass(int exponent, std::pmr::memory_resource* memory);
 
     int exponent;
-    double count = 0;         // of lookups
+    double count = 0;        // of lookups
     std::uint64_t added = 0; // of calls that gave them
-    Moments cells, rows; // of all lookups of the class together, as the points are
+    Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
     std::pmr::vector<Lookup> sample;
 };
@@ -93,11 +94,11 @@ class Profile {
 public:
     explicit Profile(std::pmr::memory_resource* memory);
 
-    // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample. Sides are
-    // finite.
+    // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample.
+    // Sides are finite.
     void add(const Lookup& lookup, double weight = 1);
-    // Once, when all are there: the points around the samples. `points` are those of the scene, their ids what
-    // the lookups mean by an index; all are finite.
+    // Once, when all are there: the points around the samples. `points` are those of the scene, their ids
+    // what the lookups mean by an index; all are finite.
     void count_points(const fast::Points& points, const SampleSizes& sizes);
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
@@ -106,8 +107,9 @@ public:
     double rows(double cell_size) const noexcept;
     double read(double cell_size) const noexcept;
     double tested(double cell_size) const noexcept;
-    double candidates() const noexcept; // tested points that are in the boxes themselves
-    double occupied(double cell_size) const noexcept; // cells with a point in them, roughly
+    double candidates() const noexcept;               // tested points that are in the boxes themselves
+    double found(double cell_size) const noexcept;    // of the cells: those with a point in them, about
+    double occupied(double cell_size) const noexcept; // cells with a point in them, in all the world, about
     // Sides of lookups that have any, to within a factor of two; false: none has.
     bool sides(double& smallest, double& largest) const noexcept;
 
@@ -115,12 +117,16 @@ private:
     static constexpr int exponents = 512;
 
     SizeClass& class_of(double side);
+    template <class In>
+    void count_crowds(const SizeClass& c, double near, const In& in, double points_per_lookup);
 
-    std::pmr::vector<SizeClass> classes_; // those that occur
+    std::pmr::vector<SizeClass> classes_;       // those that occur
     std::array<std::int16_t, exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0;
-    double bin_size_ = 1;                     // edge of the cells that the points were counted in
-    std::array<std::uint32_t, 64> crowds_{}; // of these, how many hold so many points; the last one, or more
+    // Of cells with a point, for cell sizes that are even in the logarithm.
+    static constexpr std::size_t occupied_sizes = 64;
+    double first_size_ = 1, size_ratio_ = 2;
+    std::array<double, occupied_sizes> occupied_{};
 };
 
 } // namespace vox

@@ -9,8 +9,8 @@ namespace vox {
 
 namespace {
 
-// Tetrahedra of one body: so many of them, one from each of as many equal parts, at a place in it that goes round
-// by the golden ratio (Weyl), so that no pattern in their order shows.
+// Tetrahedra of one body: so many of them, one from each of as many equal parts, at a place in it that goes
+// round by the golden ratio (Weyl), so that no pattern in their order shows.
 template <class Visit>
 void for_some(std::size_t count, std::size_t wanted, Visit&& visit) {
     if (count <= wanted) {
@@ -38,7 +38,8 @@ bool has_volume(const std::array<Corner, 4>& p) {
     double e[3][3];
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t a = 0; a < 3; ++a) e[i][a] = p[i + 1].c[a] - p[0].c[a];
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) + e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+               e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
                e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) !=
            0;
 }
@@ -91,7 +92,8 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
             }
             if (!has_volume(corner)) return;
             for (int a = 0; a < 3; ++a) {
-                const auto [lo, hi] = std::minmax({corner[0].c[a], corner[1].c[a], corner[2].c[a], corner[3].c[a]});
+                const auto [lo, hi] =
+                    std::minmax({corner[0].c[a], corner[1].c[a], corner[2].c[a], corner[3].c[a]});
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
@@ -160,7 +162,7 @@ CostTerms ReferenceCost::terms(double cell_size) const {
     terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
     terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
     terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
-    terms.add("test a tet", profile_.candidates(), weights_.reference_test_tet);
+    terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
     return terms;
 }

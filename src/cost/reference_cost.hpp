@@ -5,7 +5,7 @@
 //        + c_visit sum over tets of the cells their boxes meet
 //        + c_read  sum over tets of the vertices in these cells
 //        + c_box   those of them that are another body's, or any where the body collides with itself
-//        + c_tet   those of them that are in the box: independent of d
+//        + c_tet   those of them that are in the box, corners of the tet itself included: independent of d
 //        + c_scan  occupied cells gone through, for boxes that meet more cells than are occupied
 //        + c_clear buckets of the table, or cells of dense storage
 #pragma once
@@ -41,8 +41,8 @@ public:
 
     const Profile& profile() const noexcept { return profile_; }
     double dense_cells(double cell_size) const noexcept;
-    // The smallest cell size in the range whose cells dense storage takes, within the bytes (0: any number); 0 where
-    // all of the range is fine.
+    // The smallest cell size in the range whose cells dense storage takes, within the bytes (0: any number);
+    // 0 where all of the range is fine.
     double least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept;
 
     // The cost apart: of one grid with this cell size that only these classes look into, vertices and buckets

@@ -16,7 +16,9 @@ struct CostTerm {
 
 class CostTerms {
 public:
-    void add(const char* name, double count, double weight) noexcept { terms_[count_++] = {name, count, weight}; }
+    void add(const char* name, double count, double weight) noexcept {
+        terms_[count_++] = {name, count, weight};
+    }
 
     double cost() const noexcept {
         double sum = 0;

@@ -5,7 +5,8 @@
 
 namespace vox {
 
-// Measured once on the machine at hand, rounded: what is used until vox_cost_calibrate or vox_cost_set_weights.
+// Measured once on the machine at hand, rounded: what is used until vox_cost_calibrate or
+// vox_cost_set_weights.
 vox_cost_weights shipped_weights() noexcept;
 
 // Those in use. Any thread.

@@ -1,0 +1,325 @@
+// The cost models' counts against those of the engines themselves, in scenes of every kind; and the search
+// for the least cost, alone.
+#include "cost/adaptive.hpp"
+#include "cost/fast_cost.hpp"
+#include "cost/levels.hpp"
+#include "cost/minimise.hpp"
+#include "cost/reference_cost.hpp"
+#include "cost/weights.hpp"
+#include "fast.hpp"
+#include "fast_scenes.hpp"
+#include "reference.hpp"
+#include "suite.h"
+
+#include <cmath>
+#include <memory_resource>
+#include <string>
+
+using namespace vox;
+
+namespace {
+
+std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
+
+// ---- scenes ---------------------------------------------------------------------------------------
+
+Mesh jittered_ball(double tets, double scale, double x, double y, double z, std::uint64_t seed) {
+    Random random(seed);
+    Mesh mesh = ball(tets);
+    jitter(mesh, 0.12, random);
+    move(mesh, scale, x, y, z);
+    return mesh;
+}
+
+// Finer towards the centre, sides about 1 : 8.
+Mesh graded_ball(double tets, double x) {
+    double radius = 0;
+    Random random(3);
+    Mesh mesh = ball(tets, &radius);
+    jitter(mesh, 0.12, random);
+    for (Vec3f& p : mesh.positions) {
+        const double factor = std::sqrt(double(p.x) * p.x + double(p.y) * p.y + double(p.z) * p.z) / radius;
+        p = {float(p.x * factor + x), float(p.y * factor), float(p.z * factor)};
+    }
+    return mesh;
+}
+
+struct Named {
+    const char* name;
+    void (*fill)(Scene& scene);
+    double unit; // an edge, about
+};
+
+constexpr double radius_of(double tets) { return std::cbrt(tets / 5 * 3 / (4 * 3.14159265358979)); }
+
+const Named scenes[] = {
+    {"pair",
+     [](Scene& s) {
+         s.add(jittered_ball(12000, 1, 0.3, 0.1, 0.2, 1));
+         s.add(jittered_ball(12000, 1, 0.3 + 1.8 * radius_of(12000), 0.4, 0.7, 2));
+     },
+     1.2},
+    {"self", [](Scene& s) { s.add(jittered_ball(20000, 1, 0.3, 0.1, 0.2, 1), true); }, 1.2},
+    {"pile",
+     [](Scene& s) {
+         const double r = radius_of(1500);
+         for (int i = 0; i < 12; ++i)
+             s.add(jittered_ball(1500, 1, 0.3 + 1.8 * r * (i % 3), 0.2 + 1.7 * r * (i / 3 % 2),
+                                 0.4 + 1.9 * r * (i / 6), std::uint64_t(i)));
+     },
+     1.2},
+    {"deep",
+     [](Scene& s) {
+         s.add(jittered_ball(10000, 1, 0.3, 0.1, 0.2, 1));
+         s.add(jittered_ball(10000, 1, 0.3 + 0.5 * radius_of(10000), 0.4, 0.7, 2));
+     },
+     1.2},
+    {"graded",
+     [](Scene& s) {
+         s.add(graded_ball(10000, 0));
+         s.add(graded_ball(10000, 1.5 * radius_of(10000)));
+     },
+     1.2},
+    {"unlike 1:10",
+     [](Scene& s) {
+         const double r = radius_of(6000);
+         s.add(jittered_ball(6000, 1, 0.3, 0.1, 0.2, 1));
+         s.add(jittered_ball(6000, 0.1, 0.3 + r - 0.05 * r, 0.17, 0.26, 2));
+     },
+     0.7},
+};
+
+void ck_near(const Named& scene, double size, const char* what, double predicted, double counted,
+             double tolerance) {
+    ck_assert_msg(std::abs(predicted - counted) <= tolerance * counted,
+                  "%s, cell size %g: %s %.0f, counted %.0f", scene.name, size, what, predicted, counted);
+}
+
+// ---- the reference engine -------------------------------------------------------------------------
+
+// The model counts in the mean over how the lattice lies: where a small dense body meets few cells, that is
+// what it can tell. So is what it is compared with, over a few places.
+START_TEST(reference_counts) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const Profile& counts = cost.profile();
+    Reference engine(heap);
+    for (const double size : {0.7, 1.0, 1.5, 2.2}) {
+        ReferenceSettings settings;
+        settings.cell_size = size * named.unit;
+        double cells = 0, read = 0, occupied = 0;
+        constexpr int places = 9;
+        for (int place = 0; place < places; ++place) {
+            std::pmr::vector<Hit> hits(heap);
+            vox_counters counters{};
+            vox_profile profile{};
+            engine.detect(scene.bodies(), settings, hits, counters, profile);
+            cells += double(counters.visited_cells) / places;
+            read += double(counters.visited_entries) / places;
+            occupied += double(counters.cells) / places;
+            for (Mesh& mesh : scene.meshes())
+                move(mesh, 1, 0.382 * settings.cell_size, 0.276 * settings.cell_size,
+                     0.618 * settings.cell_size);
+        }
+        ck_near(named, size, "cells", counts.cells(settings.cell_size), cells, 0.1);
+        ck_near(named, size, "vertices read", counts.read(settings.cell_size), read, 0.1);
+        ck_near(named, size, "occupied cells", counts.occupied(settings.cell_size), occupied, 0.35);
+    }
+}
+END_TEST
+
+// The quick look agrees with the thorough one about where the minimum is: both lose next to nothing by it.
+START_TEST(reference_quick_look) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    std::uint64_t tets = 0;
+    for (const Body& body : scene.bodies()) tets += body.tets.size();
+    const ReferenceCost all(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceCost some(scene.bodies(), VOX_STORAGE_HASHED, quick(tets), shipped_weights(), heap);
+    CellSizeRange range{};
+    ck_assert(all.range(range.min, range.max));
+    const CostMinimum best = minimise([&](double d) { return all(d); }, range);
+    const CostMinimum found = minimise([&](double d) { return some(d); }, range);
+    ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
+                  named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
+}
+END_TEST
+
+// ---- the fast engine ------------------------------------------------------------------------------
+
+// Cells one size after the other; the vertices in them all sizes together, since how many lie in few cells is
+// a matter of luck.
+START_TEST(fast_counts) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    std::vector<const fast::Tiles*> tiles;
+    for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
+    const FastCost cost(scene.bodies(), tiles, thorough, shipped_weights(), heap);
+    Fast engine(heap);
+    double predicted = 0, read = 0;
+    for (const double size : {1.0, 1.4, 2.0, 2.8}) {
+        std::pmr::vector<Hit> hits(heap);
+        vox_counters counters{};
+        vox_profile profile{};
+        FastSettings settings;
+        settings.cell_size = size * named.unit;
+        settings.winding = false; // the model has it that bodies which collide with themselves are looked at
+        engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
+        const FastCost::Counts counts = cost.counts(settings.cell_size, FastCost::Lie::as_it_is);
+        ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
+        ck_near(named, size, "cells", counts.visited_cells, double(counters.visited_cells), 0.1);
+        ck_near(named, size, "vertices read", counts.read, double(counters.visited_entries), 0.25);
+        predicted += counts.read;
+        read += double(counters.visited_entries);
+    }
+    ck_near(named, 0, "vertices read at all sizes", predicted, read, 0.1);
+}
+END_TEST
+
+// A window's cell size: no tiles, none; more vertices in the same box, smaller cells; any unit.
+START_TEST(window_sizes) {
+    const vox_cost_weights weights = shipped_weights();
+    fast::TileSides sides;
+    const fast::Box box{{0, 0, 0, 0}, {30, 30, 30, 0}};
+    ck_assert_double_eq(window_cell_size(sides, 1000, box, weights), 0);
+    for (int i = 0; i < 500; ++i) sides.add(fast::Box{{0, 0, 0, 0}, {3, 3, 3, 0}});
+    const double few = window_cell_size(sides, 1000, box, weights),
+                 many = window_cell_size(sides, 1000000, box, weights);
+    ck_assert_double_gt(few, many);
+    fast::TileSides large;
+    for (int i = 0; i < 500; ++i) large.add(fast::Box{{0, 0, 0, 0}, {3072, 3072, 3072, 0}});
+    const fast::Box large_box{{0, 0, 0, 0}, {30720, 30720, 30720, 0}};
+    ck_assert_double_eq_tol(window_cell_size(large, 1000, large_box, weights) / 1024, few, 1e-9);
+}
+END_TEST
+
+// ---- several sizes --------------------------------------------------------------------------------
+
+// Two bodies of unlike resolution want two sizes; bodies alike want one.
+START_TEST(levels_where_they_pay) {
+    Scene alike, unlike;
+    scenes[0].fill(alike);
+    alike.prepare();
+    const ReferenceCost one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    ck_assert_uint_eq(choose_levels(one).count, 1);
+
+    scenes[5].fill(unlike);
+    unlike.prepare();
+    const ReferenceCost cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const Levels levels = choose_levels(cost);
+    CellSizeRange range{};
+    ck_assert(cost.range(range.min, range.max));
+    const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
+    ck_assert_uint_ge(levels.count, 2);
+    ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
+    ck_assert_double_gt(levels.cell_size[levels.count - 1], 3 * levels.cell_size[0]);
+}
+END_TEST
+
+// ---- a cell size that follows ---------------------------------------------------------------------
+
+double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
+    std::pmr::vector<Hit> hits(heap);
+    vox_counters counters{};
+    vox_profile profile{};
+    ReferenceSettings settings;
+    settings.cell_size = adaptive.cell_size(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
+    engine.detect(scene.bodies(), settings, hits, counters, profile);
+    for (const Body& body : scene.bodies()) {
+        counters.vertices += body.vertex_count;
+        counters.tets += body.tets.size();
+    }
+    adaptive.observe(counters);
+    return settings.cell_size;
+}
+
+// How much the model says a size loses for the scene as it is.
+double loss(Scene& scene, double cell_size) {
+    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    CellSizeRange range{};
+    ck_assert(cost.range(range.min, range.max));
+    return cost(cell_size) / minimise([&](double d) { return cost(d); }, range).cost - 1;
+}
+
+// A body inflated tenfold in two hundred steps: the size goes with it, never far off; at rest it stays.
+START_TEST(adaptive_follows) {
+    Scene scene;
+    scenes[0].fill(scene);
+    scene.prepare();
+    Reference engine(heap);
+    AdaptiveCellSize adaptive;
+    const double first = step(engine, scene, adaptive);
+    for (int i = 0; i < 20; ++i) ck_assert_double_eq(step(engine, scene, adaptive), first);
+    ck_assert_uint_eq(adaptive.changes(), 0);
+    double size = first, worst = 0;
+    for (int i = 0; i < 200; ++i) {
+        for (Mesh& mesh : scene.meshes()) move(mesh, std::pow(10, 1.0 / 200), 0, 0, 0);
+        size = step(engine, scene, adaptive);
+        if (i % 10 == 0) worst = std::max(worst, loss(scene, size));
+    }
+    ck_assert_double_eq_tol(size / first, 10, 1.5);
+    ck_assert_double_lt(worst, 0.1);
+    ck_assert_uint_ge(adaptive.changes(), 5);
+    ck_assert_uint_le(adaptive.changes(), 60); // not at every step
+}
+END_TEST
+
+// ---- the search -----------------------------------------------------------------------------------
+
+START_TEST(minimum_of_a_power_law) {
+    // a / d^3 + b d^3 is least at (a / b)^(1/6).
+    for (const double a : {1e-9, 1.0, 1e30}) {
+        const auto cost = [&](double d) { return a / (d * d * d) + d * d * d; };
+        const double expected = std::pow(a, 1.0 / 6);
+        const CellSizeRange range{expected * 1e-4, expected * 1e5};
+        const CostMinimum found = minimise(cost, range);
+        ck_assert_double_eq_tol(found.cell_size, expected, 1e-6 * expected);
+        const double limit = 1.05 * found.cost;
+        const Zone zone = zone_around(found, limit, cost, range);
+        ck_assert_double_lt(zone.min, expected);
+        ck_assert_double_gt(zone.max, expected);
+        ck_assert_double_eq_tol(cost(zone.min), limit, 1e-9 * limit);
+        ck_assert_double_eq_tol(cost(zone.max), limit, 1e-9 * limit);
+    }
+}
+END_TEST
+
+START_TEST(minimum_at_an_end_and_where_nothing_is_finite) {
+    const CellSizeRange range{0.5, 8};
+    ck_assert_double_eq(minimise([](double d) { return d; }, range).cell_size, 0.5);
+    ck_assert_double_eq(minimise([](double d) { return 1 / d; }, range).cell_size, 8);
+    ck_assert_double_eq(minimise([](double d) { return d; }, {3, 3}).cell_size, 3);
+    const CostMinimum none = minimise([](double) { return std::nan(""); }, range);
+    ck_assert(std::isinf(none.cost));
+    // Not finite on a part of the range: the rest counts.
+    const CostMinimum part =
+        minimise([](double d) { return d < 2 ? HUGE_VAL : (d - 4) * (d - 4) + 1; }, range);
+    ck_assert_double_eq_tol(part.cell_size, 4, 1e-3);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("cost");
+    TCase* tests = tcase_create("cost");
+    tcase_set_timeout(tests, 0);
+    const int scene_count = sizeof scenes / sizeof scenes[0];
+    tcase_add_loop_test(tests, reference_counts, 0, scene_count);
+    tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
+    tcase_add_loop_test(tests, fast_counts, 0, scene_count);
+    tcase_add_test(tests, window_sizes);
+    tcase_add_test(tests, levels_where_they_pay);
+    tcase_add_test(tests, adaptive_follows);
+    tcase_add_test(tests, minimum_of_a_power_law);
+    tcase_add_test(tests, minimum_at_an_end_and_where_nothing_is_finite);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
