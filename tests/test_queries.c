@@ -29,7 +29,9 @@ static world new_world(uint64_t* random, int coarse) {
     for (int b = 0; b < w.count; ++b) {
         float at[3];
         for (int axis = 0; axis < 3; ++axis) at[axis] = 0.5f * (float)random_below(random, 6);
-        w.bodies[b] = make_box(1 + random_below(random, 3), coarse ? 1 : random_float(random, 0.5f, 1), at[0], at[1], at[2]);
+        const uint32_t cubes = 1 + random_below(random, 3);
+        const float edge = coarse ? 1 : random_float(random, 0.5f, 1);
+        w.bodies[b] = make_box(cubes, edge, at[0], at[1], at[2]);
         for (uint32_t i = 0; i < 3 * w.bodies[b].vertex_count; ++i) {
             const float moved = random_float(random, -0.25f, 0.25f);
             w.bodies[b].positions[i] += coarse ? 0.25f * roundf(4 * moved) * (float)(random_below(random, 4) == 0) : moved;
