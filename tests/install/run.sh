@@ -5,7 +5,7 @@ build=$1 source=$2 cmake=$3 generator=$4 cc=$5 threads=$6
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
-cp "$source/consumer.c" "$source/CMakeLists.txt" "$scratch"
+cp "$source/consumer.c" "$source/consumer_sim.c" "$source/CMakeLists.txt" "$scratch"
 
 "$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -15,6 +15,12 @@ PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name vox.pc)")
 export PKG_CONFIG_PATH
 "$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
+
+if pkg-config --exists vox_sim; then
+    "$scratch/build/consumer_sim"
+    "$cc" -std=c99 "$scratch/consumer_sim.c" $(pkg-config --cflags --libs vox_sim) -o "$scratch/consumer_sim"
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_sim"
+fi
 
 # Without oneTBB the core needs the C and C++ runtime and nothing else.
 if [ "$threads" = lean ] && command -v readelf >/dev/null; then
