@@ -26,6 +26,7 @@ void place(Body& body, const Placement& placement) {
             check(vox_fail(VOX_ERROR_NON_FINITE, (body.name + ": " + words).c_str()));
         }
         body.positions[i] = static_cast<float>(moved);
+        if (placement.keep_doubles) body.exact.push_back(moved);
     }
 }
 
@@ -64,6 +65,10 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
 vox_mesh_desc mesh_desc(const Body& body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     desc.positions = body.positions.data();
+    if (!body.exact.empty()) {
+        desc.positions = body.exact.data();
+        desc.position_format = VOX_FORMAT_DOUBLE3;
+    }
     desc.vertex_count = body.view.vertex_count;
     desc.tets = body.view.tets;
     desc.tet_count = body.view.tet_count;

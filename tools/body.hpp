@@ -20,12 +20,15 @@ struct Body {
     std::unique_ptr<vox_io_mesh, MeshDeleter> mesh;
     vox_io_mesh_view view{};      // arrays of `mesh`
     std::vector<float> positions; // 3 * view.vertex_count
+    std::vector<double> exact;    // the same before they were rounded, to be used instead; or empty
 };
 
-// Where a body stands: each coordinate is read as double, scaled, then offset, and rounded once to float.
+// Where a body stands: each coordinate is read as double, scaled, then offset, and rounded once to float
+// unless doubles are kept.
 struct Placement {
     double scale = 1;
     std::array<double, 3> offset{};
+    bool keep_doubles = false;
 };
 
 // What becomes of a surface: its vertices alone take part, or the tetrahedra it is filled with (lattice cells

@@ -20,6 +20,7 @@ struct Options {
     Fill fill;
     std::vector<double> offset = {0, 0, 0};
     double scale = 1;
+    bool keep_doubles = false;
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
@@ -87,9 +88,11 @@ void run(const Options& options) {
     if (options.b.empty() && !options.self)
         wrong_usage("collide needs a second mesh, or --self for the self-collision of the first");
     std::vector<Body> bodies;
-    bodies.push_back(load_body(options.a, {}, options.fill));
+    bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
     if (!options.b.empty()) {
-        const Placement placement{options.scale, {options.offset[0], options.offset[1], options.offset[2]}};
+        const Placement placement{options.scale,
+                                  {options.offset[0], options.offset[1], options.offset[2]},
+                                  options.keep_doubles};
         bodies.push_back(load_body(options.b, placement, options.fill));
     }
     std::vector<vox_mesh> ids;
@@ -117,6 +120,7 @@ void add_collide(CLI::App& app) {
         ->type_name("FLOAT")
         ->check(finite())
         ->needs(b);
+    command->add_flag("--double", options->keep_doubles, "Positions in double, not rounded to float");
     add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");
     command->add_option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
         ->check(not_negative());

@@ -122,19 +122,27 @@ namespace vox::fast {
 
 void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
                      float* out) {
+    const auto round = VOX_SIMD_DISPATCH(RoundPacked);
+    const double o[3] = {origin.x, origin.y, origin.z};
     out += std::size_t{first} * 3;
     if (positions.doubles && !positions.transform && positions.byte_stride == sizeof(Vec3d) &&
         reinterpret_cast<std::uintptr_t>(positions.data) % alignof(double) == 0) {
         const auto* from = reinterpret_cast<const double*>(positions.data) + std::size_t{first} * 3;
-        const double o[3] = {origin.x, origin.y, origin.z};
-        VOX_SIMD_DISPATCH(RoundPacked)(from, o, std::size_t{last - first} * 3, out);
+        round(from, o, std::size_t{last - first} * 3, out);
         return;
     }
-    for (std::uint32_t v = first; v < last; ++v, out += 3) {
-        const Vec3d p = positions.exact(v);
-        out[0] = nearest_float(p.x, origin.x);
-        out[1] = nearest_float(p.y, origin.y);
-        out[2] = nearest_float(p.z, origin.z);
+    constexpr std::uint32_t chunk = 64;
+    double exact[3 * chunk];
+    for (std::uint32_t v = first; v < last;) {
+        const std::uint32_t count = std::min(chunk, last - v);
+        for (std::uint32_t i = 0; i < count; ++i, ++v) {
+            const Vec3d p = positions.exact(v);
+            exact[3 * i] = p.x;
+            exact[3 * i + 1] = p.y;
+            exact[3 * i + 2] = p.z;
+        }
+        round(exact, o, std::size_t{count} * 3, out);
+        out += std::size_t{count} * 3;
     }
 }
 

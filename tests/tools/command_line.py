@@ -5,6 +5,7 @@ import os
 import re
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 from vox import run, run_json
 
@@ -194,6 +195,30 @@ class CommandLine(unittest.TestCase):
         self.assertLessEqual(found["predicted_cost"], min(s["cost"] for s in found["curve"]) * (1 + 1e-12))
         self.assertIsNone(run_json("suggest", self.two)["rules"]["resolution"])
 
+    def test_suggest_models(self):
+        """Every model: terms that add up to the cost at the minimum, and rules that cost no less."""
+        for model in "paper", "reference", "fast":
+            found = run_json("suggest", self.two, self.one, "--self", "--model", model)
+            self.assertEqual(found["model"], model)
+            cost = found["predicted_cost"]
+            self.assertAlmostEqual(sum(term["cost"] for term in found["terms"]) / cost, 1, 9)
+            self.assertAlmostEqual(sum(term["share"] for term in found["terms"]), 1, 9)
+            for rule, size in found["rules"].items():
+                if size:
+                    self.assertGreaterEqual(found["rule_costs"][rule], cost * (1 - 1e-6))
+            self.assertGreaterEqual(found["uniform_loss"], 0)
+            self.assertIn("What the cost is made of", run("suggest", self.two, "--model", model).stdout.decode())
+        run_json("suggest", self.two, "--model", "reference", "--calibrate")
+
+    def test_suggest_picture(self):
+        path = os.path.join(self.folder.name, "curve.svg")
+        run_json("suggest", self.two, "--svg", path)
+        root = xml.etree.ElementTree.parse(path).getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        points = root.find("{http://www.w3.org/2000/svg}polyline").get("points").split()
+        self.assertEqual(len(points), 64)
+        self.refused(1, "cannot write", "suggest", self.two, "--svg", os.path.join(self.folder.name, "no", "such.svg"))
+
     def test_suggest_solves_the_cubic(self):
         """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
         for size, s_key in (("mean-edge", "mean_edge"), ("mean-longest-edge", "mean_longest_edge"),
@@ -248,6 +273,12 @@ class CommandLine(unittest.TestCase):
         found = run_json("collide", self.one, self.one, "--scale", 0.5, "--offset", 0.1, 0.2, 0.1)
         weights = {c["vertex"]: c["barycentric"] for c in found["contacts"] if c["mesh_a"] == 1}
         self.assertAlmostEqual(weights[1][1], 0.6, 6)
+
+    def test_double_keeps_what_a_float_rounds_away(self):
+        # A's corner (1, 0, 0) is a hair outside B, moved by less than floats near 1 are apart.
+        placed = ["collide", self.one, self.one, "--offset", 1 + 1e-12, 0, 0]
+        self.assertEqual(run_json(*placed)["contact_count"], 2)
+        self.assertEqual(run_json(*placed, "--double")["contact_count"], 0)
 
     def test_negative_and_exponent_offsets(self):
         found = run_json("collide", self.one, self.one, "--offset", "-1e-1", "-.1", -0.1)
