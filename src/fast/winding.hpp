@@ -30,6 +30,17 @@ struct Certificate {
     std::uint32_t first[3] = {}, last[3] = {}; // range of the cells that are not
     bool complete = false;                     // there are none
 
+    // All cells from `lo` to `hi`, as far as a look at them is cheap, are certified.
+    bool holds(const std::uint32_t* lo, const std::uint32_t* hi) const noexcept {
+        constexpr std::uint32_t few = 16;
+        if (std::uint64_t{hi[0] - lo[0] + 1} * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1) > few) return false;
+        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+            for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
+                for (std::uint32_t x = lo[0]; x <= hi[0]; ++x)
+                    if (!certified[(std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0] + x])
+                        return false;
+        return true;
+    }
     bool holds(const float* p) const noexcept {
         return certified[(std::size_t{lattice.cell(p[2], 2)} * lattice.cells[1] + lattice.cell(p[1], 1)) *
                              lattice.cells[0] +
