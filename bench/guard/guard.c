@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
 
     vox_grid* grid = NULL;
     vox_contact_view view = {0};
-    int ok = vox_grid_create(NULL, &grid) == VOX_OK && insert_scene(&s, grid);
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = 0; /* contacts alone */
+    int ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(&s, grid);
     for (int frame = 0; ok && frame < 4; ++frame) {
         pose_scene(&s, frame);
         ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK;

@@ -109,6 +109,7 @@ void SurfaceTree::reserve(std::size_t triangles) {
     order_.reserve(triangles);
     scratch_.reserve(triangles);
     boxes_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
+    slabs_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
 }
 
 void SurfaceTree::build(const Solid& solid) {
@@ -123,6 +124,46 @@ void SurfaceTree::build(const Solid& solid) {
         leaf = joined(leaf, box_of(order_[i].triangle));
     }
     for (std::size_t i = leaves_ - 1; i-- > 0;) boxes_[i] = joined(boxes_[2 * i + 1], boxes_[2 * i + 2]);
+    slabs_.assign(boxes_.size(), {});
+    last_ = order_[0].triangle;
+    middle_ = 0.5 * (boxes_[0].min + boxes_[0].max);
+    size_ = length(boxes_[0].max - boxes_[0].min);
+}
+
+// Whether all triangles of a node are farther from p than `distance`, told by its slab.
+bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distance) {
+    // Only of few triangles: with many, a slab is as thick as their box, and takes long to make.
+    constexpr std::size_t most_leaves = 16;
+    if (most_leaves * (node + 1) < leaves_) return false;
+    std::size_t first = node, leaves = 1; // of the node
+    for (; first < leaves_ - 1; leaves *= 2) first = 2 * first + 1;
+    first = (first - (leaves_ - 1)) * leaf_size;
+    const std::size_t last = std::min(first + leaves * leaf_size, order_.size());
+    Slab& slab = slabs_[node];
+    if (!slab.is_made) {
+        slab.is_made = true;
+        Vec3d areas{0, 0, 0};
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t* v = solid_.topology->triangles[order_[i].triangle].v;
+            const Vec3d a = position_of(solid_.positions, v[0]);
+            const Vec3d area =
+                cross(position_of(solid_.positions, v[1]) - a, position_of(solid_.positions, v[2]) - a);
+            areas = dot(areas, area) < 0 ? areas - area : areas + area; // however they are wound
+        }
+        slab.normal = normalised(areas);
+        slab.low = infinity;
+        slab.high = -infinity;
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t v : solid_.topology->triangles[order_[i].triangle].v) {
+                const double height = dot(slab.normal, position_of(solid_.positions, v) - middle_);
+                slab.low = std::min(slab.low, height);
+                slab.high = std::max(slab.high, height);
+            }
+    }
+    const Vec3d from_middle = p - middle_;
+    const double height = dot(slab.normal, from_middle);
+    const double rounding = 0x1p-48 * (size_ + length(from_middle));
+    return std::max(slab.low - height, height - slab.high) > distance + rounding;
 }
 
 bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
@@ -138,17 +179,31 @@ bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found)
            dot(rest, rest) <= rounding * dot(way, way);
 }
 
-bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) const {
+bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) {
     struct Node {
-        double squared;
+        double squared; // how far its box is, at least
         std::size_t box;
     };
     bool found = false;
-    double best = infinity;
+    double best = infinity, best_distance = infinity;
+    const auto look_at = [&](std::uint32_t triangle) {
+        ++visited;
+        const Closest candidate = closest_point(solid_, triangle, p);
+        if (candidate.squared > best ||
+            (candidate.squared == best && found && candidate.at.triangle >= out.at.triangle))
+            return;
+        if (fold && !accept(p, *fold, candidate)) return;
+        found = true;
+        best = candidate.squared;
+        best_distance = std::sqrt(best);
+        out = candidate;
+    };
+    look_at(last_);
     std::array<Node, 64> stack; // one box waits at each level
     std::size_t waiting = 0;
-    for (Node node{squared_distance(p, boxes_[0]), 0};;) {
-        if (node.squared <= best && node.squared < infinity) {
+    for (Node node{squared_distance(p, boxes_[0]), 0};; node = stack[--waiting]) {
+        while (node.squared <= best && node.squared < infinity &&
+               !is_beyond_slab(node.box, p, best_distance)) {
             const std::size_t child = 2 * node.box + 1;
             if (child < boxes_.size()) {
                 Node near{squared_distance(p, boxes_[child]), child},
@@ -159,21 +214,14 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
                 continue;
             }
             const std::size_t first = (node.box - (leaves_ - 1)) * leaf_size;
-            for (std::size_t i = first; i < std::min(first + leaf_size, order_.size()); ++i) {
-                ++visited;
-                const Closest candidate = closest_point(solid_, order_[i].triangle, p);
-                if (candidate.squared > best ||
-                    (candidate.squared == best && found && candidate.at.triangle > out.at.triangle))
-                    continue;
-                if (fold && !accept(p, *fold, candidate)) continue;
-                found = true;
-                best = candidate.squared;
-                out = candidate;
-            }
+            for (std::size_t i = first; i < std::min(first + leaf_size, order_.size()); ++i)
+                look_at(order_[i].triangle);
+            break;
         }
-        if (waiting == 0) return found;
-        node = stack[--waiting];
+        if (waiting == 0) break;
     }
+    if (found) last_ = out.at.triangle;
+    return found;
 }
 
 } // namespace vox::depth

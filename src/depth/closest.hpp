@@ -29,7 +29,7 @@ struct Fold {
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
-        : order_(memory), scratch_(memory), boxes_(memory) {}
+        : order_(memory), scratch_(memory), boxes_(memory), slabs_(memory) {}
 
     // Room for surfaces of that many triangles.
     void reserve(std::size_t triangles);
@@ -40,11 +40,18 @@ public:
     // The closest point to p, of points equally far that of the lowest triangle. `fold` may be null;
     // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
     // to `visited`.
-    bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) const;
+    bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
 
 private:
     struct Box {
         Vec3d min, max;
+    };
+    // All points between two planes. Where a surface is nearly flat and p far away, a box of many edges'
+    // length says little about how far it is, but this does.
+    struct Slab {
+        bool is_made = false;
+        Vec3d normal{}; // unit, or zero
+        double low = 0, high = 0;
     };
     struct Key {
         std::uint32_t code, triangle;
@@ -54,12 +61,17 @@ private:
     static std::uint32_t leaves_of(std::size_t triangles);
     Box box_of(std::uint32_t triangle) const;
     void sort_along_curve();
+    bool is_beyond_slab(std::size_t node, const Vec3d& p, double distance);
     bool accept(const Vec3d& p, const Fold& fold, const Closest& found) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
-    std::pmr::vector<Box> boxes_; // of a complete binary tree: the children of i are 2i + 1 and 2i + 2
-    std::uint32_t leaves_ = 0;    // the last boxes, each of leaf_size triangles in order_
+    std::pmr::vector<Box> boxes_;  // of a complete binary tree: the children of i are 2i + 1 and 2i + 2
+    std::pmr::vector<Slab> slabs_; // of the same, made where they are asked for
+    std::uint32_t leaves_ = 0;     // the last boxes, each of leaf_size triangles in order_
+    std::uint32_t last_ = 0;       // found: close to the next one, mostly
+    Vec3d middle_{};               // of all, the origin of slabs
+    double size_ = 0;              // of the box of all
 };
 
 } // namespace vox::depth

@@ -311,7 +311,7 @@ START_TEST(closest_of_all_triangles) {
             if (!any) continue;
             ck_assert_msg(found.squared == best.squared, "%g away, expected %g", std::sqrt(found.squared),
                           std::sqrt(best.squared));
-            ck_assert_uint_le(visited, p.topology.triangles.size());
+            ck_assert_uint_le(visited, p.topology.triangles.size() + 1); // one may be looked at twice
         }
     }
 }
