@@ -39,7 +39,8 @@ public:
         vox_grid_desc desc = vox_default_grid_desc();
         desc.engine = engine.engine;
         desc.byte_budget = 0;
-        desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // contacts alone, as the peers find them
+        desc.flags &=
+            ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // contacts alone, as the peers find them
         must(vox_grid_create(&desc, &grid_));
     }
     ~VoxEntrant() override { vox_grid_destroy(grid_); }

@@ -15,7 +15,7 @@ struct Fast::Step {
     std::span<FastMesh* const> prepared;
     const FastSettings& settings;
     std::pmr::vector<Hit>& hits;
-    Vec3d origin{}; // of rounded positions as floats; else zero
+    Vec3d origin{};     // of rounded positions as floats; else zero
     std::mutex mutex{}; // of hits and degenerate_
 
     std::uint32_t worker_count() const noexcept { return settings.workers ? settings.workers->count() : 1; }

@@ -105,8 +105,8 @@ namespace vox::fast {
 
 void Points::reserve(std::size_t most) {
     if (id.size() >= most + padding) return; // the last one: an earlier call may have run out of memory
-    // A little more, so that points that come and go need no new room in every step; and no more than that, as
-    // resize() alone would take.
+    // A little more, so that points that come and go need no new room in every step; and no more than that,
+    // as resize() alone would take.
     const std::size_t size = most + most / 8 + padding;
     const auto grow = [size](auto& list) {
         list.reserve(size);
