@@ -140,6 +140,20 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion) {
         curve.push_back({{"cell_size", number(suggestion.curve[i].cell_size)},
                          {"cost", number(suggestion.curve[i].cost)}});
     json["curve"] = std::move(curve);
+    json["rule_costs"] = rules(suggestion.rule_costs);
+    Json terms = Json::array();
+    for (std::uint32_t i = 0; i < suggestion.term_count; ++i) {
+        const vox_cost_share& term = suggestion.terms[i];
+        terms.push_back({{"name", term.name},
+                         {"count", number(term.count)},
+                         {"cost", number(term.cost)},
+                         {"share", number(term.share)}});
+    }
+    json["terms"] = std::move(terms);
+    json["uniform_loss"] = number(suggestion.uniform_loss);
+    Json levels = Json::array();
+    for (std::uint32_t i = 0; i < suggestion.level_count; ++i) levels.push_back(number(suggestion.levels[i]));
+    json["levels"] = std::move(levels);
 }
 
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,

@@ -1,12 +1,16 @@
 // vox suggest: the cell size for a set of meshes, and why.
 #include "body.hpp"
 #include "commands.hpp"
+#include "curve_svg.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "terminal.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace tool {
 
@@ -16,10 +20,12 @@ struct Options {
     Fill fill;
     std::vector<std::string> files;
     vox_suggest_desc desc = vox_default_suggest_desc();
-    bool json = false;
+    std::string svg; // a file to write; empty: none
+    bool self = false, calibrate = false, json = false;
 };
 
-const Choices<vox_cost_model> models = {{"paper", VOX_COST_MODEL_PAPER}};
+const Choices<vox_cost_model> models = {
+    {"paper", VOX_COST_MODEL_PAPER}, {"reference", VOX_COST_MODEL_REFERENCE}, {"fast", VOX_COST_MODEL_FAST}};
 const Choices<vox_size_reading> size_readings = {{"mean-edge", VOX_SIZE_MEAN_EDGE},
                                                  {"mean-longest-edge", VOX_SIZE_MEAN_LONGEST_EDGE},
                                                  {"mean-box-side", VOX_SIZE_MEAN_BOX_SIDE}};
@@ -27,9 +33,31 @@ const Choices<vox_area_reading> area_readings = {{"unique-facets", VOX_AREA_UNIQ
                                                  {"tet-facets", VOX_AREA_TET_FACETS},
                                                  {"boundary-facets", VOX_AREA_BOUNDARY_FACETS}};
 
-void print_rule(const char* name, double cell_size, double mean_edge, const char* source) {
-    if (cell_size > 0)
-        std::printf("  %-22s %-12.9g %6.2f   %s\n", name, cell_size, cell_size / mean_edge, source);
+void print_rule(const char* name, double cell_size, double cost, const vox_suggestion& found,
+                const char* source) {
+    if (!(cell_size > 0)) return;
+    const double loss = found.predicted_cost > 0 ? 100 * (cost / found.predicted_cost - 1) : 0;
+    std::printf("  %-22s %-12.9g %6.2f %+7.0f %%   %s\n", name, cell_size, cell_size / found.stats.mean_edge,
+                loss, source);
+}
+
+// Every term's part of the cost, largest first.
+void print_terms(const vox_suggestion& found) {
+    std::vector<vox_cost_share> terms(found.terms, found.terms + found.term_count);
+    std::sort(terms.begin(), terms.end(),
+              [](const vox_cost_share& a, const vox_cost_share& b) { return a.cost > b.cost; });
+    std::printf("\nWhat the cost is made of:\n");
+    for (const vox_cost_share& term : terms)
+        if (term.count > 0)
+            std::printf("  %-22s %12.4g times %5.1f %%  %s\n", term.name, term.count, 100 * term.share,
+                        bar(term.share, 30).c_str());
+}
+
+void print_levels(const vox_suggestion& found) {
+    if (found.level_count < 2) return;
+    std::printf("\nTetrahedra of such unlike sizes want %u cell sizes (", found.level_count);
+    for (std::uint32_t i = 0; i < found.level_count; ++i) std::printf(i ? ", %.4g" : "%.4g", found.levels[i]);
+    std::printf("): one alone costs %.0f %% more.\n", 100 * found.uniform_loss);
 }
 
 void print_text(const vox_suggestion& found, std::size_t mesh_count) {
@@ -39,21 +67,36 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
                 found.zone_max);
     std::printf("Predicted cost over cell size, in units of the minimum (logarithmic in cell size):\n%s\n",
                 cost_curve(found).c_str());
-    std::printf("  %-22s %-12s %6s\n", "rule", "cell size", "edges");
+    std::printf("  %-22s %-12s %6s %9s\n", "rule", "cell size", "edges", "cost");
     const vox_cell_size_rules& rules = found.rules;
-    print_rule("this suggestion", found.cell_size, mean_edge, "least predicted cost");
-    print_rule("mean edge", rules.mean_edge, mean_edge, "Teschner et al. 2003");
-    print_rule("mean edge, multiple", rules.mean_edge_multiple, mean_edge, "Gregory et al. 2000");
-    print_rule("512 cells an object", rules.object_512, mean_edge, "Garcia-Alonso et al. 1994");
-    print_rule("resolution", rules.resolution, mean_edge, "McNeely et al. 1999");
-    print_rule("mean volume", rules.mean_volume, mean_edge, "cube root of the mean tetrahedron volume");
-    print_rule("median box side", rules.median_box_side, mean_edge, "IPC Toolkit");
+    const vox_cell_size_rules& costs = found.rule_costs;
+    print_rule("this suggestion", found.cell_size, found.predicted_cost, found, "least predicted cost");
+    print_rule("mean edge", rules.mean_edge, costs.mean_edge, found, "Teschner et al. 2003");
+    print_rule("mean edge, multiple", rules.mean_edge_multiple, costs.mean_edge_multiple, found,
+               "Gregory et al. 2000");
+    print_rule("512 cells an object", rules.object_512, costs.object_512, found, "Garcia-Alonso et al. 1994");
+    print_rule("resolution", rules.resolution, costs.resolution, found, "McNeely et al. 1999");
+    print_rule("mean volume", rules.mean_volume, costs.mean_volume, found,
+               "cube root of the mean tetrahedron volume");
+    print_rule("median box side", rules.median_box_side, costs.median_box_side, found, "IPC Toolkit");
+    print_terms(found);
+    print_levels(found);
     std::printf("\n%zu %s, %llu vertices, %llu tetrahedra, mean edge %.9g, mean facet area %.9g.\n",
                 mesh_count, mesh_count == 1 ? "mesh" : "meshes",
                 static_cast<unsigned long long>(found.stats.vertices),
                 static_cast<unsigned long long>(found.stats.tets), mean_edge, found.stats.mean_facet_area);
-    std::printf("%.4g cells along an edge of the world; predicted cost %.4g cell visits a tetrahedron.\n",
-                found.cells_per_axis, found.predicted_cost);
+    std::printf("%.4g cells along an edge of the world; predicted cost ", found.cells_per_axis);
+    if (found.model == VOX_COST_MODEL_PAPER)
+        std::printf("%.4g cell visits a tetrahedron.\n", found.predicted_cost);
+    else
+        std::printf("%.4g ms a step.\n", found.predicted_cost * 1e-6);
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const bool closed = file && std::fclose(file) == 0;
+    if (!written || !closed) throw Failure("cannot write " + path + ": " + std::strerror(errno));
 }
 
 void run(const Options& options) {
@@ -61,9 +104,13 @@ void run(const Options& options) {
     std::vector<vox_mesh_desc> meshes;
     for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
+    if (options.self)
+        for (vox_mesh_desc& mesh : meshes) mesh.flags |= VOX_MESH_SELF_COLLISION;
+    if (options.calibrate) check(vox_cost_calibrate(nullptr));
     vox_suggestion found{};
     found.struct_size = sizeof found;
     check(vox_suggest_cell_size(&options.desc, meshes.data(), meshes.size(), &found));
+    if (!options.svg.empty()) write_file(options.svg, curve_svg(found));
     if (!options.json) return print_text(found, meshes.size());
     Json json;
     add_suggestion(json, found);
@@ -99,6 +146,10 @@ void add_suggest(CLI::App& app) {
         ->check(positive());
     command->add_option("--resolution", desc.resolution, "Cell size of the rule 'resolution'; 0: none")
         ->check(not_negative());
+    command->add_flag("--self", options->self, "The bodies collide with themselves, too");
+    command->add_flag("--calibrate", options->calibrate,
+                      "Measure what work costs on this machine first, for the models of the engines");
+    command->add_option("--svg", options->svg, "Write the cost curve as a picture to this file");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
 }

@@ -140,7 +140,6 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
     vox_counters counters{};
     vox_profile profile{};
     std::vector<Timing> timings;
-    double bin_ns = 0, vertices = 0;
     for (const bool self : {false, true}) {
         for (Body& body : scene.bodies) body.self_collision = self;
         const ReferenceCost cost(scene.bodies, VOX_STORAGE_HASHED, quick(0), weights, Scene::memory());
@@ -151,29 +150,31 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 hits.clear();
                 engine.detect(scene.bodies, settings, hits, counters, profile);
             });
+            // What does not depend on the cell size is taken together.
             const double tets =
                 static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
-            const auto bin = static_cast<double>(profile.bin_ns);
-            bin_ns += bin;
-            vertices += static_cast<double>(counters.entries);
+            const auto vertices = static_cast<double>(counters.entries);
+            const double fixed =
+                vertices * (weights.reference_classify_vertex + 2 * weights.reference_clear_bucket) +
+                tets * weights.reference_prepare_tet +
+                cost.profile().candidates() * weights.reference_test_tet;
             timings.push_back(
-                {time - bin,
-                 {tets, static_cast<double>(counters.visited_cells),
+                {time,
+                 {fixed, static_cast<double>(counters.visited_cells),
                   static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
         }
     }
     const std::array<double, unknowns> x =
-        fit(timings, {weights.reference_prepare_tet, weights.reference_visit_cell,
-                      weights.reference_read_vertex, weights.reference_test_box});
-    const double speed = x[1] / weights.reference_visit_cell;
-    weights.reference_prepare_tet = x[0];
+        fit(timings,
+            {1, weights.reference_visit_cell, weights.reference_read_vertex, weights.reference_test_box});
+    weights.reference_classify_vertex *= x[0];
+    weights.reference_prepare_tet *= x[0];
+    weights.reference_test_tet *= x[0];
+    weights.reference_clear_bucket *= x[0];
+    weights.reference_scan_cell *= x[1] / weights.reference_visit_cell;
     weights.reference_visit_cell = x[1];
     weights.reference_read_vertex = x[2];
     weights.reference_test_box = x[3];
-    weights.reference_classify_vertex = bin_ns / vertices;
-    weights.reference_scan_cell *= speed;
-    weights.reference_test_tet *= speed;
-    weights.reference_clear_bucket *= speed;
 }
 
 void measure_fast(Scene& scene, vox_cost_weights& weights) {
@@ -194,7 +195,6 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
             hits.clear();
             engine.detect(scene.bodies, prepared, settings, hits, counters, profile);
         });
-        // What does not depend on the cell size is taken together.
         const FastCost::Counts c = cost.counts(cell_size, FastCost::Lie::as_it_is);
         const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +
                              c.tested * weights.fast_test_vertex;

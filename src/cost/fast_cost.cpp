@@ -1,11 +1,9 @@
 #include "fast_cost.hpp"
 
 #include "../fast/pairs.hpp"
-#include "minimise.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vox {
 
@@ -272,44 +270,6 @@ CostTerms FastCost::terms(double cell_size, Lie lie) const {
     terms.add("read a vertex", c.read, weights_.fast_read_vertex);
     terms.add("test a vertex", c.tested, weights_.fast_test_vertex);
     return terms;
-}
-
-double window_cell_size(const fast::TileSides& sides, std::uint32_t points, const Box& box,
-                        const vox_cost_weights& weights) {
-    const double side = sides.mean();
-    if (!(side > 0)) return 0;
-    const Sides extent = sides_of(box);
-    const Moments window = cells_met(extent.w);
-    const double density =
-        points / std::max(window.at(side) * side * side * side, std::numeric_limits<double>::min());
-    const double most = static_cast<double>(most_cells(points));
-    const auto cost = [&](double x) { // x = cell size / side
-        const double rows = (1 / x + 1) * (1 / x + 1), reach = side * (1 + x);
-        return sides.count * (weights.fast_visit_row * rows +
-                              weights.fast_read_vertex * density * reach * reach * reach) +
-               weights.fast_clear_cell * std::min(window.at(x * side), most);
-    };
-    // One minimum, flat: a golden-section search to a few per cent is enough.
-    double low = std::log(0.05), high = std::log(4.0);
-    const double golden = 0.6180339887498949;
-    double left = high - golden * (high - low), right = low + golden * (high - low);
-    double at_left = cost(std::exp(left)), at_right = cost(std::exp(right));
-    while (high - low > 0.05) {
-        if (at_left <= at_right) {
-            high = right;
-            right = left;
-            at_right = at_left;
-            left = high - golden * (high - low);
-            at_left = cost(std::exp(left));
-        } else {
-            low = left;
-            left = right;
-            at_left = at_right;
-            right = low + golden * (high - low);
-            at_right = cost(std::exp(right));
-        }
-    }
-    return side * std::exp((low + high) / 2);
 }
 
 } // namespace vox

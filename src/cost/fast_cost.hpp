@@ -16,7 +16,6 @@
 #include "profile.hpp"
 #include "terms.hpp"
 
-#include "../fast/tile_sides.hpp"
 #include "../fast/tiles.hpp"
 #include "../scene.hpp"
 
@@ -79,11 +78,5 @@ private:
     std::pmr::vector<Pool> pools_;
     vox_cost_weights weights_;
 };
-
-// The cell size for one window of `points` vertices in `box`, from the tiles that will look into it, by the
-// terms above for tiles and vertices spread evenly: what the engine calls for each of its windows, in well
-// under a microsecond. 0 where no tile has a size.
-double window_cell_size(const fast::TileSides& sides, std::uint32_t points, const fast::Box& box,
-                        const vox_cost_weights& weights);
 
 } // namespace vox

@@ -127,6 +127,18 @@ void PointsMet::add(const double (&e)[3], double weight) noexcept {
     m.sum[3] -= weight * (e[0] * e[1] * e[2]);
 }
 
+// Of points about as far away as the cell size, next to none are met; their class comes in little by little, so that
+// the sum is continuous.
+double PointsMet::at(double cell_size) const noexcept {
+    const std::size_t c = class_of(cell_size);
+    if (c == 0) return sums_[0].sum[0];
+    if (c >= classes) return sums_[classes - 1].at(cell_size);
+    const double ratio = cell_size * inverse_least_, octave = std::exp2(std::floor(std::log2(ratio)));
+    const double place = (ratio / octave - 1) * steps;
+    const double part = place - std::floor(place), below = sums_[c - 1].at(cell_size);
+    return below + part * (sums_[c].at(cell_size) - below);
+}
+
 void PointsMet::finish() noexcept {
     for (std::size_t c = 1; c < classes; ++c) sums_[c].add(sums_[c - 1]);
 }

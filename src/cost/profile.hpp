@@ -48,16 +48,11 @@ public:
     // Once, after the last add(): makes of each class the sum of all up to it.
     void finish() noexcept;
 
-    // Of points as far away as the cell size itself next to none are met: their class counts with those
-    // beyond.
-    double at(double cell_size) const noexcept {
-        const std::size_t c = class_of(cell_size);
-        return c == 0 ? sums_[0].sum[0] : sums_[std::min(c, classes) - 1].at(cell_size);
-    }
+    double at(double cell_size) const noexcept;
     double inside() const noexcept { return sums_[0].sum[0]; } // or as good as
 
 private:
-    static constexpr std::size_t classes = 20 * 16 + 1;
+    static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
 
     std::size_t class_of(double distance) const noexcept;
 

@@ -183,23 +183,6 @@ START_TEST(fast_counts) {
 }
 END_TEST
 
-// A window's cell size: no tiles, none; more vertices in the same box, smaller cells; any unit.
-START_TEST(window_sizes) {
-    const vox_cost_weights weights = shipped_weights();
-    fast::TileSides sides;
-    const fast::Box box{{0, 0, 0, 0}, {30, 30, 30, 0}};
-    ck_assert_double_eq(window_cell_size(sides, 1000, box, weights), 0);
-    for (int i = 0; i < 500; ++i) sides.add(fast::Box{{0, 0, 0, 0}, {3, 3, 3, 0}});
-    const double few = window_cell_size(sides, 1000, box, weights),
-                 many = window_cell_size(sides, 1000000, box, weights);
-    ck_assert_double_gt(few, many);
-    fast::TileSides large;
-    for (int i = 0; i < 500; ++i) large.add(fast::Box{{0, 0, 0, 0}, {3072, 3072, 3072, 0}});
-    const fast::Box large_box{{0, 0, 0, 0}, {30720, 30720, 30720, 0}};
-    ck_assert_double_eq_tol(window_cell_size(large, 1000, large_box, weights) / 1024, few, 1e-9);
-}
-END_TEST
-
 // ---- several sizes --------------------------------------------------------------------------------
 
 // Two bodies of unlike resolution want two sizes; bodies alike want one.
@@ -315,7 +298,6 @@ int main() {
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
     tcase_add_loop_test(tests, fast_counts, 0, scene_count);
-    tcase_add_test(tests, window_sizes);
     tcase_add_test(tests, levels_where_they_pay);
     tcase_add_test(tests, adaptive_follows);
     tcase_add_test(tests, minimum_of_a_power_law);

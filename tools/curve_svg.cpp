@@ -1,0 +1,133 @@
+#include "curve_svg.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <vector>
+
+namespace tool {
+
+namespace {
+
+// In units of the picture.
+constexpr double width = 800, height = 440, left = 60, right = 24, above = 24, below = 56;
+// Costs are drawn from 0 to so many times the minimum.
+constexpr double top = 4;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void
+add(std::string& text, const char* pattern, ...) {
+    char line[512];
+    va_list arguments;
+    va_start(arguments, pattern);
+    std::vsnprintf(line, sizeof line, pattern, arguments);
+    va_end(arguments);
+    text += line;
+}
+
+class Axes {
+public:
+    explicit Axes(const vox_suggestion& s)
+        : first_(std::log(s.curve[0].cell_size)), last_(std::log(s.curve[s.curve_count - 1].cell_size)),
+          least_(s.predicted_cost) {}
+
+    double x(double cell_size) const {
+        const double part = (std::log(cell_size) - first_) / (last_ - first_);
+        return left + std::clamp(part, 0.0, 1.0) * (width - left - right);
+    }
+    double y(double cost) const {
+        const double part = least_ > 0 ? std::min(cost / least_, top) / top : 0;
+        return height - below - part * (height - above - below);
+    }
+    bool shows(double cell_size) const {
+        return cell_size > 0 && std::log(cell_size) >= first_ && std::log(cell_size) <= last_;
+    }
+    double least() const { return least_; }
+
+private:
+    double first_, last_, least_;
+};
+
+// 1, 2, 5, 10, ... that lie on the axis.
+std::vector<double> round_sizes(const vox_suggestion& s) {
+    std::vector<double> sizes;
+    const double from = s.curve[0].cell_size, to = s.curve[s.curve_count - 1].cell_size;
+    for (int exponent = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, exponent) <= to;
+         ++exponent)
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            const double size = digit * std::pow(10.0, exponent);
+            if (size >= from && size <= to) sizes.push_back(size);
+        }
+    return sizes;
+}
+
+struct Rule {
+    const char* name;
+    double cell_size, cost;
+};
+
+} // namespace
+
+std::string curve_svg(const vox_suggestion& s) {
+    const Axes axes(s);
+    const double floor_y = height - below;
+    std::string text;
+    add(text,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "
+        "font-size=\"13\">\n<rect width=\"%g\" height=\"%g\" fill=\"white\"/>\n",
+        width, height, width, height);
+    add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" fill=\"#dcebdc\"/>\n",
+        axes.x(s.zone_min), above, axes.x(s.zone_max) - axes.x(s.zone_min), floor_y - above);
+    for (int times = 0; times <= static_cast<int>(top); ++times) {
+        const double y = axes.y(times * axes.least());
+        add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" stroke=\"#ddd\"/>\n", left, y,
+            width - right, y);
+        add(text, "<text x=\"%g\" y=\"%.2f\" text-anchor=\"end\">%d&#215;</text>\n", left - 8, y + 4, times);
+    }
+    for (const double size : round_sizes(s)) {
+        add(text, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#888\"/>\n", axes.x(size),
+            floor_y, axes.x(size), floor_y + 5);
+        add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\">%g</text>\n", axes.x(size),
+            floor_y + 20, size);
+    }
+    add(text, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">cell size</text>\n", (left + width - right) / 2,
+        height - 12);
+    text += "<polyline fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"2.5\" points=\"";
+    for (std::uint32_t i = 0; i < s.curve_count; ++i)
+        add(text, "%.2f,%.2f ", axes.x(s.curve[i].cell_size), axes.y(s.curve[i].cost));
+    text += "\"/>\n";
+
+    const Rule rules[] = {
+        {"mean edge", s.rules.mean_edge, s.rule_costs.mean_edge},
+        {"mean edge, multiple", s.rules.mean_edge_multiple, s.rule_costs.mean_edge_multiple},
+        {"512 an object", s.rules.object_512, s.rule_costs.object_512},
+        {"resolution", s.rules.resolution, s.rule_costs.resolution},
+        {"mean volume", s.rules.mean_volume, s.rule_costs.mean_volume},
+        {"median box side", s.rules.median_box_side, s.rule_costs.median_box_side}};
+    double label = above + 16; // one below the other, so that they never cover each other
+    for (const Rule& rule : rules) {
+        if (!axes.shows(rule.cell_size)) continue;
+        const double x = axes.x(rule.cell_size), y = axes.y(rule.cost);
+        add(text,
+            "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#b0762b\" stroke-dasharray=\"3 "
+            "3\"/>\n",
+            x, label, x, y);
+        add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"4\" fill=\"#b0762b\"/>\n", x, y);
+        const bool on_left = x > (left + width - right) / 2;
+        add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"%s\" fill=\"#7d5015\">%s, %+.0f %%</text>\n",
+            on_left ? x - 6 : x + 6, label + 4, on_left ? "end" : "start", rule.name,
+            axes.least() > 0 ? 100 * (rule.cost / axes.least() - 1) : 0.0);
+        label += 18;
+    }
+    add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" fill=\"#2c7a2c\"/>\n", axes.x(s.cell_size),
+        axes.y(s.predicted_cost));
+    add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\" fill=\"#1f5c1f\">%.4g</text>\n",
+        axes.x(s.cell_size), axes.y(s.predicted_cost) + 22, s.cell_size);
+    text += "</svg>\n";
+    return text;
+}
+
+} // namespace tool
