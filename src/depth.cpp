@@ -43,10 +43,8 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
     penetrations.clear();
     if (hits.empty()) return;
     const Scene scene{bodies, topologies, hits};
-    const std::size_t worker_count = workers ? workers->count() : 1;
-    make_room(scene, worker_count);
+    make_room(hits.size(), workers ? workers->count() : 1);
     list_points(scene, contacts);
-    for (Worker& worker : workers_) worker.counts = {};
     // Points that are worth a task of their own.
     constexpr std::size_t least = 512;
     const auto for_each = [&](std::span<const Range> ranges, std::size_t points, auto&& function) {
@@ -63,6 +61,8 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
     list_rest(scene);
     for_each(rest_of_, rest_.size(),
              [&](const Range& rest, Worker& worker) { find_closest(scene, rest, worker); });
+
+    level_workers();
 
     penetrations.reserve(hits.size());
     penetrations.resize(points_.size());
@@ -87,10 +87,8 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
     }
 }
 
-// All that the same bodies could need with no more contacts, so that this is allocated once; but only what
-// they do need for the workers besides the first.
-void Depth::make_room(const Scene& scene, std::size_t worker_count) {
-    const std::size_t contacts = scene.hits.size();
+// Points, pairs and the rest are never more than contacts.
+void Depth::make_room(std::size_t contacts, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
     pairs_.reserve(contacts);
@@ -99,18 +97,28 @@ void Depth::make_room(const Scene& scene, std::size_t worker_count) {
     rest_of_.reserve(contacts);
     workers_.reserve(worker_count);
     while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
-    std::size_t vertices = 0, triangles = 0;
-    for (const Body& body : scene.bodies) vertices = std::max<std::size_t>(vertices, body.vertex_count);
-    for (const Topology* topology : scene.topologies)
-        triangles = std::max(triangles, topology->triangles.size());
-    workers_[0].reserve(contacts, vertices, triangles);
+    for (Worker& worker : workers_) worker.counts = {};
 }
 
-void Depth::Worker::reserve(std::size_t points, std::size_t vertices, std::size_t triangles) {
+// Each worker may have to do in the next step what another did in this one.
+void Depth::level_workers() {
+    std::size_t points = 0, vertices = 0, triangles = 0, tree = 0;
+    for (const Worker& worker : workers_) {
+        points = std::max(points, worker.queue.size());
+        vertices = std::max(vertices, worker.number.size());
+        triangles = std::max(triangles, worker.normals.size());
+        tree = std::max(tree, worker.tree.capacity());
+    }
+    for (Worker& worker : workers_) {
+        worker.reserve(points, vertices);
+        worker.normals.reserve(triangles);
+        worker.tree.reserve(tree);
+    }
+}
+
+void Depth::Worker::reserve(std::size_t points, std::size_t vertices) {
     if (number.size() < vertices) number.resize(vertices, 0);
     if (queue.size() < points) queue.resize(points);
-    normals.reserve(triangles);
-    tree.reserve(triangles);
 }
 
 // Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
@@ -148,7 +156,7 @@ void Depth::list_points(const Scene& scene, std::span<const vox_contact> contact
 void Depth::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
     const std::size_t count = range.last - range.first;
-    worker.reserve(count, scene.bodies[hit.body_a].vertex_count, 0);
+    worker.reserve(count, scene.bodies[hit.body_a].vertex_count);
     const Pair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions, scene.solid(hit.body_b),
                     hit.body_a == hit.body_b};
     find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,

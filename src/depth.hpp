@@ -19,8 +19,8 @@ namespace vox {
 
 class Workers;
 
-// The stage's buffers live here from step to step, so that the steady state allocates nothing (with several
-// workers: once each has met the largest body).
+// The stage's buffers live here from step to step, so that the steady state allocates nothing, with any
+// number of workers.
 class Depth {
 public:
     explicit Depth(std::pmr::memory_resource* memory);
@@ -50,8 +50,8 @@ private:
     struct alignas(64) Worker {
         explicit Worker(std::pmr::memory_resource* memory);
 
-        // Room for pairs of that many points, of bodies with that many vertices and triangles.
-        void reserve(std::size_t points, std::size_t vertices, std::size_t triangles);
+        // Room for pairs of that many points, of bodies with that many vertices.
+        void reserve(std::size_t points, std::size_t vertices);
 
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
@@ -66,7 +66,8 @@ private:
         depth::Solid solid(std::uint32_t body) const;
     };
 
-    void make_room(const Scene& scene, std::size_t worker_count);
+    void make_room(std::size_t contacts, std::size_t worker_count);
+    void level_workers();
     void list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void list_rest(const Scene& scene);
     void find_consistent(const Scene& scene, const Range& pair, Worker& worker);

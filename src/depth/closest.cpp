@@ -114,6 +114,7 @@ void SurfaceTree::reserve(std::size_t triangles) {
 
 void SurfaceTree::build(const Solid& solid) {
     solid_ = solid;
+    reserve(solid.topology->triangles.size());
     sort_along_curve();
     const auto count = static_cast<std::uint32_t>(order_.size());
     leaves_ = leaves_of(count);

@@ -3,6 +3,7 @@
 
 #include "walk.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -33,6 +34,8 @@ public:
 
     // Room for surfaces of that many triangles.
     void reserve(std::size_t triangles);
+    // Triangles for which there is room for sure.
+    std::size_t capacity() const noexcept { return std::min(order_.capacity(), scratch_.capacity()); }
 
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
