@@ -312,6 +312,38 @@ START_TEST(self_contact_of_large_bodies) {
 }
 END_TEST
 
+/* The same of doubles that are no floats, in both engines: near zero, and where floats are coarse. */
+START_TEST(engines_agree_on_large_bodies) {
+    static const kind places[] = {
+        {"", 1.0 / 3, 0, 0.05, 0}, {"", 1.0 / 3, 30, 0.05, 0}, {"", 1e-3, 1e7, 0.05, 0}};
+    state = 7;
+    for (int i = 0; i < 6; ++i) {
+        solid s = make_solid(11);
+        for (uint32_t v = 0; v < s.vertex_count && i % 2; ++v) {
+            double* p = s.positions + 3 * v;
+            if (p[2] > 9) p[2] = 9 - 3 * (p[2] - 9); /* its top pushed down into it */
+        }
+        place(&s, &places[i / 2], 0, 0, 0);
+        write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
+        uint64_t hashes[2], contacts = 0;
+        for (int e = 0; e < 2; ++e) {
+            suite_engine = e ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+            vox_grid* grid = new_grid(1);
+            (void)insert(grid, &s, VOX_MESH_SELF_COLLISION);
+            hashes[e] = hash_of(grid);
+            contacts = contacts_of(grid).count;
+            vox_grid_destroy(grid);
+        }
+        ck_assert_uint_eq(hashes[0], hashes[1]);
+        if (i % 2)
+            ck_assert_uint_gt(contacts, 100);
+        else
+            ck_assert_uint_eq(contacts, 0);
+        free_solid(&s);
+    }
+}
+END_TEST
+
 START_TEST(bound_in_another_format) {
     solid a = make_solid(3), b = make_solid(3);
     state = 4;
@@ -580,8 +612,10 @@ static void add_tests(TCase* tests) {
 int main(void) {
     Suite* suite = suite_create("doubles");
     add_for_each_engine(suite, add_tests);
-    TCase* cell_size = tcase_create("cell size");
-    tcase_add_test(cell_size, suggested_cell_size);
-    suite_add_tcase(suite, cell_size);
+    TCase* others = tcase_create("both engines, or none");
+    tcase_set_timeout(others, 0);
+    tcase_add_test(others, suggested_cell_size);
+    tcase_add_test(others, engines_agree_on_large_bodies);
+    suite_add_tcase(suite, others);
     return run_suite(suite);
 }

@@ -89,7 +89,7 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
     return finite;
 }
 
-// The same as nearest_float() below, of doubles that are three to a position.
+// nearest_float() of doubles that are three to a position.
 void RoundPacked(const double* HWY_RESTRICT from, const double* HWY_RESTRICT origin, std::size_t count,
                  float* HWY_RESTRICT to) {
     std::size_t i = 0;
