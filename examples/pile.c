@@ -1,10 +1,10 @@
-/* Bodies dropped in a pile, frame by frame as .vtu files: docs/pile.png and docs/pile.gif are made from them, and ParaView
- * opens them.
+/* Bodies dropped in a pile, frame by frame as .vtu files: docs/pile.png and docs/pile.gif are made from them,
+ * and ParaView opens them.
  *
  *     example_pile FOLDER [FRAMES]
  *
- * Balls, boxes, rings and capsules of about a thousand tetrahedra each fall into a fixed ring. Every file holds all
- * tetrahedra, with the number of its body (0: the fixed ring) at each vertex. */
+ * Balls, boxes, rings and capsules of about a thousand tetrahedra each fall into a fixed ring. Every file
+ * holds all tetrahedra, with the number of its body (0: the fixed ring) at each vertex. */
 #include "example.h"
 
 #include <math.h>
@@ -30,7 +30,8 @@ static double scatter(uint32_t* seed) {
 }
 
 /* Inserts `mesh`, turned by `tilt` about x and `turn` about z, at (x, y, z). Takes the mesh. */
-static vox_mesh drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, double x, double y, double z, uint32_t flags) {
+static vox_mesh drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, double x, double y, double z,
+                     uint32_t flags) {
     vox_io_mesh_view view;
     must(vox_io_mesh_get(mesh, &view));
     double* positions = malloc(3 * sizeof *positions * view.vertex_count);
@@ -71,15 +72,24 @@ static void make_scene(scene* s) {
     uint32_t seed = 7;
     for (int i = 1; i < BODIES; ++i) {
         switch (i % 4) {
-        case 0: must(vox_io_make_ball(0.5, 0.16, &mesh)); break;
-        case 1: must(vox_io_make_box(0.9, 0.7, 0.6, 0.15, &mesh)); break;
-        case 2: must(vox_io_make_torus(0.48, 0.2, 0.13, &mesh)); break;
-        default: must(vox_io_make_capsule(0.28, 0.75, 0.14, &mesh)); break;
+        case 0:
+            must(vox_io_make_ball(0.5, 0.16, &mesh));
+            break;
+        case 1:
+            must(vox_io_make_box(0.9, 0.7, 0.6, 0.15, &mesh));
+            break;
+        case 2:
+            must(vox_io_make_torus(0.48, 0.2, 0.13, &mesh));
+            break;
+        default:
+            must(vox_io_make_capsule(0.28, 0.75, 0.14, &mesh));
+            break;
         }
         /* Layers of four, each turned against the one below. */
         const int layer = (i - 1) / 4;
         const double angle = 1.5708 * i + 0.6 * layer, tilt = 1.5 * scatter(&seed), turn = 3 * scatter(&seed);
-        const double x = 0.95 * cos(angle) + 0.05 * scatter(&seed), y = 0.95 * sin(angle) + 0.05 * scatter(&seed);
+        const double x = 0.95 * cos(angle) + 0.05 * scatter(&seed),
+                     y = 0.95 * sin(angle) + 0.05 * scatter(&seed);
         s->bodies[i] = drop(s, mesh, tilt, turn, x, y, 0.8 + 1.2 * layer, 0);
     }
 }
@@ -94,7 +104,8 @@ static void write_frame(const scene* s, const char* folder, int frame) {
     for (int b = 0; b < BODIES; ++b) {
         vox_sim_body_view view;
         must(vox_sim_body_get(s->sim, s->bodies[b], &view));
-        for (uint64_t i = 0; i < 4 * view.tet_count; ++i) tets[4 * tet_count + i] = (uint32_t)vertices + view.tets[i];
+        for (uint64_t i = 0; i < 4 * view.tet_count; ++i)
+            tets[4 * tet_count + i] = (uint32_t)vertices + view.tets[i];
         for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[3 * vertices + i] = view.positions[i];
         for (uint64_t i = 0; i < view.vertex_count; ++i) body_of_vertex[vertices + i] = b;
         vertices += view.vertex_count;
@@ -135,9 +146,10 @@ int main(int argc, char** argv) {
         must(vox_sim_energy(s.sim, VOX_NULL_MESH, &energies));
         must(vox_sim_counters(s.sim, &counts));
         if (frame % 10 == 0 || frame == frames - 1)
-            printf("frame %3d: %5llu penetrations, fastest particle %5.2f, step %6.2f ms of which detection %6.2f ms\n",
-                   frame, (unsigned long long)counts.penetrations, energies.max_speed, 1e-6 * (double)counts.step_ns,
-                   1e-6 * (double)counts.detect_ns);
+            printf("frame %3d: %5llu penetrations, fastest particle %5.2f, step %6.2f ms of which detection "
+                   "%6.2f ms\n",
+                   frame, (unsigned long long)counts.penetrations, energies.max_speed,
+                   1e-6 * (double)counts.step_ns, 1e-6 * (double)counts.detect_ns);
         fflush(stdout);
     }
     vox_sim_destroy(s.sim);

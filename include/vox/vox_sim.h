@@ -39,7 +39,7 @@ typedef struct vox_sim_desc {
     uint32_t detect_every;
     uint32_t reserved;    /* 0 */
     double gravity[3];    /* acceleration; default 0, 0, -9.81 */
-    double max_time_step; /* a longer step is cut down to this, with a log line; > 0, default 1/30 */
+    double max_time_step; /* a longer step is cut down to this, with a log line; 1e-12 to 1e12, default 1/30 */
     /* The floor: particles stay where floor_normal . x >= floor_offset. Default normal 0, 0, 1 and offset 0; it is
      * brought to unit length (floor_offset is taken with the unit normal). All zero: no floor. */
     double floor_normal[3];
@@ -78,8 +78,8 @@ VOX_API void vox_sim_destroy(vox_sim* sim);
 VOX_API vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid);
 
 /* Moves everything forward by `time_step`, or by max_time_step if that is less.
- * Errors: INVALID_ARGUMENT (not a finite number above 0), and those of vox_grid_step; then the bodies are as after the
- * last substep that was completed. */
+ * Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of vox_grid_step; then the bodies are
+ * as after the last substep that was completed. */
 VOX_API vox_result vox_sim_step(vox_sim* sim, double time_step);
 
 /* ---- bodies ----------------------------------------------------------------------------------- */
@@ -107,7 +107,8 @@ typedef struct vox_sim_body_desc {
      * its edges ran in all directions alike. >= 0, default 1e6. */
     double youngs_modulus;
     double bulk_modulus; /* resistance to change of volume, beyond that of the edges; >= 0, default 1e6 */
-    double damping;      /* time: edges resist their rate of strain as they resist strain, times this; >= 0, default 0.01 */
+    double damping;      /* time: edges resist the rate of their strain with this times the stiffness; >= 0, default
+                          * 0.01 */
     uint64_t user_data;  /* given back by vox_mesh_user_data on the sim's grid */
 } vox_sim_body_desc;
 
@@ -167,7 +168,8 @@ typedef struct vox_sim_energies {
     double max_speed;  /* of a particle */
 } vox_sim_energies;
 
-/* Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH).
+/* Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH): of the middle of the last
+ * substep, which is what velocities belong to; the positions of vox_sim_body_get are half a substep ahead.
  * Writes the fields that out_energies->struct_size covers (set it first). */
 VOX_API vox_result vox_sim_energy(const vox_sim* sim, vox_mesh body, vox_sim_energies* out_energies);
 

@@ -12,6 +12,8 @@ using namespace vox::sim;
 
 namespace {
 
+constexpr double shortest_time_step = 1e-12; // the square of a ten-thousandth of it is still a normal number
+
 void check(vox_result result) {
     if (result != VOX_OK) throw Error(result, vox_last_error());
 }
@@ -52,8 +54,9 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
                         .push_speed = check_number(desc.max_push_speed, "max_push_speed"),
                         .slop = desc.contact_slop},
       floor_(floor_of(desc)) {
-    if (!(max_time_step_ >= 1e-12 && max_time_step_ <= 1e12))
-        refuse(format("sim max_time_step is %g, expected a number from 1e-12 to 1e12", max_time_step_));
+    if (!(max_time_step_ >= shortest_time_step && max_time_step_ <= 1e12))
+        refuse(format("sim max_time_step is %g, expected a number from %g to 1e12", max_time_step_,
+                      shortest_time_step));
     if (substeps_ == 0 || substeps_ > 10000)
         refuse(format("sim substeps is %u, expected 1 to 10000", substeps_));
     if (!(desc.contact_slop <= 1e60))
@@ -69,8 +72,9 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
 // ---- step -----------------------------------------------------------------------------------------
 
 void vox_sim::step(double time_step) {
-    if (!(time_step > 0) || std::isinf(time_step))
-        refuse(format("time_step is %g, expected a finite number above 0", time_step));
+    if (!(time_step >= shortest_time_step) || std::isinf(time_step))
+        refuse(format("time_step is %g, expected a finite number of at least %g", time_step,
+                      shortest_time_step));
     const std::uint64_t start = nanoseconds();
     counts_.detect_ns = 0;
     if (time_step > max_time_step_) {

@@ -50,8 +50,8 @@ static inline double* placed(const vox_io_mesh_view* view, double turn, double x
 }
 
 /* Inserts `mesh` with the settings of `like` (null: defaults). */
-static inline vox_mesh insert(vox_sim* sim, const vox_io_mesh* mesh, const vox_sim_body_desc* like, double turn, double x,
-                              double y, double z) {
+static inline vox_mesh insert(vox_sim* sim, const vox_io_mesh* mesh, const vox_sim_body_desc* like,
+                              double turn, double x, double y, double z) {
     vox_sim_body_desc desc = like ? *like : vox_default_sim_body_desc();
     vox_io_mesh_view view;
     vox_mesh body = VOX_NULL_MESH;

@@ -1,5 +1,5 @@
-/* What nobody should do to bodies: clear errors with numbers, or motion that stays finite and slow. Also: what must not
- * change the motion. */
+/* What nobody should do to bodies: clear errors with numbers, or motion that stays finite and slow. Also:
+ * what must not change the motion. */
 #include "scene.h"
 
 /* ---- starts that penetrate -------------------------------------------------------------------- */
@@ -22,7 +22,8 @@ START_TEST(crossing_bars) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* bar = box(4, 0.5, 0.5, 0.25);
-    const vox_mesh a = insert(sim, bar, NULL, 0, 0, 0, 0), b = insert(sim, bar, NULL, acos(-1.0) / 2, 0, 0, 0.1);
+    const vox_mesh a = insert(sim, bar, NULL, 0, 0, 0, 0),
+                   b = insert(sim, bar, NULL, acos(-1.0) / 2, 0, 0, 0.1);
     stays_calm(sim, 5);
     ck_finite(sim, a);
     ck_finite(sim, b);
@@ -48,7 +49,8 @@ START_TEST(enclosed_body) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh *outer = ball(1, 0.25), *inner = ball(0.2, 0.1);
-    const vox_mesh a = insert(sim, outer, NULL, 0, 0, 0, 0), b = insert(sim, inner, NULL, 0.3, 0.2, 0.1, 0.05);
+    const vox_mesh a = insert(sim, outer, NULL, 0, 0, 0, 0),
+                   b = insert(sim, inner, NULL, 0.3, 0.2, 0.1, 0.05);
     stays_calm(sim, 20); /* squeezed out through the wall, which springs back */
     ck_finite(sim, a);
     ck_finite(sim, b);
@@ -236,8 +238,11 @@ START_TEST(the_same_bits_every_time) {
         vox_engine engine;
         uint32_t workers;
         double cell_size;
-    } ways[] = {{VOX_ENGINE_FAST, 1, 0},   {VOX_ENGINE_FAST, 2, 0},        {VOX_ENGINE_FAST, 5, 0},
-                {VOX_ENGINE_FAST, 1, 0.7}, {VOX_ENGINE_REFERENCE, 1, 0.3}};
+    } ways[] = {{VOX_ENGINE_FAST, 1, 0},
+                {VOX_ENGINE_FAST, 2, 0},
+                {VOX_ENGINE_FAST, 5, 0},
+                {VOX_ENGINE_FAST, 1, 0.7},
+                {VOX_ENGINE_REFERENCE, 1, 0.3}};
     for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
         fall(ways[i].engine, ways[i].workers, ways[i].cell_size, other);
         ck_assert_msg(memcmp(first, other, count * sizeof(double)) == 0, "way %zu moves differently", i);
@@ -250,10 +255,10 @@ END_TEST
 START_TEST(refuses_bad_settings) {
     vox_sim* sim = NULL;
     vox_sim_desc desc = vox_default_sim_desc();
-#define REFUSED(field, value, words) \
-    desc = vox_default_sim_desc(); \
-    desc.field = (value); \
-    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_ARGUMENT, words); \
+#define REFUSED(field, value, words)                                                                         \
+    desc = vox_default_sim_desc();                                                                           \
+    desc.field = (value);                                                                                    \
+    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_ARGUMENT, words);                                \
     ck_assert_ptr_null(sim)
     REFUSED(substeps, 0, "substeps is 0");
     REFUSED(substeps, 10001, "substeps is 10001");
@@ -288,10 +293,10 @@ START_TEST(refuses_bad_bodies) {
     vox_mesh body = VOX_NULL_MESH;
     double bad[21];
     vox_sim_body_desc desc;
-#define REFUSED(field, value, code, words) \
-    desc = odd_body(); \
-    desc.field = (value); \
-    ck_fails(vox_sim_body_insert(sim, &desc, &body), code, words); \
+#define REFUSED(field, value, code, words)                                                                   \
+    desc = odd_body();                                                                                       \
+    desc.field = (value);                                                                                    \
+    ck_fails(vox_sim_body_insert(sim, &desc, &body), code, words);                                           \
     ck_assert_uint_eq(body, VOX_NULL_MESH)
     REFUSED(positions, NULL, VOX_ERROR_INVALID_ARGUMENT, "positions are null");
     REFUSED(tets, NULL, VOX_ERROR_INVALID_ARGUMENT, "at least one tet");
@@ -328,8 +333,9 @@ START_TEST(refuses_bad_calls) {
     const vox_sim_body_desc desc = odd_body();
     vox_mesh body, again;
     ck_ok(vox_sim_body_insert(sim, &desc, &body));
-    static const double steps[] = {0, -1, NAN, INFINITY};
-    for (int i = 0; i < 4; ++i) ck_fails(vox_sim_step(sim, steps[i]), VOX_ERROR_INVALID_ARGUMENT, "time_step is");
+    static const double steps[] = {0, -1, NAN, INFINITY, 1e-300};
+    for (int i = 0; i < 5; ++i)
+        ck_fails(vox_sim_step(sim, steps[i]), VOX_ERROR_INVALID_ARGUMENT, "time_step is");
     double bad[21];
     memcpy(bad, odd_positions, sizeof bad);
     bad[20] = NAN;
@@ -338,7 +344,8 @@ START_TEST(refuses_bad_calls) {
     ck_assert_mem_eq(view_of(sim, body).positions, odd_positions, sizeof odd_positions);
     const double push[3] = {0, NAN, 0};
     ck_fails(vox_sim_body_set_acceleration(sim, body, push), VOX_ERROR_INVALID_ARGUMENT, "nan on axis 1");
-    ck_fails(vox_sim_body_set_acceleration(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "acceleration is null");
+    ck_fails(vox_sim_body_set_acceleration(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "acceleration is null");
 
     vox_sim_body_view view;
     vox_sim_energies e;
@@ -386,7 +393,8 @@ START_TEST(structs_may_be_smaller) {
 }
 END_TEST
 
-/* A mesh that somebody else put into the grid is detected but not answered; the grid tells the contacts' bodies. */
+/* A mesh that somebody else put into the grid is detected but not answered; the grid tells the contacts'
+ * bodies. */
 START_TEST(the_grid_is_within_reach) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
