@@ -30,7 +30,9 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
-    face.normal = normalised(doubled);
+    const double inside = dot(doubled, position_of(solid_.positions, t.apex) - a);
+    face.is_flat = inside == 0;
+    face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // |cross| is the same at all corners: sin(angle) * e * f.
     const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
     const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0; };
@@ -51,11 +53,11 @@ const Normals::Face& Normals::face_with_corners(std::uint32_t triangle) {
         for (const std::uint32_t other : solid_.topology->ring_of(t.v[i])) {
             const Face& f = face(other);
             const double cosine = dot(f.normal, asking.normal);
-            if (std::abs(cosine) < crease) continue;
+            const bool turn = cosine < 0 && (f.is_flat || asking.is_flat);
+            if ((turn ? -cosine : cosine) < crease) continue;
             const std::uint32_t* v = solid_.topology->triangles[other].v;
             const double weight = f.corner_weight[v[0] == t.v[i] ? 0 : v[1] == t.v[i] ? 1 : 2];
-            // Seen from one side, however the other's tetrahedron is wound.
-            sum = sum + (cosine < 0 ? -weight : weight) * f.normal;
+            sum = sum + (turn ? -weight : weight) * f.normal;
         }
         asking.corner[i] = normalised(sum);
     }

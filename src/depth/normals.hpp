@@ -32,7 +32,8 @@ private:
     struct Face {
         std::uint32_t age = 0; // of the last begin() after which it was asked for
         bool has_corners = false;
-        Vec3d normal{};            // unit, or zero
+        bool is_flat = false;      // its tetrahedron is: no telling which side is out
+        Vec3d normal{};            // out of its tetrahedron; unit, or zero
         double corner_weight[3]{}; // of the normal in those of the corners
         Vec3d corner[3]{};         // unit normals at the corners
     };

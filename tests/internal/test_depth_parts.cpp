@@ -277,6 +277,26 @@ START_TEST(normals_of_a_box_are_those_of_its_faces) {
 }
 END_TEST
 
+START_TEST(normals_of_a_tetrahedron_are_those_of_its_faces) {
+    // Edges sharper than those of a box, where normals point nearly opposite ways.
+    for (const float height : {1.0f, 0.01f, -1.0f, -0.01f}) {
+        const Prepared p(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3f, 0.3f, height}}, {{{0, 1, 2, 3}}}});
+        const Vec3d middle = 0.25 * ((p.at(0) + p.at(1)) + (p.at(2) + p.at(3)));
+        Normals normals(memory());
+        normals.begin(p.solid());
+        for (std::uint32_t t = 0; t < 4; ++t) {
+            // The upper faces of a flat one are nearly one face.
+            if (std::abs(height) < 1 && p.topology.triangles[t].apex != 3) continue;
+            const SurfacePoint point{t, {0.2, 0.1, 0.7}, {0, 0, 0}};
+            const std::uint32_t* v = p.topology.triangles[t].v;
+            const Vec3d face = normalised(cross(p.at(v[1]) - p.at(v[0]), p.at(v[2]) - p.at(v[0])));
+            const Vec3d out = dot(face, p.at(v[0]) - middle) > 0 ? face : -1.0 * face;
+            ck_assert(length(normals.at(point, p.at(v[0]) - middle) - out) < 1e-12);
+        }
+    }
+}
+END_TEST
+
 // ---- closest points -------------------------------------------------------------------------------
 
 START_TEST(closest_of_all_triangles) {
@@ -357,6 +377,7 @@ int main() {
     tcase_add_test(tests, walks_through_inverted_tets);
     tcase_add_test(tests, normals_on_a_sphere);
     tcase_add_test(tests, normals_of_a_box_are_those_of_its_faces);
+    tcase_add_test(tests, normals_of_a_tetrahedron_are_those_of_its_faces);
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 30);
     tcase_add_test(tests, closest_on_the_fold_that_is_entered);
     suite_add_tcase(suite, tests);

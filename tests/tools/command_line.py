@@ -14,7 +14,7 @@ TWO_TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (9, 9, 9)]
 TETS = [(1, 2, 3, 4), (2, 3, 4, 5)]
 
 SUGGEST_KEYS = ["cell_size", "cells_per_axis", "zone", "predicted_cost", "model", "rules", "stats", "curve"]
-COLLIDE_KEYS = ["contact_count", "contacts", "hash", "cell_size", "profile", "counters"]
+COLLIDE_KEYS = ["contact_count", "contacts", "penetrations", "hash", "cell_size", "profile", "counters"]
 INFO_KEYS = ["file", "format", "vertices", "tets", "surface_triangles", "mean_edge", "mean_longest_edge",
              "mean_facet_area", "mean_volume", "inverted", "degenerate", "duplicate_vertices", "bounds", "warnings"]
 
@@ -243,6 +243,23 @@ class CommandLine(unittest.TestCase):
 
     # ---- collide ----
 
+    def test_collide_penetrations(self):
+        found = run_json("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3)
+        self.assertEqual(found["contact_count"], 1)
+        contact, (p,) = found["contacts"][0], found["penetrations"]
+        self.assertEqual((p["mesh_a"], p["vertex"], p["mesh_b"], p["contact"]),
+                         (contact["mesh_a"], contact["vertex"], contact["mesh_b"], 0))
+        # Vertex 0 of B, at (0.1, 0.2, 0.3), is in A, and its edges lead out through the slanted face.
+        self.assertEqual((p["mesh_a"], p["vertex"], p["state"]), (1, 0, "surface"))
+        self.assertAlmostEqual(p["depth"], 0.4 / 3 ** 0.5, 6)
+        for coordinate in p["direction"]:
+            self.assertAlmostEqual(coordinate, 3 ** -0.5, 6)
+        self.assertEqual(found["counters"]["penetrations"], 1)
+        self.assertEqual(found["counters"]["leaving_edges"], 3)
+        self.assertGreater(found["profile"]["depth_ns"], 0)
+        text = run("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3).stdout.decode()
+        self.assertRegex(text, r"1 penetrating vertex\n.*\n  B +0  A +0.23094 +0.577350 +0.577350 +0.577350, surface")
+
     def test_collide_threads(self):
         serial, *others = [run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--threads", threads)
                            for threads in (1, 0, 2, 256)]
@@ -255,7 +272,6 @@ class CommandLine(unittest.TestCase):
         found = run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--repeat", 3)
         for key in COLLIDE_KEYS:
             self.assertIn(key, found)
-        self.assertNotIn("penetrations", found)
         # B's first corner lies in A's first tet; A's last vertex, (1, 1, 1), and its others lie outside B.
         self.assertEqual(found["contact_count"], 1)
         contact = found["contacts"][0]
