@@ -925,7 +925,7 @@ typedef struct vox_cost_weights {
     double fast_test_vertex; /* one in a tile's box, against its tets */
 } vox_cost_weights;
 
-/* Measures the weights by steps of both engines over a small scene of its own: a few milliseconds at the first call,
+/* Measures the weights by steps of both engines over a small scene of its own: ten milliseconds or so at the first call,
  * from a cache of the process after that. They are then in use, by all suggestions and grids of the process.
  * out null: only that; else set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY. */
 VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);

@@ -1,0 +1,380 @@
+/* The cost models through the C interface: what a suggestion explains, weights, predictions, the grid's own,
+ * and the method for cost functions of others. */
+#include "suggest_scenes.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const vox_cost_model models[] = {VOX_COST_MODEL_PAPER, VOX_COST_MODEL_REFERENCE, VOX_COST_MODEL_FAST};
+
+/* Two boxes that overlap, moved about. */
+typedef struct pair {
+    body boxes[2];
+    vox_mesh_desc meshes[2];
+} pair;
+
+static pair make_pair(float h) {
+    pair p;
+    uint32_t state = 7;
+    for (int b = 0; b < 2; ++b) {
+        p.boxes[b] = make_box(8, h, b ? 6 * h : 0, b ? 0.3f * h : 0, 0);
+        for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i) {
+            state = state * 1664525u + 1013904223u;
+            p.boxes[b].positions[i] += ((float)(state >> 16) / 65536.0f - 0.5f) * 0.3f * h;
+        }
+        p.meshes[b] = body_desc(&p.boxes[b]);
+    }
+    return p;
+}
+
+static void free_pair(pair* p) {
+    for (int b = 0; b < 2; ++b) free_body(&p->boxes[b]);
+}
+
+/* ---- suggestions ------------------------------------------------------------------------------ */
+
+START_TEST(a_suggestion_explains_itself) {
+    pair p = make_pair(0.5f);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = models[_i];
+    desc.resolution = 0.4;
+    const vox_suggestion found = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_int_eq(found.model, models[_i]);
+    ck_assert_double_lt(found.zone_min, found.cell_size);
+    ck_assert_double_gt(found.zone_max, found.cell_size);
+    ck_assert_uint_ge(found.term_count, 2);
+
+    double cost = 0, share = 0;
+    for (uint32_t i = 0; i < found.term_count; ++i) {
+        ck_assert_uint_gt(strlen(found.terms[i].name), 0);
+        ck_assert_double_ge(found.terms[i].count, 0);
+        cost += found.terms[i].cost;
+        share += found.terms[i].share;
+    }
+    ck_assert_double_eq_tol(cost, found.predicted_cost, 1e-9 * cost);
+    ck_assert_double_eq_tol(share, 1, 1e-12);
+
+    /* What a rule would cost is what the model predicts at its size, and no less than the least. */
+    const double rules[][2] = {{found.rules.mean_edge, found.rule_costs.mean_edge},
+                               {found.rules.mean_edge_multiple, found.rule_costs.mean_edge_multiple},
+                               {found.rules.object_512, found.rule_costs.object_512},
+                               {found.rules.resolution, found.rule_costs.resolution},
+                               {found.rules.mean_volume, found.rule_costs.mean_volume},
+                               {found.rules.median_box_side, found.rule_costs.median_box_side}};
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; ++i) {
+        ck_assert_double_ge(rules[i][1], found.predicted_cost * (1 - 1e-9));
+        if (models[_i] == VOX_COST_MODEL_FAST) continue; /* a prediction is of the bodies as they lie */
+        vox_cost_prediction prediction;
+        prediction.struct_size = sizeof prediction;
+        ck_ok(vox_cost_predict(&desc, p.meshes, 2, rules[i][0], &prediction));
+        ck_assert_double_eq_tol(prediction.cost, rules[i][1], 1e-9 * prediction.cost);
+        ck_assert_double_eq(prediction.cell_size, rules[i][0]);
+        ck_assert_uint_eq(prediction.term_count, found.term_count);
+    }
+    for (uint32_t i = 0; i < found.curve_count; ++i)
+        ck_assert_double_ge(found.curve[i].cost, found.predicted_cost * (1 - 1e-9));
+    ck_assert_double_eq(found.budget_cell_size, 0);
+    ck_assert_double_eq(found.uniform_loss, 0);
+    free_pair(&p);
+}
+END_TEST
+
+/* A scene in metres, in millimetres and in between is the same scene. */
+START_TEST(units_do_not_matter) {
+    pair one = make_pair(1), other = make_pair(1024);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = models[_i];
+    const vox_suggestion a = suggest_ok(&desc, one.meshes, 2), b = suggest_ok(&desc, other.meshes, 2);
+    ck_assert_double_eq_tol(b.cell_size / 1024, a.cell_size, 1e-6 * a.cell_size);
+    ck_assert_double_eq_tol(b.predicted_cost, a.predicted_cost, 1e-6 * a.predicted_cost);
+    free_pair(&one);
+    free_pair(&other);
+}
+END_TEST
+
+START_TEST(self_collision_counts) {
+    pair p = make_pair(0.5f);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = models[_i];
+    const vox_suggestion apart = suggest_ok(&desc, p.meshes, 1);
+    p.meshes[0].flags = VOX_MESH_SELF_COLLISION;
+    const vox_suggestion self = suggest_ok(&desc, p.meshes, 1);
+    if (models[_i] == VOX_COST_MODEL_PAPER)
+        ck_assert_double_eq(self.predicted_cost, apart.predicted_cost);
+    else
+        ck_assert_double_gt(self.predicted_cost, apart.predicted_cost);
+    free_pair(&p);
+}
+END_TEST
+
+/* Dense storage: a byte budget makes the cells larger; one sliver does not make them smaller. */
+START_TEST(byte_budget_caps_the_cells) {
+    pair p = make_pair(0.5f);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = VOX_COST_MODEL_REFERENCE;
+    desc.storage = VOX_STORAGE_DENSE;
+    const vox_suggestion free_choice = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_double_eq(free_choice.budget_cell_size, 0);
+    desc.byte_budget = 4 * 100; /* a hundred cells */
+    const vox_suggestion capped = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_double_gt(capped.cell_size, free_choice.cell_size);
+    ck_assert_double_ge(capped.cell_size, capped.budget_cell_size);
+    ck_assert_double_ge(capped.zone_min, capped.budget_cell_size);
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        cells *= ceil((capped.stats.bounds_max[axis] - capped.stats.bounds_min[axis]) / capped.cell_size);
+    ck_assert_double_le(cells, 100);
+    free_pair(&p);
+}
+END_TEST
+
+START_TEST(a_sliver_does_not_matter) {
+    pair p = make_pair(0.5f);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = models[_i];
+    const vox_suggestion without = suggest_ok(&desc, p.meshes, 2);
+    /* One tet of the first box reaches a thousand edges out. */
+    p.boxes[0].positions[0] = -500;
+    const vox_suggestion with = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_double_gt(with.cell_size, 0.5 * without.cell_size);
+    ck_assert_double_lt(with.cell_size, 2 * without.cell_size);
+    free_pair(&p);
+}
+END_TEST
+
+/* ---- the grid --------------------------------------------------------------------------------- */
+
+START_TEST(the_grid_suggests_by_its_engine) {
+    pair p = make_pair(0.5f);
+    vox_grid_desc grid_desc = vox_default_grid_desc();
+    grid_desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    vox_grid* grid = NULL;
+    vox_suggestion found, given;
+    found.struct_size = given.struct_size = sizeof found;
+    ck_ok(vox_grid_create(&grid_desc, &grid));
+    ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra");
+    for (int b = 0; b < 2; ++b) {
+        vox_mesh mesh = 0;
+        ck_ok(vox_mesh_insert(grid, &p.meshes[b], &mesh));
+    }
+    ck_ok(vox_grid_suggest_cell_size(grid, NULL, &found));
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = _i ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    given = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_int_eq(found.model, desc.model);
+    ck_assert_double_eq(found.cell_size, given.cell_size);
+
+    /* The paper's model hears of the share of tets without contact from the last step. */
+    desc.model = VOX_COST_MODEL_PAPER;
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_suggest_cell_size(grid, &desc, &found));
+    given = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_double_lt(found.cell_size, given.cell_size);
+    desc.p_nc = 0.9;
+    ck_ok(vox_grid_suggest_cell_size(grid, &desc, &found));
+    given = suggest_ok(&desc, p.meshes, 2);
+    ck_assert_double_eq(found.cell_size, given.cell_size);
+
+    ck_fails(vox_grid_suggest_cell_size(NULL, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    vox_mesh unbound = 0;
+    vox_mesh_desc no_positions = p.meshes[0];
+    no_positions.positions = NULL;
+    ck_ok(vox_mesh_insert(grid, &no_positions, &unbound));
+    ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_STATE, "no positions");
+    vox_grid_destroy(grid);
+    free_pair(&p);
+}
+END_TEST
+
+static uint64_t changes_of(const vox_grid* grid) {
+    vox_counters counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_counters(grid, &counters));
+    return counters.cell_size_changes;
+}
+
+/* The bodies grow threefold step by step: the cells grow with them, and the contacts are those of a grid with
+ * a fixed cell size. At rest nothing changes. */
+START_TEST(the_grid_follows_its_bodies) {
+    pair p = make_pair(0.5f);
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = VOX_ENGINE_REFERENCE;
+    vox_grid *grid = NULL, *fixed = NULL;
+    ck_ok(vox_grid_create(&desc, &grid));
+    desc.cell_size = 0.7;
+    ck_ok(vox_grid_create(&desc, &fixed));
+    for (int b = 0; b < 2; ++b) {
+        vox_mesh mesh = 0;
+        ck_ok(vox_mesh_insert(grid, &p.meshes[b], &mesh));
+        ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
+    }
+    for (int step = 0; step < 10; ++step) ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(changes_of(grid), 0);
+    double first = 0, last = 0;
+    ck_ok(vox_grid_cell_size(grid, &first));
+    for (int step = 0; step < 60; ++step) {
+        for (int b = 0; b < 2; ++b)
+            for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i)
+                p.boxes[b].positions[i] *= 1.01848f; /* the 60th root of 3 */
+        uint64_t hash = 0, expected = 1;
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_step(fixed));
+        ck_ok(vox_grid_hash(grid, &hash));
+        ck_ok(vox_grid_hash(fixed, &expected));
+        ck_assert_uint_eq(hash, expected);
+    }
+    ck_ok(vox_grid_cell_size(grid, &last));
+    ck_assert_double_gt(last / first, 2.5);
+    ck_assert_double_lt(last / first, 3.5);
+    ck_assert_uint_ge(changes_of(grid), 3);
+    ck_assert_uint_le(changes_of(grid), 25);
+    vox_grid_destroy(grid);
+    vox_grid_destroy(fixed);
+    free_pair(&p);
+}
+END_TEST
+
+/* ---- weights ---------------------------------------------------------------------------------- */
+
+START_TEST(weights_are_plain_numbers) {
+    vox_cost_weights shipped = {.struct_size = sizeof shipped}, measured = shipped, saved, in_use = shipped;
+    ck_ok(vox_cost_set_weights(NULL));
+    ck_ok(vox_cost_get_weights(&shipped));
+    ck_assert_uint_eq(shipped.measured, 0);
+    ck_ok(vox_cost_calibrate(&measured));
+    ck_assert_uint_eq(measured.measured, 1);
+    ck_ok(vox_cost_calibrate(NULL)); /* from the cache: the same */
+    ck_ok(vox_cost_get_weights(&in_use));
+    ck_assert_mem_eq(&in_use, &measured, sizeof in_use);
+    ck_assert_double_gt(measured.reference_visit_cell, 0.1);
+    ck_assert_double_lt(measured.reference_visit_cell, 1e5);
+
+    saved = measured;
+    saved.reference_visit_cell *= 8; /* a visit is dear: larger cells */
+    pair p = make_pair(0.5f);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = VOX_COST_MODEL_REFERENCE;
+    const double before = suggest_ok(&desc, p.meshes, 2).cell_size;
+    ck_ok(vox_cost_set_weights(&saved));
+    ck_assert_double_gt(suggest_ok(&desc, p.meshes, 2).cell_size, 1.2 * before);
+
+    saved.fast_visit_row = 0;
+    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is 0");
+    saved.fast_visit_row = NAN;
+    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is");
+    /* A program with an older struct: the rest is as shipped. */
+    saved = measured;
+    saved.struct_size = (uint32_t)offsetof(vox_cost_weights, fast_bin_vertex);
+    saved.fast_bin_vertex = -1;
+    ck_ok(vox_cost_set_weights(&saved));
+    ck_ok(vox_cost_get_weights(&in_use));
+    ck_assert_double_eq(in_use.fast_bin_vertex, shipped.fast_bin_vertex);
+    ck_assert_double_eq(in_use.reference_visit_cell, measured.reference_visit_cell);
+    ck_ok(vox_cost_set_weights(NULL));
+    ck_fails(vox_cost_get_weights(NULL), VOX_ERROR_INVALID_ARGUMENT, "null");
+    free_pair(&p);
+}
+END_TEST
+
+/* ---- the method for others -------------------------------------------------------------------- */
+
+static double power_law(double d, void* user) {
+    const double* c = (const double*)user;
+    return c[0] / (d * d * d) + c[1] * d * d;
+}
+
+static double nowhere(double d, void* user) {
+    (void)d;
+    (void)user;
+    return NAN;
+}
+
+static double negative(double d, void* user) {
+    (void)user;
+    return d - 2;
+}
+
+START_TEST(minimum_of_a_function) {
+    const double c[2] = {3, 5};
+    vox_cost_bounds bounds = vox_default_cost_bounds();
+    bounds.min = 1e-3;
+    bounds.max = 1e3;
+    vox_cost_minimum found, table;
+    found.struct_size = table.struct_size = sizeof found;
+    ck_ok(vox_cost_minimise(power_law, (void*)c, &bounds, &found));
+    const double expected = pow(1.5 * c[0] / c[1], 0.2);
+    ck_assert_double_eq_tol(found.cell_size, expected, 1e-6);
+    ck_assert_double_eq_tol(power_law(found.zone_min, (void*)c), 1.05 * found.cost, 1e-9);
+    ck_assert_double_eq_tol(power_law(found.zone_max, (void*)c), 1.05 * found.cost, 1e-9);
+    ck_assert_uint_eq(found.curve_count, VOX_COST_CURVE_CAPACITY);
+    ck_assert_double_eq(found.curve[0].cell_size, bounds.min);
+    ck_assert_double_eq(found.curve[found.curve_count - 1].cell_size, bounds.max);
+    for (uint32_t i = 0; i < found.curve_count; ++i)
+        ck_assert_double_eq(found.curve[i].cost, power_law(found.curve[i].cell_size, (void*)c));
+
+    const vox_cost_term terms[2] = {{c[0], -3}, {c[1], 2}};
+    ck_ok(vox_cost_minimise_terms(terms, 2, &bounds, &table));
+    ck_assert_double_eq_tol(table.cell_size, found.cell_size, 1e-6);
+    ck_assert_double_eq_tol(table.cost, found.cost, 1e-9 * found.cost);
+}
+END_TEST
+
+START_TEST(bad_functions_and_bounds) {
+    double c[2] = {1, 1};
+    vox_cost_bounds good = vox_default_cost_bounds(), bad;
+    good.min = 0.5;
+    good.max = 8;
+    vox_cost_minimum out, before;
+    memset(&out, 0x5a, sizeof out);
+    out.struct_size = sizeof out;
+    before = out;
+    const vox_result argument = VOX_ERROR_INVALID_ARGUMENT;
+    ck_fails(vox_cost_minimise(NULL, c, &good, &out), argument, "cost is null");
+    ck_fails(vox_cost_minimise(power_law, c, NULL, &out), argument, "bounds is null");
+    ck_fails(vox_cost_minimise(power_law, c, &good, NULL), argument, "out is null");
+    ck_fails(vox_cost_minimise(nowhere, NULL, &good, &out), argument, "no finite cost");
+    ck_fails(vox_cost_minimise(negative, NULL, &good, &out), argument, "the cost is -1.5");
+    const double bad_bounds[][2] = {{0, 1}, {-1, 1}, {2, 1}, {1, INFINITY}, {NAN, 1}, {1, NAN}};
+    for (size_t i = 0; i < sizeof bad_bounds / sizeof bad_bounds[0]; ++i) {
+        bad = good;
+        bad.min = bad_bounds[i][0];
+        bad.max = bad_bounds[i][1];
+        ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "bounds are");
+    }
+    bad = good;
+    bad.zone_loss = -1;
+    ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "zone_loss is -1");
+    bad = good;
+    bad.reserved = 3;
+    ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "reserved is 3");
+    const vox_cost_term term = {INFINITY, 1};
+    ck_fails(vox_cost_minimise_terms(&term, 1, &good, &out), argument, "term 0 is inf");
+    ck_fails(vox_cost_minimise_terms(NULL, 1, &good, &out), argument, "terms is null");
+
+    vox_cost_prediction prediction;
+    prediction.struct_size = sizeof prediction;
+    const vox_mesh_desc mesh = array_desc(regular_positions, 4, unit_tet, 1);
+    ck_fails(vox_cost_predict(NULL, &mesh, 1, 0, &prediction), argument, "cell_size is 0");
+    ck_fails(vox_cost_predict(NULL, &mesh, 1, NAN, &prediction), argument, "cell_size is");
+    ck_fails(vox_cost_predict(NULL, &mesh, 1, 1, NULL), argument, "out is null");
+    ck_assert_mem_eq(&out, &before, sizeof out);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("suggest_models");
+    TCase* tests = tcase_create("suggest_models");
+    tcase_set_timeout(tests, 0);
+    tcase_add_loop_test(tests, a_suggestion_explains_itself, 0, 3);
+    tcase_add_loop_test(tests, units_do_not_matter, 0, 3);
+    tcase_add_loop_test(tests, self_collision_counts, 0, 3);
+    tcase_add_test(tests, byte_budget_caps_the_cells);
+    tcase_add_loop_test(tests, a_sliver_does_not_matter, 0, 3);
+    tcase_add_loop_test(tests, the_grid_suggests_by_its_engine, 0, 2);
+    tcase_add_test(tests, the_grid_follows_its_bodies);
+    tcase_add_test(tests, weights_are_plain_numbers);
+    tcase_add_test(tests, minimum_of_a_function);
+    tcase_add_test(tests, bad_functions_and_bounds);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
