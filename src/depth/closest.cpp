@@ -50,6 +50,21 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
     return {{triangle, {weight[0], weight[1], weight[2]}, p + way}, way, squared};
 }
 
+namespace {
+
+// Whether the plane of a triangle, and so the triangle, is farther from p than that.
+bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
+    constexpr double rounding = 1 + 0x1p-40;
+    const std::uint32_t* v = solid.topology->triangles[triangle].v;
+    const Vec3d a = position_of(solid.positions, v[0]);
+    const Vec3d normal =
+        cross(position_of(solid.positions, v[1]) - a, position_of(solid.positions, v[2]) - a);
+    const double height = dot(normal, p - a);
+    return height * height > rounding * squared * dot(normal, normal);
+}
+
+} // namespace
+
 SurfaceTree::Box SurfaceTree::box_of(std::uint32_t triangle) const {
     const std::uint32_t* v = solid_.topology->triangles[triangle].v;
     const Vec3d a = position_of(solid_.positions, v[0]), b = position_of(solid_.positions, v[1]),
@@ -189,6 +204,7 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
     double best = infinity, best_distance = infinity;
     const auto look_at = [&](std::uint32_t triangle) {
         ++visited;
+        if (is_beyond_plane(solid_, triangle, p, best)) return;
         const Closest candidate = closest_point(solid_, triangle, p);
         if (candidate.squared > best ||
             (candidate.squared == best && found && candidate.at.triangle >= out.at.triangle))
