@@ -163,7 +163,8 @@ typedef enum vox_engine {
 } vox_engine;
 
 typedef enum vox_grid_flags {
-    VOX_GRID_PENETRATIONS = 1, /* the step's depth stage (vox_grid_penetrations); on by default */
+    VOX_GRID_PENETRATIONS = 1, /* the step's depth stage (vox_grid_penetrations); on by default. For meshes of at
+                                  most 357913941 tets; more: VOX_ERROR_LIMIT */
     VOX_GRID_CONTACT_EVENTS = 2, /* events of single vertices too (vox_grid_contact_events) */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
@@ -442,7 +443,8 @@ typedef enum vox_penetration_state {
                                        no edges, as in meshes without tetrahedra: closest */
     VOX_PENETRATION_CROSSING = 3,   /* the means are of no use: the normals nearly cancel (edges leave on opposite
                                        sides), the depth would not be positive, or an edge that leads out crosses
-                                       no surface (inverted tetrahedra, non-manifold facets): closest */
+                                       no surface (inverted tetrahedra, non-manifold facets); or all that p is
+                                       connected with is so: closest */
     VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface: depth 0, direction is the surface's normal at p */
     VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
 } vox_penetration_state;
