@@ -196,9 +196,9 @@ typedef struct vox_grid_desc {
     vox_log log;
     vox_task_system tasks;
     /* Threads that run a step's tasks: 1 (the default) serial, on the calling thread; 0 one per core; at most
-     * VOX_MAX_WORKERS. The reference engine is serial. With a task system of one's own: how many workers it has, at least 1. Contacts do not
-     * depend on it. A library built without oneTBB has no threads of its own: then the built-in scheduler is
-     * serial. */
+     * VOX_MAX_WORKERS. The reference engine is serial. With a task system of one's own: how many workers it has,
+     * at least 1. Contacts do not depend on it. A library built without oneTBB has no threads of its own: then the
+     * built-in scheduler is serial. */
     uint32_t worker_count;
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
 } vox_grid_desc;
