@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -116,6 +118,8 @@ double mean_edge(const Scene& scene) {
 
 std::vector<SceneMaker> all_scenes(const std::string& meshes) {
     std::vector<SceneMaker> makers = scene_makers(meshes);
+    // What rests costs the fast engine nothing, whatever the cell size.
+    std::erase_if(makers, [](const SceneMaker& maker) { return maker.name.ends_with("-rest"); });
     const auto own = [&](const std::string& name, const std::string& title, auto make) {
         makers.push_back({name, title, true, [=](double tets, bool) {
                               Scene scene = make(tets);
@@ -308,24 +312,64 @@ void print(std::FILE* out, const Row& row) {
     std::fflush(out);
 }
 
-void print_summary(std::FILE* out, const std::vector<Row>& rows) {
-    std::fprintf(out, "\n| engine | rule | median | 95th percentile | worst |\n|---|---|---|---|---|\n");
+std::string summary(const std::vector<Row>& rows) {
+    std::string text = "| engine | rule | median | 95th percentile | worst |\n|---|---|---|---|---|\n";
     for (const char* engine : {"reference", "fast"})
         for (const std::string& name : rule_names) {
             std::vector<double> regrets;
             for (const Row& row : rows)
                 if (row.engine == engine) regrets.push_back(row.regret.at(name));
             if (regrets.empty()) continue;
-            std::fprintf(out, "| %s | %s | %.1f %% | %.1f %% | %.1f %% |\n", engine, name.c_str(),
-                         100 * median(regrets), 100 * quantile(regrets, 0.95), 100 * quantile(regrets, 1));
+            char line[160];
+            std::snprintf(line, sizeof line, "| %s | %s | %.1f %% | %.1f %% | %.1f %% |\n", engine,
+                          name.c_str(), 100 * median(regrets), 100 * quantile(regrets, 0.95),
+                          100 * quantile(regrets, 1));
+            text += line;
         }
+    return text;
+}
+
+// A line for each scene: the best size of the sweep, the model's, and what each rule loses.
+std::string details(const std::vector<Row>& rows) {
+    std::string text = "| engine | scene | tets | best, ms | best size | model's size |";
+    for (const std::string& name : rule_names) text += " " + name + " |";
+    text += "\n|---|---|---|---|---|---|";
+    for (std::size_t i = 0; i < rule_names.size(); ++i) text += "---|";
+    text += "\n";
+    for (const Row& row : rows) {
+        char line[200];
+        std::snprintf(line, sizeof line, "| %s | %s | %zu | %.3f | %.2f | %.2f |", row.engine.c_str(),
+                      row.scene.c_str(), row.tets, row.best_seconds * 1e3, row.best_size,
+                      row.size.at("model"));
+        text += line;
+        for (const std::string& name : rule_names) {
+            std::snprintf(line, sizeof line, " %+.0f %% |", 100 * row.regret.at(name));
+            text += line;
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+// Puts the text between the two lines of a page that say where it goes.
+void write_between(const std::string& path, const std::string& text) {
+    const std::string begin = "<!-- bench/regret -->\n", end = "<!-- /bench/regret -->";
+    std::ifstream in(path, std::ios::binary);
+    std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    const std::size_t from = page.find(begin), to = page.find(end);
+    if (!in || from == std::string::npos || to == std::string::npos || to < from)
+        throw std::runtime_error(path + " has no lines " + begin + "and " + end);
+    page.replace(from + begin.size(), to - from - begin.size(), text);
+    std::ofstream out(path, std::ios::binary);
+    out << page;
+    if (!out.flush()) throw std::runtime_error("cannot write " + path);
 }
 
 int run(int argc, char** argv) {
     CLI::App app("Time lost by each rule for the cell size, against the best of a sweep");
     std::vector<double> tets = {5000, 40000};
     std::vector<std::string> engines = {"reference", "fast"}, scenes;
-    std::string meshes, csv;
+    std::string meshes, csv, page;
     Settings settings;
     bool calibrate = false;
     app.add_option("--tets", tets, "Tetrahedra of a scene")->delimiter(',');
@@ -335,6 +379,7 @@ int run(int argc, char** argv) {
     app.add_option("--rounds", settings.rounds, "Turns of each rule and of the best sizes");
     app.add_option("--sizes", settings.sizes, "Cell sizes of the sweep")->check(CLI::Range(3, 1000));
     app.add_option("--csv", csv, "Write the rows here, too");
+    app.add_option("--page", page, "Write the tables into this page, docs/cell-size.md");
     app.add_flag("--calibrate", calibrate, "Measure the weights first");
     CLI11_PARSE(app, argc, argv);
     if (calibrate) must(vox_cost_calibrate(nullptr));
@@ -357,8 +402,9 @@ int run(int argc, char** argv) {
             }
         }
     }
-    print_summary(stdout, rows);
+    std::printf("\n%s", summary(rows).c_str());
     if (file) std::fclose(file);
+    if (!page.empty()) write_between(page, summary(rows) + "\n" + details(rows));
     return 0;
 }
 
