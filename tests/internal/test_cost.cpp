@@ -24,7 +24,7 @@ std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
 // ---- scenes ---------------------------------------------------------------------------------------
 
 Mesh jittered_ball(double tets, double scale, double x, double y, double z, std::uint64_t seed) {
-    Random random(seed);
+    Random random{seed};
     Mesh mesh = ball(tets);
     jitter(mesh, 0.12, random);
     move(mesh, scale, x, y, z);
@@ -34,7 +34,7 @@ Mesh jittered_ball(double tets, double scale, double x, double y, double z, std:
 // Finer towards the centre, sides about 1 : 8.
 Mesh graded_ball(double tets, double x) {
     double radius = 0;
-    Random random(3);
+    Random random{3};
     Mesh mesh = ball(tets, &radius);
     jitter(mesh, 0.12, random);
     for (Vec3f& p : mesh.positions) {
