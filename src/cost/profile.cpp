@@ -17,8 +17,8 @@ constexpr double near_sides = 1;
 constexpr std::size_t most_rows = 1024, most_points = 4096;
 // Points in a cell, about.
 constexpr double points_per_cell = 6;
-// Points whose neighbours tell how many cells are occupied.
-constexpr std::size_t crowd_samples = 64;
+// Of the lookups sampled, this part tells how many cells are occupied.
+constexpr std::size_t crowd_part = 8;
 
 std::uint64_t next_random(std::uint64_t& state) {
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
@@ -127,8 +127,8 @@ void PointsMet::add(const double (&e)[3], double weight) noexcept {
     m.sum[3] -= weight * (e[0] * e[1] * e[2]);
 }
 
-// Of points about as far away as the cell size, next to none are met; their class comes in little by little, so that
-// the sum is continuous.
+// Of points about as far away as the cell size, next to none are met; their class comes in little by little,
+// so that the sum is continuous.
 double PointsMet::at(double cell_size) const noexcept {
     const std::size_t c = class_of(cell_size);
     if (c == 0) return sums_[0].sum[0];
@@ -214,7 +214,7 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
                                           .add(d.along, each * w);
                                   });
             }
-            count_crowds(c, near, binned, static_cast<double>(points.count) / lookups);
+            count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
         }
     }
     for (SizeClass& c : classes_) {
@@ -227,8 +227,9 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
 // points, and their neighbours for a random number of the same mean (Poisson): E[1 / (1 + N)] = (1 - exp(-m))
 // / m.
 template <class In>
-void Profile::count_crowds(const SizeClass& c, double near, const In& in, double points_per_lookup) {
-    const std::size_t size = std::min(c.sample.size(), crowd_samples / classes_.size() + 1);
+void Profile::count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
+                           double points_per_lookup) {
+    const std::size_t size = std::min(c.sample.size(), wanted);
     const double each = c.count * points_per_lookup / static_cast<double>(size);
     for (std::size_t i = 0; i < size; ++i) {
         Lookup corner = c.sample[i];

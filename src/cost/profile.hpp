@@ -113,7 +113,8 @@ private:
 
     SizeClass& class_of(double side);
     template <class In>
-    void count_crowds(const SizeClass& c, double near, const In& in, double points_per_lookup);
+    void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
+                      double points_per_lookup);
 
     std::pmr::vector<SizeClass> classes_;       // those that occur
     std::array<std::int16_t, exponents> index_; // in classes_; -1: none
