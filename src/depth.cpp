@@ -199,10 +199,17 @@ void Depth::find_closest(const Scene& scene, const Range& range, Worker& worker)
             found = worker.tree.find(p, nullptr, closest, worker.counts.closest_tests);
         }
         point.depth = found ? length(closest.way) : 0;
-        if (point.depth > 0)
-            point.direction = (1 / point.depth) * closest.way;
-        else
-            point.direction = facet_normal(solid, point.tet, 0);
+        point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
+        if (length(point.direction) > 0) continue;
+        point.depth = 0;
+        if (found) { // on the surface, of a part of b that overlaps the one with the hit
+            point.state = VOX_PENETRATION_COINCIDENT;
+            worker.normals.begin(solid);
+            const Vec3d apex =
+                position_of(solid.positions, solid.topology->triangles[closest.at.triangle].apex);
+            point.direction = worker.normals.at(closest.at, p - apex);
+        }
+        if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);
     }
 }
 

@@ -328,6 +328,48 @@ START_TEST(strides_and_copies) {
 }
 END_TEST
 
+/* The same scene in doubles: the same bits where they are floats, and defined as far as doubles go. */
+START_TEST(double_positions) {
+    pile p = make_pile(1);
+    const vox_grid_desc desc = engine_desc();
+    uint64_t count = 0;
+    vox_penetration* expected = pile_penetrations(&desc, &p, 0, &count);
+    const double scales[] = {1, 0x1p100, 0x1p-60, 1e-100, 1e-200};
+    for (int k = 0; k < 5; ++k) {
+        vox_grid* grid = grid_of(&desc);
+        double* positions[pile_size];
+        for (int b = 0; b < pile_size; ++b) {
+            const body* from = &p.bodies[b];
+            positions[b] = (double*)malloc(sizeof(double) * 3 * from->vertex_count);
+            for (uint32_t i = 0; i < 3 * from->vertex_count; ++i)
+                positions[b][i] = scales[k] * (double)from->positions[i];
+            vox_mesh_desc mesh = body_desc(from);
+            mesh.positions = positions[b];
+            mesh.position_format = VOX_FORMAT_DOUBLE3;
+            mesh.flags = b == 4 ? VOX_MESH_SELF_COLLISION : 0u;
+            ck_ok(vox_mesh_insert(grid, &mesh, &p.ids[b]));
+        }
+        ck_ok(vox_grid_step(grid));
+        const vox_penetration_view view = penetrations_of(grid);
+        if (k < 3) ck_assert_uint_eq(view.count, count);
+        ck_assert_uint_gt(view.count, count / 2);
+        for (uint64_t i = 0; i < view.count; ++i) {
+            vox_penetration q = *penetration_at(view, i);
+            ck_assert(q.depth >= 0 && isfinite(q.depth));
+            ck_assert(fabs(norm(direction_of(&q)) - 1) < 1e-6);
+            if (k >= 3) continue;
+            ck_assert(q.depth == (float)(scales[k] * (double)expected[i].depth));
+            q.depth = expected[i].depth;
+            ck_assert_mem_eq(&q, &expected[i], sizeof q);
+        }
+        vox_grid_destroy(grid);
+        for (int b = 0; b < pile_size; ++b) free(positions[b]);
+    }
+    free(expected);
+    free_pile(&p);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, arguments);
     tcase_add_test(tests, flag);
@@ -337,6 +379,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, every_unit_gives_the_same_answer);
     tcase_add_test(tests, nothing_is_stale);
     tcase_add_test(tests, strides_and_copies);
+    tcase_add_test(tests, double_positions);
 }
 
 int main(void) {

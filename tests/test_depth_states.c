@@ -319,6 +319,26 @@ START_TEST(lattices_that_coincide) {
 }
 END_TEST
 
+START_TEST(on_the_surface_of_a_part_and_inside_another) {
+    /* Two boxes of one mesh that overlap; the point is on the top of the lower one. Its only contact is inside the other. */
+    body low = make_box(2, 0.5f, 0, 0, 0), high = make_box(2, 0.5f, 0.1f, 0.2f, 0.3f);
+    float positions[3 * 54];
+    uint32_t tets[4 * 80];
+    memcpy(positions, low.positions, sizeof positions / 2);
+    memcpy(positions + 3 * 27, high.positions, sizeof positions / 2);
+    for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
+    const float point[3] = {0.55f, 0.6f, 1};
+    vox_grid* grid = new_grid();
+    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80), a = insert_arrays(grid, point, 1, NULL, 0);
+    step(grid);
+    ck_assert_uint_eq(counters_of(grid).contacts, 1);
+    expect(grid, a, 0, b, VOX_PENETRATION_COINCIDENT, 0, up);
+    vox_grid_destroy(grid);
+    free_body(&low);
+    free_body(&high);
+}
+END_TEST
+
 /* ---- meshes that are not as they should be ---- */
 
 static void swap_corners(body* b, uint32_t from, uint32_t every) {
@@ -545,6 +565,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, coincident_bodies);
     tcase_add_test(tests, stacked_boxes_touch);
     tcase_add_test(tests, lattices_that_coincide);
+    tcase_add_test(tests, on_the_surface_of_a_part_and_inside_another);
     tcase_add_test(tests, winding_does_not_matter);
     tcase_add_test(tests, doubled_tets);
     tcase_add_test(tests, flat_tets_on_the_surface);

@@ -15,8 +15,8 @@ namespace {
 
 // Unit vectors whose mean is shorter than this point to opposite sides rather than to one.
 constexpr double least_mean = 0.25;
-// A squared distance below this is none; its inverse still is a number.
-constexpr double no_distance = 1e-290;
+// A squared distance below this is none: the square of its inverse still is a number.
+constexpr double no_distance = 1e-140;
 
 // The mean of what is known at points around one: of their directions, and of the depths they imply. On the
 // way to a point, the depth falls at the rate of the direction there in the paper; here of the mean of the

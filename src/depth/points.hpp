@@ -34,7 +34,7 @@ struct Pair {
 };
 
 struct Counts {
-    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_searches = 0, closest_tests = 0;
+    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // of vox_counters
 };
 
 // The outward unit normal of facet i of a tetrahedron; (0, 0, 1) should it round to nothing.

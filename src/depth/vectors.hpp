@@ -21,10 +21,12 @@ inline Vec3d cross(const Vec3d& a, const Vec3d& b) noexcept {
 }
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
-// Of length 1 to rounding; zero when `a` is.
+// Of length 1 to rounding; zero where `a` is, or so short that its square loses digits.
 inline Vec3d normalised(const Vec3d& a) noexcept {
-    const double l = length(a);
-    return l > 0 ? Vec3d{a.x / l, a.y / l, a.z / l} : Vec3d{0, 0, 0};
+    const double squared = dot(a, a);
+    if (!(squared > 1e-290)) return {0, 0, 0};
+    const double l = std::sqrt(squared);
+    return {a.x / l, a.y / l, a.z / l};
 }
 
 } // namespace vox::depth
