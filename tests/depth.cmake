@@ -2,7 +2,7 @@
 set(depth_tests depth depth_states)
 vox_test(depth test_depth.c LIBS vox::vox)
 vox_test(depth_states test_depth_states.c LIBS vox::vox)
-set_tests_properties(depth depth_states PROPERTIES LABELS valgrind)
+set_tests_properties(depth_states PROPERTIES LABELS valgrind) # the others are long, and run under the sanitizers
 if(VOX_BUILD_IO)
   list(APPEND depth_tests depth_figures)
   vox_test(depth_figures test_depth_figures.c LIBS vox::io vox::vox)
