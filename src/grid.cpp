@@ -364,7 +364,6 @@ void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
 
 void vox_grid::choose_cell_size() {
     if (!choose_cell_size_) return;
-    for (const Body& body : bodies_) check_finite(body); // before the model looks at them
     const double before = cell_size_;
     cell_size_ = adaptive_.cell_size(bodies_, {settings_.storage, byte_limit()}, &memory_);
     if (cell_size_ == before) return;

@@ -5,6 +5,7 @@
 #include "weights.hpp"
 
 #include "../error.hpp"
+#include "../mesh_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,8 @@ double AdaptiveCellSize::cell_size(std::span<const Body> bodies, const Setting& 
 bool AdaptiveCellSize::must_choose() const noexcept {
     if (cell_size_ == 0) return true;
     if (scene_changed_) return credit_ >= 0 || !sized_;
-    return sized_ && credit_ >= 0 && std::abs(std::log(cell_size_ / chosen_)) > std::log(far_off);
+    if (!sized_) return balanced_ && credit_ >= 0; // now some have a size, or there may be memory now
+    return credit_ >= 0 && std::abs(std::log(cell_size_ / chosen_)) > std::log(far_off);
 }
 
 void AdaptiveCellSize::follow() noexcept {
@@ -110,6 +112,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
         tets += body.tets.size();
         vertices += body.vertex_count;
     }
+    for (const Body& body : bodies) check_finite(body);
     const Effort effort = quick(tets);
     const vox_cost_weights weights = weights_in_use();
     // The first choice has to be made.

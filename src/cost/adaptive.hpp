@@ -33,7 +33,7 @@ public:
     void restart() noexcept { *this = {}; }
 
     // Before a step with these bodies: the cell size for it. Where memory for the choice is refused, it is
-    // made from a few tetrahedra. Positions may be anything.
+    // made from a few tetrahedra. Throws NON_FINITE when a choice is due and a position is not finite.
     double cell_size(std::span<const Body> bodies, const Setting& setting, std::pmr::memory_resource* memory);
 
     // After that step: what it did.

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace vox {
 
@@ -65,10 +66,13 @@ template <class Count>
 void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
     const fast::Lattice& lattice = in.window.lattice;
     std::uint32_t lo[3], hi[3];
+    // As floats no further in than they are.
+    constexpr double largest = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
-        // As floats no further in than they are.
-        lo[a] = lattice.cell(std::nextafter(static_cast<float>(l.lo[a] - near), -fast::infinity), a);
-        hi[a] = lattice.cell(std::nextafter(static_cast<float>(l.hi[a] + near), fast::infinity), a);
+        const auto below = static_cast<float>(std::max(l.lo[a] - near, -largest));
+        const auto above = static_cast<float>(std::min(l.hi[a] + near, largest));
+        lo[a] = lattice.cell(std::nextafter(below, -fast::infinity), a);
+        hi[a] = lattice.cell(std::nextafter(above, fast::infinity), a);
     }
     const auto position = [&](std::size_t i) {
         return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
