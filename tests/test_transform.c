@@ -89,6 +89,7 @@ START_TEST(exact_in_its_result) {
             wide[i] = (double)tool.positions[i] + (doubles ? random_double(-0.1, 0.1) : 0);
             if (!doubles) tool.positions[i] = (float)wide[i];
         }
+        memcpy(moved, wide, 3 * sizeof(double) * n);
         for (uint32_t i = 0; i < 3 * soft.vertex_count; ++i) soft_wide[i] = (double)soft.positions[i];
         vox_grid *grid = new_grid(), *plain = new_grid();
         vox_mesh_desc a = body_desc(&tool), b = body_desc(&soft), c = body_desc(&tool);
