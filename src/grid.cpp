@@ -357,23 +357,27 @@ std::uint64_t vox_grid::carry_contacts() {
 
 void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
     choose_cell_size();
-    settings_.cell_size = cell_size_;
     counters.moved_meshes = bodies_.size();
     reference_.detect(bodies_, settings_, hits_, counters, profile);
 }
 
 void vox_grid::choose_cell_size() {
+    settings_.cell_size = cell_size_;
+    settings_.levels = {};
     if (!choose_cell_size_) return;
     const double before = cell_size_;
-    cell_size_ = adaptive_.cell_size(bodies_, {settings_.storage, byte_limit()}, &memory_);
-    if (cell_size_ == before) return;
-    const auto tets = static_cast<unsigned long long>(tet_count_);
-    write_log(VOX_LOG_INFO,
-              (before > 0 ? format("cell size %.9g after %.9g, for %llu tets in %zu meshes", cell_size_, before,
-                                   tets, bodies_.size())
-                          : format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_, tets,
-                                   bodies_.size()))
-                  .c_str());
+    const std::uint64_t changes = adaptive_.changes();
+    settings_.levels = adaptive_.cell_sizes(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    cell_size_ = settings_.levels[0].cell_size;
+    if (before > 0 && adaptive_.changes() == changes) return;
+    if (!log_.write) return;
+    std::string text = format("cell size %.9g", cell_size_);
+    for (std::size_t l = 1; l < settings_.levels.size(); ++l)
+        text += format(", %.9g", settings_.levels[l].cell_size);
+    text += before > 0 ? format(" after %.9g,", before) : " chosen";
+    write_log(VOX_LOG_INFO, format("%s for %llu tets in %zu meshes", text.c_str(),
+                                   static_cast<unsigned long long>(tet_count_), bodies_.size())
+                                .c_str());
 }
 
 // Most bytes for the cells of dense storage: the budget less what is held without them, and less what a first step

@@ -269,10 +269,10 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     range.max = std::max(range.max, range.min);
     const CostFunction function = [&](double d) { return cost(d); };
     minimise_into(result, desc, function, range);
-    const Levels levels = choose_levels(cost);
+    const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
-    std::copy(levels.cell_size.begin(), levels.cell_size.end(), result.levels);
+    for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
     explain(result, desc, geometry, function, cost.terms(result.cell_size));
     return result;
 }

@@ -54,7 +54,7 @@ Effort quick(std::uint64_t tets) noexcept {
 
 ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
                              const vox_cost_weights& weights, std::pmr::memory_resource* memory)
-    : profile_(memory), classes_(memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
+    : profile_(memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
     std::size_t vertices = 0, tets = 0;
     for (const Body& body : bodies) {
         vertices += body.vertex_count;
@@ -105,7 +105,6 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
     profile_.count_points(points, effort.sample);
-    for (const SizeClass& c : profile_.classes()) classes_.push_back(&c);
 }
 
 bool ReferenceCost::range(double& min, double& max) const noexcept {
@@ -138,23 +137,24 @@ double ReferenceCost::buckets(double cell_size) const noexcept {
     return dense_ ? dense_cells(cell_size) : 2 * vertices_;
 }
 
+double ReferenceCost::occupied(double cell_size) const noexcept {
+    return std::min(profile_.occupied(cell_size), vertices_);
+}
+
 // A box that meets more cells than are occupied goes through those instead.
-ReferenceCost::Visits ReferenceCost::visits(std::span<const SizeClass* const> classes,
-                                            double cell_size) const noexcept {
-    const double occupied = std::min(profile_.occupied(cell_size), vertices_);
-    Visits visits;
-    for (const SizeClass* c : classes) {
-        const double cells = c->cells.at(cell_size);
-        if (cells > occupied * c->count)
-            visits.scanned += occupied * c->count;
-        else
-            visits.visited += cells;
-    }
-    return visits;
+ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
+    const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
+    return cells > scanned ? Visits{0, scanned} : Visits{cells, 0};
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
-    const Visits cells = visits(classes_, cell_size);
+    const double occupied_cells = occupied(cell_size);
+    Visits cells{0, 0};
+    for (const SizeClass& c : profile_.classes()) {
+        const Visits own = visits(c, cell_size, occupied_cells);
+        cells.visited += own.visited;
+        cells.scanned += own.scanned;
+    }
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
@@ -167,17 +167,17 @@ CostTerms ReferenceCost::terms(double cell_size) const {
     return terms;
 }
 
-double ReferenceCost::level(std::span<const SizeClass* const> classes, double cell_size) const {
-    const Visits cells = visits(classes, cell_size);
-    double read = 0, tested = 0;
-    for (const SizeClass* c : classes) {
-        const double t = c->tested.at(cell_size);
-        read += t + c->passed.at(cell_size);
-        tested += t;
-    }
-    return vertices_ * weights_.reference_classify_vertex + cells.visited * weights_.reference_visit_cell +
-           cells.scanned * weights_.reference_scan_cell + read * weights_.reference_read_vertex +
-           tested * weights_.reference_test_box + buckets(cell_size) * weights_.reference_clear_bucket;
+double ReferenceCost::of_grid(double cell_size) const noexcept {
+    return vertices_ * weights_.reference_classify_vertex +
+           buckets(cell_size) * weights_.reference_clear_bucket;
+}
+
+double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
+    const Visits cells = visits(c, cell_size, occupied);
+    const double tested = c.tested.at(cell_size);
+    return cells.visited * weights_.reference_visit_cell + cells.scanned * weights_.reference_scan_cell +
+           (c.passed.at(cell_size) + tested) * weights_.reference_read_vertex +
+           tested * weights_.reference_test_box;
 }
 
 double ReferenceCost::shared() const noexcept {

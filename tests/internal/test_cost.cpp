@@ -191,18 +191,19 @@ START_TEST(levels_where_they_pay) {
     scenes[0].fill(alike);
     alike.prepare();
     const ReferenceCost one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    ck_assert_uint_eq(choose_levels(one).count, 1);
+    CellSizeRange range{};
+    ck_assert(one.range(range.min, range.max));
+    ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
     const ReferenceCost cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    const Levels levels = choose_levels(cost);
-    CellSizeRange range{};
     ck_assert(cost.range(range.min, range.max));
+    const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
     ck_assert_uint_ge(levels.count, 2);
     ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
-    ck_assert_double_gt(levels.cell_size[levels.count - 1], 3 * levels.cell_size[0]);
+    ck_assert_double_gt(levels.level[levels.count - 1].cell_size, 3 * levels.level[0].cell_size);
 }
 END_TEST
 
@@ -213,14 +214,15 @@ double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     vox_counters counters{};
     vox_profile profile{};
     ReferenceSettings settings;
-    settings.cell_size = adaptive.cell_size(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
+    settings.levels = adaptive.cell_sizes(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
     engine.detect(scene.bodies(), settings, hits, counters, profile);
     for (const Body& body : scene.bodies()) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size();
     }
     adaptive.observe(counters);
-    return settings.cell_size;
+    ck_assert_uint_eq(settings.levels.size(), 1); // of a scene of like tetrahedra
+    return settings.levels[0].cell_size;
 }
 
 // How much the model says a size loses for the scene as it is.
