@@ -79,10 +79,10 @@ double mean_edge(const Body& body) {
 
 class Grid {
 public:
-    Grid(vox_engine engine, Scene& scene) : scene_(scene) {
+    Grid(vox_engine engine, Scene& scene, std::uint32_t flags) : scene_(scene) {
         vox_grid_desc desc = vox_default_grid_desc();
         desc.engine = engine;
-        desc.flags = 0; // contacts alone
+        desc.flags = flags;
         desc.byte_budget = 0;
         must(vox_grid_create(&desc, &grid_));
         for (const vox_mesh_desc& mesh : descs(scene)) {
@@ -136,15 +136,17 @@ public:
         return size;
     }
 
-    double seconds_to_suggest() const {
-        std::vector<double> times;
-        for (int i = 0; i < 3; ++i) {
+    // Time of a suggestion over that of a step, each the median of some.
+    double steps_to_suggest() {
+        std::vector<double> ratios;
+        for (int i = 0; i < 5; ++i) {
+            const double step = turn(0);
             vox_suggestion suggestion{};
             suggestion.struct_size = sizeof suggestion;
-            times.push_back(
-                seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &suggestion)); }));
+            ratios.push_back(
+                seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &suggestion)); }) / step);
         }
-        return median(times);
+        return median(ratios);
     }
 
 private:
@@ -299,7 +301,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     row.uniform_loss = model.uniform_loss;
 
     // All sizes in one grid: another one's memory lies elsewhere, and that alone makes per cents.
-    Grid grid(engine, scene);
+    Grid grid(engine, scene, 0); // contacts alone
     grid.set_turn(grid.turn(model.cell_size));
     curve = sweep(grid, sweep_sizes(scene, settings.sizes), model.cell_size);
     std::vector<Contender> best;
@@ -338,7 +340,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     grid.turn(0);
     for (std::size_t i = 0; i < rules.size(); ++i)
         row.size[i] = (rule[i].size > 0 ? rule[i].size : grid.cell_size()) / scene.mean_edge;
-    row.suggest_steps = grid.seconds_to_suggest() / row.best_seconds;
+    row.suggest_steps = Grid(engine, scene, vox_default_grid_desc().flags).steps_to_suggest();
     return row;
 }
 

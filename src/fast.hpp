@@ -2,6 +2,7 @@
 // each stage is a file in fast/.
 #pragma once
 
+#include "cost/activity.hpp"
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
 #include "fast/rest.hpp"
@@ -67,6 +68,11 @@ public:
 
     // Whether a body of the last step had to be looked at: all of them unless FastSettings::carry.
     bool moved(std::size_t body) const noexcept { return states_[body].moved; }
+
+    // What the last step had to do for a body that is there since; more than it may have to do for others.
+    Activity activity(std::size_t body) const noexcept {
+        return body < states_.size() ? Activity{states_[body].moved, states_[body].self} : Activity{};
+    }
 
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }

@@ -174,6 +174,7 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     tet_count_ -= s.mesh.tet_count();
     s.mesh = Mesh(&memory_);
     s.live = false;
+    s.body = Slot::none;
     adaptive_.scene_changed();
     // A slot whose generations are used up is retired, so that no old id comes to life again.
     if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
@@ -392,17 +393,21 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-std::vector<Body> vox_grid::bodies() const {
-    std::vector<Body> bodies;
+vox_grid::Known vox_grid::known() const {
+    Known known;
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        bodies.push_back(s.mesh.body(id));
+        known.bodies.push_back(s.mesh.body(id));
+        known.tiles.push_back(s.mesh.tiles_if_made());
+        const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
+        known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
+        known.activity.push_back(s.body == Slot::none ? Activity{} : fast_engine_.activity(s.body));
     }
-    return bodies;
+    return known;
 }
 
 void vox_grid::describe(vox_suggest_desc& desc) const noexcept {

@@ -41,10 +41,16 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
-    // For suggestions: the meshes with their positions as they are now, the fields of a desc that the grid
-    // knows, and the share of its tets that held no vertex in the last step. Throws INVALID_STATE for a mesh
-    // without positions.
-    std::vector<vox::Body> bodies() const;
+    // For suggestions: the meshes with their positions as they are now, what there is of them already, the fields
+    // of a desc that the grid knows, and the share of its tets that held no vertex in the last step. Throws
+    // INVALID_STATE for a mesh without positions.
+    struct Known {
+        std::vector<vox::Body> bodies;
+        std::vector<const vox::fast::Tiles*> tiles;           // null where they were not made, as the next ones
+        std::vector<const vox::depth::Topology*> topologies;
+        std::vector<vox::Activity> activity;
+    };
+    Known known() const;
     void describe(vox_suggest_desc& desc) const noexcept;
     double share_without_contact() const noexcept;
 

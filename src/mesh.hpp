@@ -35,6 +35,8 @@ public:
     // Makes the fast engine's tiles, once; needs positions.
     void make_tiles();
     FastMesh& tiles() noexcept { return tiles_; }
+    // Null before they are made.
+    const FastMesh* tiles_if_made() const noexcept { return has_tiles_ ? &tiles_ : nullptr; }
 
     // Borrows positions; those of its own are released.
     void bind(const Positions& positions) noexcept;

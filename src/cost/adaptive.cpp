@@ -26,7 +26,7 @@ constexpr double far_off = 1.5;
 constexpr double time_share = 0.01;
 // Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
 // it or one of the few far ones.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 300;
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 256;
 
 double choice_ns(double vertices, double tets, const Effort& effort) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +

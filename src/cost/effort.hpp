@@ -9,12 +9,13 @@
 namespace vox {
 
 struct Effort {
-    std::size_t most_tets; // whose boxes are taken, about; of more, some from everywhere
-    SampleSizes sample;    // of which the surroundings are
+    std::size_t most_tets;  // whose boxes are taken, about; of more, some from everywhere
+    SampleSizes sample;     // of which the surroundings are
+    std::size_t most_looks; // of tiles into windows, gone through for each cell size
 };
 
 // For a person who asks.
-inline constexpr Effort thorough{std::size_t{1} << 18, {1024, 1024}};
+inline constexpr Effort thorough{std::size_t{1} << 18, {1024, 4096, 1024}, 4096};
 
 // Within a step, where choosing has to cost less than that step.
 Effort quick(std::uint64_t tets) noexcept;

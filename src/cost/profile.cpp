@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t largest_sample = 256; // of a class
 // Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
 constexpr double near_sides = 1;
-// Most rows of cells and points looked at for one box; of more, every so many.
-constexpr std::size_t most_rows = 1024, most_points = 4096;
+// Most rows of cells looked at for one box; of more, every so many.
+constexpr std::size_t most_rows = 1024;
 // Points in a cell, about.
 constexpr double points_per_cell = 6;
 // Of the lookups sampled, this part tells how many cells are occupied.
@@ -57,6 +57,7 @@ struct Binned {
     const fast::Window& window;
     const fast::Points& points;
     const std::uint32_t* begin; // of each cell
+    std::size_t most_near;      // points looked at near one lookup; of more, every so many
     std::size_t stride;         // every so many points are the few
 };
 
@@ -87,7 +88,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
     std::size_t there = 0;
     for (std::size_t r = first_row; r < rows; r += row_stride)
         there += in.begin[row_of(r) + hi[0] + 1] - in.begin[row_of(r) + lo[0]];
-    const std::size_t stride = there / most_points + 1;
+    const std::size_t stride = there / in.most_near + 1;
     const auto near_weight = static_cast<double>(row_stride * stride);
     std::size_t skip = stride > 1 ? next_below(random, stride) : 0;
     for (std::size_t r = first_row; r < rows; r += row_stride) {
@@ -200,7 +201,7 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
             first_size_ = smallest / 16;
             size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
         }
-        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell,
+        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes.near_points,
                             points.count / sizes.far_points + 1};
         for (SizeClass& c : classes_) {
             // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.

@@ -80,9 +80,10 @@ struct SizeClass {
     std::pmr::vector<Lookup> sample;
 };
 
-// How much is looked at: lookups whose surroundings are, and points in what is far from them.
+// How much is looked at: lookups whose surroundings are, points near each of them, and points in what is far
+// from them all.
 struct SampleSizes {
-    std::size_t lookups, far_points;
+    std::size_t lookups, near_points, far_points;
 };
 
 class Profile {

@@ -161,7 +161,7 @@ START_TEST(fast_counts) {
     scene.prepare();
     std::vector<const fast::Tiles*> tiles;
     for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
-    const FastCost cost(scene.bodies(), tiles, thorough, shipped_weights(), heap);
+    const FastCost cost(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
     Fast engine(heap);
     double predicted = 0, read = 0;
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
