@@ -227,27 +227,29 @@ FastCost::Pool& FastCost::pool_of(double smallest_cell) {
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at
 // distance e from the side is in one of its cells with probability 1 - e/d.
-void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most, Counts& sum) const noexcept {
-    const std::size_t stride = looks.size() / most + 1;
+void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
+    const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
     for (std::size_t i = 0; i < looks.size(); i += stride, count += 1) {
         const Look& look = looks[i];
-        double met[3], laid[3]; // cells along each axis, and so much of them that is in the window
-        double volume = 1, volume_laid = 1;
+        double along[3];                    // cells along each axis
+        double volume = 1, volume_laid = 1; // so much of them as is in the window
         for (int a = 0; a < 3; ++a) {
             const double below = std::min(look.below[a] * inverse, 1.0),
                          above = std::min(look.above[a] * inverse, 1.0);
             const double side = look.side[a] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
-            met[a] = std::max(side, 1.0);
             volume *= side;
+            if (lie == Lie::in_the_mean) {
+                along[a] = std::max(side, 1.0);
+                continue;
+            }
             const double first = std::floor(look.below[a] * inverse);
             const double last = std::floor((look.below[a] + look.side[a]) * inverse);
             const double end = (look.below[a] + look.side[a] + look.above[a]) * inverse;
-            laid[a] = last - first + 1;
+            along[a] = last - first + 1;
             volume_laid *= std::min(last + 1, end) - first;
         }
-        const double(&along)[3] = lie == Lie::as_it_is ? laid : met;
         rows += along[1] * along[2];
         visited += along[0] * along[1] * along[2];
         mean += volume;

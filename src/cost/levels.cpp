@@ -1,4 +1,4 @@
-// The classes are in order of size, and a level takes consecutive ones: the best split is found by dynamic
+// Size classes are in order of size, and a level takes consecutive ones: the best split is found by dynamic
 // programming over where the last level begins (R. Bellman, 1957), over a table of what each class costs at
 // each of some cell sizes.
 #include "levels.hpp"
@@ -20,25 +20,30 @@ constexpr double worth = 0.05;
 constexpr double sizes_per_octave = 4;
 constexpr std::size_t most_sizes = 160;
 
-// What the classes cost at the sizes of a range, even in the logarithm.
+// What the classes cost at the sizes of a range, even in the logarithm. Those of one exponent are one group.
 class Table {
 public:
-    Table(const ReferenceCost& cost, const std::pmr::vector<const SizeClass*>& classes,
-          const CellSizeRange& range, std::pmr::memory_resource* memory)
+    Table(const ReferenceCost& cost, std::span<const int> exponents, const CellSizeRange& range,
+          std::pmr::memory_resource* memory)
         : range_(range), grid_(memory), sum_(memory) {
         const double octaves = std::log2(range.max / range.min);
         count_ = std::min(static_cast<std::size_t>(octaves * sizes_per_octave) + 2, most_sizes);
         grid_.resize(count_);
-        sum_.resize((classes.size() + 1) * count_);
+        sum_.resize((exponents.size() + 1) * count_);
         for (std::size_t k = 0; k < count_; ++k) {
             const double d = cell_size(static_cast<double>(k)), occupied = cost.occupied(d);
             grid_[k] = cost.of_grid(d);
-            for (std::size_t c = 0; c < classes.size(); ++c)
-                sum_[(c + 1) * count_ + k] = sum_[c * count_ + k] + cost.of_class(*classes[c], d, occupied);
+            for (const SizeClass& c : cost.profile().classes()) {
+                const auto group = std::lower_bound(exponents.begin(), exponents.end(), c.exponent);
+                sum_[static_cast<std::size_t>(group - exponents.begin() + 1) * count_ + k] +=
+                    cost.of_class(c, d, occupied);
+            }
+            for (std::size_t g = 0; g < exponents.size(); ++g)
+                sum_[(g + 1) * count_ + k] += sum_[g * count_ + k];
         }
     }
 
-    // The least cost of a grid for the classes [from, end), and where.
+    // The least cost of a grid for the groups [from, end), and where.
     struct Best {
         double cost = infinity, cell_size = 0;
     };
@@ -65,22 +70,22 @@ private:
     CellSizeRange range_;
     std::size_t count_ = 0;
     std::pmr::vector<double> grid_; // at each size: what a grid costs before anything looks into it
-    std::pmr::vector<double> sum_;  // of the classes before each, at each size
+    std::pmr::vector<double> sum_;  // of the groups before each, at each size
 };
 
 } // namespace
 
 Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range) {
     std::pmr::memory_resource* const memory = cost.profile().classes().get_allocator().resource();
-    std::pmr::vector<const SizeClass*> classes(memory);
-    for (const SizeClass& c : cost.profile().classes()) classes.push_back(&c);
-    std::sort(classes.begin(), classes.end(),
-              [](const SizeClass* a, const SizeClass* b) { return a->exponent < b->exponent; });
-    const std::size_t n = classes.size();
+    std::pmr::vector<int> exponents(memory);
+    for (const SizeClass& c : cost.profile().classes()) exponents.push_back(c.exponent);
+    std::sort(exponents.begin(), exponents.end());
+    exponents.erase(std::unique(exponents.begin(), exponents.end()), exponents.end());
+    const std::size_t n = exponents.size();
     if (n == 0) return {};
-    const Table table(cost, classes, range, memory);
+    const Table table(cost, exponents, range, memory);
 
-    // best[l][j]: the classes before j in l + 1 levels; the last one begins at `from`.
+    // best[l][j]: the groups before j in l + 1 levels; the last one begins at `from`.
     constexpr std::size_t most = VOX_CELL_SIZE_LEVEL_CAPACITY;
     struct Split {
         double cost = infinity, cell_size = 0;
@@ -109,8 +114,8 @@ Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range) {
     levels.count = static_cast<std::uint32_t>(chosen + 1);
     std::size_t end = n;
     for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from) {
-        // Sides in the class are below twice its power of two.
-        const double side = std::nextafter(std::ldexp(2.0, classes[end - 1]->exponent), 0.0);
+        // Sides in a group are below twice its power of two.
+        const double side = std::nextafter(std::ldexp(2.0, exponents[end - 1]), 0.0);
         levels.level[l] = {best[l][end].cell_size, end == n ? infinity : side};
     }
     return levels;

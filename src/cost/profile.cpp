@@ -11,7 +11,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t largest_sample = 256; // of a class
+constexpr std::size_t largest_sample = 512; // of a class
 // Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
 constexpr double near_sides = 1;
 // Most rows of cells looked at for one box; of more, every so many.
@@ -150,27 +150,28 @@ void PointsMet::finish() noexcept {
 
 // ---- lookups --------------------------------------------------------------------------------------
 
-SizeClass::SizeClass(int e, std::pmr::memory_resource* memory)
-    : exponent(e), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)), sample(memory) {
+SizeClass::SizeClass(int e, bool may_meet_points, std::pmr::memory_resource* memory)
+    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)),
+      sample(memory) {
     sample.reserve(largest_sample);
 }
 
 Profile::Profile(std::pmr::memory_resource* memory) : classes_(memory) { index_.fill(-1); }
 
-SizeClass& Profile::class_of(double side) {
+SizeClass& Profile::class_of(double side, bool may_meet) {
     // A box without sides counts as very small; scaled, it would have no class of points.
     const int exponent =
         side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
-    std::int16_t& index = index_[static_cast<std::size_t>(exponent + exponents / 2)];
+    std::int16_t& index = index_[2 * static_cast<std::size_t>(exponent + exponents / 2) + may_meet];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
-        classes_.emplace_back(exponent, classes_.get_allocator().resource());
+        classes_.emplace_back(exponent, may_meet, classes_.get_allocator().resource());
     }
     return classes_[static_cast<std::size_t>(index)];
 }
 
 void Profile::add(const Lookup& lookup, double weight) {
-    SizeClass& c = class_of(longest_side(lookup));
+    SizeClass& c = class_of(longest_side(lookup), lookup.may_meet);
     const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
                          lookup.hi[2] - lookup.lo[2]};
     c.count += weight;

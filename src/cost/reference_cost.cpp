@@ -1,5 +1,7 @@
 #include "reference_cost.hpp"
 
+#include "../fast/pairs.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,8 +67,9 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
     tets_ = static_cast<double>(tets);
     fast::Points points(memory);
     points.reserve(vertices);
-    std::uint32_t first = 0;
+    std::pmr::vector<fast::Box> boxes(memory);
     for (const Body& body : bodies) {
+        boxes.push_back(fast::empty_box);
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
             const auto p = body.positions[v];
             const std::uint32_t i = points.count++;
@@ -74,7 +77,20 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
             points.y[i] = static_cast<float>(p.y);
             points.z[i] = static_cast<float>(p.z);
             points.id[i] = i;
+            fast::add(boxes.back(), {{points.x[i], points.y[i], points.z[i], 0},
+                                     {points.x[i], points.y[i], points.z[i], 0}});
         }
+    }
+    fast::PairBuffers buffers(memory);
+    std::pmr::vector<fast::Pair> pairs(memory);
+    fast::find_pairs(boxes, buffers, pairs);
+    auto pair = pairs.begin(); // sorted by a
+    std::uint32_t first = 0;
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+        const Body& body = bodies[b];
+        const auto begin = pair;
+        while (pair != pairs.end() && pair->a == b) ++pair;
+        const std::span<const fast::Pair> others(begin, pair);
         Lookup lookup{};
         lookup.last_read = static_cast<std::uint32_t>(vertices);
         lookup.first_passed = first;
@@ -98,6 +114,12 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
+            lookup.may_meet = std::any_of(others.begin(), others.end(), [&](const fast::Pair& other) {
+                const fast::Box& box = boxes[other.b];
+                for (int a = 0; a < 3; ++a)
+                    if (lookup.lo[a] > double{box.hi[a]} || lookup.hi[a] < double{box.lo[a]}) return false;
+                return true;
+            });
             profile_.add(lookup, weight);
         });
     }
@@ -126,7 +148,9 @@ double ReferenceCost::least_cell_size(double byte_limit, const CellSizeRange& ra
     const double limit = 0x1p31 - 1, fitting = byte_limit / sizeof(std::uint32_t);
     const double most = byte_limit > 0 ? std::min(limit, fitting) : limit;
     if (dense_cells(range.min) <= most) return 0;
-    double low = std::log(range.min), high = std::log(range.max);
+    // All in one cell at the latest.
+    double low = std::log(range.min),
+           high = std::log(std::max({range.max, 2 * sides_[0], 2 * sides_[1], 2 * sides_[2]}));
     while (high - low > 1e-9) {
         const double middle = (low + high) / 2;
         (dense_cells(std::exp(middle)) <= most ? high : low) = middle;
