@@ -176,7 +176,7 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
 
         const Box window = fast::bounds(points);
         const fast::Lattice finest = fast::make_lattice(window, 0, most_cells(points.count));
-        Pool& pool = pool_of(1 / double{finest.inverse});
+        Pool& pool = pool_of(1 / double{finest.inverse}, effort.sample);
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
         pool.cells.add(cells_met(sides_of(window).w));
@@ -213,16 +213,16 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         for (const Reach& r : own) look(r.b, r.region);
     }
     for (Pool& pool : pools_) {
-        pool.profile.count_points(pool.points, effort.sample);
+        pool.profile.count_points(pool.points);
         pool.smallest_cell /= pool.windows;
     }
 }
 
-FastCost::Pool& FastCost::pool_of(double smallest_cell) {
+FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes) {
     const int key = static_cast<int>(std::floor(2 * std::log2(smallest_cell)));
     for (Pool& pool : pools_)
         if (pool.key == key) return pool;
-    return pools_.emplace_back(key, pools_.get_allocator().resource());
+    return pools_.emplace_back(key, sizes, pools_.get_allocator().resource());
 }
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at

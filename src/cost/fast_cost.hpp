@@ -61,8 +61,8 @@ private:
     };
     // Windows whose smallest possible cells are alike, so that one effective cell size does for all.
     struct Pool {
-        Pool(int key, std::pmr::memory_resource* memory)
-            : key(key), profile(memory), points(memory), looks(memory) {}
+        Pool(int key, const SampleSizes& sizes, std::pmr::memory_resource* memory)
+            : key(key), profile(sizes, memory), points(memory), looks(memory) {}
 
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
         // From so many looks, evenly spread, at most.
@@ -76,7 +76,7 @@ private:
         Moments cells;                         // of the windows themselves
     };
 
-    Pool& pool_of(double smallest_cell);
+    Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 
     std::pmr::vector<Pool> pools_;
     vox_cost_weights weights_;

@@ -11,7 +11,6 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t largest_sample = 512; // of a class
 // Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
 constexpr double near_sides = 1;
 // Most rows of cells looked at for one box; of more, every so many.
@@ -150,13 +149,16 @@ void PointsMet::finish() noexcept {
 
 // ---- lookups --------------------------------------------------------------------------------------
 
-SizeClass::SizeClass(int e, bool may_meet_points, std::pmr::memory_resource* memory)
+SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std::pmr::memory_resource* memory)
     : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)),
       sample(memory) {
-    sample.reserve(largest_sample);
+    sample.reserve(most_samples);
 }
 
-Profile::Profile(std::pmr::memory_resource* memory) : classes_(memory) { index_.fill(-1); }
+Profile::Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory)
+    : sizes_(sizes), classes_(memory) {
+    index_.fill(-1);
+}
 
 SizeClass& Profile::class_of(double side, bool may_meet) {
     // A box without sides counts as very small; scaled, it would have no class of points.
@@ -165,7 +167,7 @@ SizeClass& Profile::class_of(double side, bool may_meet) {
     std::int16_t& index = index_[2 * static_cast<std::size_t>(exponent + exponents / 2) + may_meet];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
-        classes_.emplace_back(exponent, may_meet, classes_.get_allocator().resource());
+        classes_.emplace_back(exponent, may_meet, sizes_.lookups, classes_.get_allocator().resource());
     }
     return classes_[static_cast<std::size_t>(index)];
 }
@@ -178,15 +180,15 @@ void Profile::add(const Lookup& lookup, double weight) {
     c.added += 1;
     c.cells.add(cells_met(w), weight);
     c.rows.add(rows_met(w), weight);
-    if (c.sample.size() < largest_sample) {
+    if (c.sample.size() < sizes_.lookups) {
         c.sample.push_back(lookup);
         return;
     }
     const std::uint64_t place = next_below(random_, c.added);
-    if (place < largest_sample) c.sample[static_cast<std::size_t>(place)] = lookup;
+    if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
-void Profile::count_points(const fast::Points& points, const SampleSizes& sizes) {
+void Profile::count_points(const fast::Points& points) {
     const double lookups = count();
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
@@ -202,13 +204,13 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
             first_size_ = smallest / 16;
             size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
         }
-        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes.near_points,
-                            points.count / sizes.far_points + 1};
+        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
+                            points.count / sizes_.far_points + 1};
         for (SizeClass& c : classes_) {
             // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
             const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
             const auto size = std::min(
-                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes.lookups) * share) + 1);
+                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
             const double near = near_sides * std::ldexp(2.0, c.exponent);
             const double each = c.count / static_cast<double>(size);
             for (std::size_t i = 0; i < size; ++i) {

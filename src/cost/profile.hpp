@@ -72,7 +72,7 @@ struct Lookup {
 // Lookups whose longest side is at least 2^exponent and less than twice that, and that may meet something, or
 // not.
 struct SizeClass {
-    SizeClass(int exponent, bool may_meet, std::pmr::memory_resource* memory);
+    SizeClass(int exponent, bool may_meet, std::size_t most_samples, std::pmr::memory_resource* memory);
 
     int exponent;
     bool may_meet;
@@ -91,14 +91,14 @@ struct SampleSizes {
 
 class Profile {
 public:
-    explicit Profile(std::pmr::memory_resource* memory);
+    Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory);
 
     // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample.
     // Sides are finite.
     void add(const Lookup& lookup, double weight = 1);
     // Once, when all are there: the points around the samples. `points` are those of the scene, their ids
     // what the lookups mean by an index; all are finite.
-    void count_points(const fast::Points& points, const SampleSizes& sizes);
+    void count_points(const fast::Points& points);
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept;
@@ -120,6 +120,7 @@ private:
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
 
+    SampleSizes sizes_;
     std::pmr::vector<SizeClass> classes_;           // those that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0;

@@ -57,7 +57,7 @@ Effort quick(std::uint64_t tets) noexcept {
 
 ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
                              const vox_cost_weights& weights, std::pmr::memory_resource* memory)
-    : profile_(memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
+    : profile_(effort.sample, memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
     std::size_t vertices = 0, tets = 0;
     for (const Body& body : bodies) {
         vertices += body.vertex_count;
@@ -114,10 +114,15 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
+            // Also through cells as large as it is itself.
+            const double margin = std::max(
+                {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]});
             lookup.may_meet = std::any_of(others.begin(), others.end(), [&](const fast::Pair& other) {
                 const fast::Box& box = boxes[other.b];
                 for (int a = 0; a < 3; ++a)
-                    if (lookup.lo[a] > double{box.hi[a]} || lookup.hi[a] < double{box.lo[a]}) return false;
+                    if (lookup.lo[a] - margin > double{box.hi[a]} ||
+                        lookup.hi[a] + margin < double{box.lo[a]})
+                        return false;
                 return true;
             });
             profile_.add(lookup, weight);
@@ -127,7 +132,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         const fast::Box box = fast::bounds(points);
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
-    profile_.count_points(points, effort.sample);
+    profile_.count_points(points);
 }
 
 bool ReferenceCost::range(double& min, double& max) const noexcept {
