@@ -191,7 +191,8 @@ std::vector<Sample> sweep(Grid& grid, const std::vector<double>& sizes, double s
     const auto middle = std::lower_bound(sizes.begin(), sizes.end(), start);
     double best = std::numeric_limits<double>::infinity();
     const auto try_size = [&](double size) {
-        const double seconds = std::min(grid.turn(size), grid.turn(size));
+        double seconds = grid.turn(size);
+        if (seconds < 0.1) seconds = std::min(seconds, grid.turn(size));
         samples.push_back({size, seconds});
         best = std::min(best, seconds);
         return seconds <= hopeless * best;
