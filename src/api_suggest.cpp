@@ -89,7 +89,7 @@ public:
         for (const Body& body : bodies_) tets += body.tets.size();
         const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
         geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure(bodies_);
-        effort_ = quick(tets);
+        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles : quick(tets);
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
 

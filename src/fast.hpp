@@ -69,9 +69,12 @@ public:
     // Whether a body of the last step had to be looked at: all of them unless FastSettings::carry.
     bool moved(std::size_t body) const noexcept { return states_[body].moved; }
 
-    // What the last step had to do for a body that is there since; more than it may have to do for others.
-    Activity activity(std::size_t body) const noexcept {
-        return body < states_.size() ? Activity{states_[body].moved, states_[body].self} : Activity{};
+    // What the last step had to do for a body of `vertices` that is there since; all for others. Where
+    // winding numbers cleared most of it, the rest is not worth a thought.
+    Activity activity(std::size_t body, std::uint32_t vertices) const noexcept {
+        if (body >= states_.size()) return {};
+        const BodyState& state = states_[body];
+        return {state.moved, state.self && state.binned > vertices / 2};
     }
 
     // The cell size of the last window of the last step that had one; 0 before.
@@ -89,6 +92,7 @@ private:
         bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
         bool tiles_known;          // all of tile_boxes_ are
         bool self;                 // some vertices of the window may be in tets of the same body
+        std::uint32_t binned;      // vertices in the windows
         fast::Box own;             // where vertices of the window may be in tets of the same body
         std::uint32_t buffers;     // in large_buffers_, or none
         const fast::Bins* bins;    // of its windows; null: there are none

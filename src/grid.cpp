@@ -405,7 +405,7 @@ vox_grid::Known vox_grid::known() const {
         known.tiles.push_back(s.mesh.tiles_if_made());
         const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
         known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
-        known.activity.push_back(s.body == Slot::none ? Activity{} : fast_engine_.activity(s.body));
+        known.activity.push_back(s.body == Slot::none ? Activity{} : fast_engine_.activity(s.body, s.mesh.vertex_count()));
     }
     return known;
 }
