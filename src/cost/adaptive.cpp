@@ -22,8 +22,8 @@ constexpr double hysteresis = 0.08;
 constexpr double most_at_once = 2;
 // Beyond this factor from what the model chose it is asked again.
 constexpr double far_off = 1.5;
-// Of the time of the steps, for choosing.
-constexpr double time_share = 0.01;
+// Of the time of the steps, for choosing: a hundredth, told by counts to within a factor of two.
+constexpr double time_share = 0.005;
 // Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
 // it or one of the few far ones.
 constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 256;
