@@ -40,6 +40,14 @@ static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) 
     }
 }
 
+/* A case of tests that take minutes under the sanitizers: CK_EXCLUDE_TAGS=large leaves them out there. */
+static inline TCase* large_tests(void) {
+    TCase* tests = tcase_create("large");
+    tcase_set_timeout(tests, 0);
+    tcase_set_tags(tests, "large");
+    return tests;
+}
+
 static inline int run_suite(Suite* suite) {
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
