@@ -249,7 +249,7 @@ int main(void) {
     tcase_add_test(tests, box_is_exact);
     tcase_add_test(tests, bad_arguments);
     suite_add_tcase(suite, tests);
-    TCase* large = large_tests();
+    TCase* large = tagged_tests("large");
     tcase_add_loop_test(large, stuffed_body, 8, 12);
     tcase_add_loop_test(large, stuffed_body_is_near_its_surface, 0, 4);
     suite_add_tcase(suite, large);

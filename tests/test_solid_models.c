@@ -117,7 +117,7 @@ int main(void) {
     tcase_add_loop_test(tests, fifty_cells, 0, 1);
     tcase_add_test(tests, self_intersecting);
     suite_add_tcase(suite, tests);
-    TCase* large = large_tests();
+    TCase* large = tagged_tests("large");
     tcase_add_loop_test(large, fifty_cells, 1, 3);
     tcase_add_loop_test(large, half_a_cell, 0, 3);
     tcase_add_test(large, million);

@@ -554,7 +554,7 @@ int main(void) {
     tcase_add_test(tests, old_and_new_structs);
     tcase_add_test(tests, bad_arguments);
     suite_add_tcase(suite, tests);
-    TCase* large = large_tests();
+    TCase* large = tagged_tests("large");
     tcase_add_checked_fixture(large, clear, NULL);
     tcase_add_test(large, sphere);
     tcase_add_test(large, coarser_inside);
