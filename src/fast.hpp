@@ -80,14 +80,14 @@ private:
         std::uint32_t first_block; // in block_boxes_
         bool rounded;              // `positions` are
         bool moved;                // or may have, since the last step
-        bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
-        bool tiles_known;          // all of tile_boxes_ are
-        bool self;                 // some vertices of the window may be in tets of the same body
-        fast::Box own;             // where vertices of the window may be in tets of the same body
-        std::uint32_t buffers;     // in large_buffers_, or none
-        const fast::Bins* bins;    // of its windows; null: there are none
-        std::uint32_t root;        // of their tree, in bins->windows
-        double cell_size;          // of the windows
+        bool reached;           // by others: super_boxes_ and the tile_boxes_ are made where they meet them
+        bool tiles_known;       // all of tile_boxes_ are
+        bool self;              // some vertices of the window may be in tets of the same body
+        fast::Box own;          // where vertices of the window may be in tets of the same body
+        std::uint32_t buffers;  // in large_buffers_, or none
+        const fast::Bins* bins; // of its windows; null: there are none
+        std::uint32_t root;     // of their tree, in bins->windows
+        double cell_size;       // of the windows
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
     struct Reach {
@@ -135,6 +135,8 @@ private:
     void shrink_to_tiles(const Step& step, Reach& reach) const;
     void sort_reaches(const Step& step);
     std::span<const std::uint32_t> reaching(std::uint32_t b) const noexcept; // in reaches_
+    bool knows_sides(const Step& step, std::uint32_t body) const noexcept;
+    void find_sides(const Step& step, const Piece& piece);
     void know_super_tiles(const Step& step, const Piece& piece);
     void know_tiles(const Step& step, const Piece& piece);
     void make_windows(Step& step);
@@ -149,7 +151,9 @@ private:
 
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
+    std::pmr::vector<std::uint8_t> tile_known_;   // tile_boxes_ is of this step
+    std::pmr::vector<fast::Box> reached_regions_; // of each body, around the regions where others reach it
+    std::pmr::vector<std::uint8_t> block_sides_;  // of block_boxes_, from there: sides_of()
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
     std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
     std::pmr::vector<std::uint8_t> piece_moved_;
