@@ -9,6 +9,7 @@
 #include "mesh.hpp"
 #include "parallel.hpp"
 #include "queries.hpp"
+#include "readings.hpp"
 #include "reference.hpp"
 #include "scene.hpp"
 
@@ -59,6 +60,9 @@ public:
     const vox::Mesh& mesh(vox_mesh mesh) const;
 
     void step();
+
+    void prepare_readings();
+    std::span<const vox_reading> readings() const { return readings_.all(); }
 
     void prepare_queries();
     const vox::Queries& queries() const { queries_.require_prepared(); return queries_; }
@@ -130,6 +134,7 @@ private:
     bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
+    vox::Readings readings_;
     vox::Queries queries_;
     vox_counters counters_{};
     vox_profile profile_{};

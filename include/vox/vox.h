@@ -120,8 +120,8 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
 /* The caller's scheduler, in the manner of Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
  * least min_range items where it can, and has `task` called once for each range, now or later, on any thread; it
  * returns a handle for `finish`, or null when all calls have already returned. `finish` returns when they have.
- * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step. Both null: the
- * built-in scheduler. */
+ * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step, and at most once by
+ * vox_grid_prepare_readings. Both null: the built-in scheduler. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);
@@ -515,6 +515,11 @@ VOX_API vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view)
 VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
                                           uint64_t capacity, uint64_t* out_count);
 
+/* The same of the contacts between two meshes, in either order, or of one mesh with itself (mesh_a = mesh_b): those of
+ * their vox_pair. */
+VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
+                                          vox_contact* contacts, uint64_t capacity, uint64_t* out_count);
+
 /* Of a touch_event: how the last successful step differs from the successful step before it. */
 typedef enum vox_touch {
     VOX_TOUCH_BEGAN = 1,     /* touches, and did not */
@@ -576,6 +581,78 @@ typedef struct vox_contact_event_view {
 /* The same for single vertices, under the same rules, on grids with VOX_GRID_CONTACT_EVENTS.
  * Errors: INVALID_STATE on other grids. */
 VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view);
+
+/* ---- readings --------------------------------------------------------------------------------- */
+
+/* What a program that answers contacts, draws or reports them wants of each: where the vertex is, the surface next to it,
+ * how deep it is. A grid that is never asked pays nothing: vox_grid_prepare_readings computes them, once a step and only
+ * where they are wanted. It is a change of the grid; what follows it are reads. */
+
+/* Which parts of a vox_reading there are; what belongs to others is all zero. */
+typedef enum vox_reading_flags {
+    VOX_READING_POSITION = 1, /* not of a vertex that is gone by now, with its mesh or from it */
+    VOX_READING_SURFACE = 2,  /* not then either, nor when mesh_b or the tetrahedron is gone, or mesh_b has no surface */
+    VOX_READING_DEPTH = 4,    /* not of grids without VOX_GRID_PENETRATIONS */
+    VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
+} vox_reading_flags;
+
+/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same, the first two fields aside.
+ * The surface of mesh_b, the facets of exactly one of its tetrahedra, doubled ones taken once, is looked at from the
+ * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally far
+ * the one with the lowest corners, each in ascending order, the first that differs deciding. For self-contact it is
+ * one of the fold that the vertex has entered, never one that has the vertex as a corner: see vox_penetration_state.
+ * No reading depends on engine, cell size, workers or machine. */
+typedef struct vox_reading {
+    uint64_t contact;           /* its index in vox_grid_contacts */
+    uint32_t known;             /* vox_reading_flags, combined with | */
+    vox_penetration_state state; /* DEPTH: state, depth and direction of the vertex's vox_penetration */
+    float depth;
+    float direction[3];
+    double position[3];         /* POSITION: of the vertex, as it collides: its doubles, its transform */
+    double distance;            /* SURFACE: of the vertex to surface_position; see above */
+    double surface_position[3]; /* the closest point of `triangle` */
+    double barycentric[3];      /* its weights for the corners in that order: in [0, 1] to rounding, the sum 1 */
+    /* Unit, out of the triangle's tetrahedron, or where this is flat to the side on which the vertex is not. Where the
+     * triangle has no area: from the vertex to the closest point, or 0, 0, 1 when it is there. */
+    double normal[3];
+    uint32_t triangle[3];       /* vertices of mesh_b, the lowest first, counter-clockwise seen from where the normal
+                                   points */
+    uint32_t reserved;
+    uint64_t user_data_a;       /* of mesh_a, as given at insertion */
+    uint64_t user_data_b;
+} vox_reading;
+
+/* `count` readings, `byte_stride` apart, one for each contact in their order; a field of them, say position, is an array
+ * of its own with that stride. `data` lives until the next step, clear, vox_grid_prepare_readings or destroy of the
+ * grid. */
+typedef struct vox_reading_view {
+    const vox_reading* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_reading_view;
+
+/* Reads the contacts of the last step, of the meshes as they are now: positions that the caller has borrowed out must
+ * still be those of the step. What was removed or changed in between is told by vox_reading.known. May be called
+ * again; takes time in proportion to the contacts, and to the vertices and surfaces of the meshes that they name. Memory
+ * for as many contacts and triangles is kept until the grid is destroyed: a call that needs no more than one
+ * before allocates nothing. Enqueues at most one task.
+ * Errors: NON_FINITE and LIMIT (positions that changed since the step; a mesh of more tetrahedra than
+ * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; the readings that there were stay then. */
+VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
+
+/* The readings that were prepared. Errors: INVALID_STATE when none were since the last step or clear. */
+VOX_API vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view);
+
+/* As vox_mesh_copy_contacts, of readings: the same ones in the same order. Errors: INVALID_ARGUMENT, INVALID_HANDLE,
+ * INVALID_STATE as vox_grid_readings. */
+VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings, uint64_t capacity,
+                                          uint64_t* out_count);
+
+/* As vox_pair_copy_contacts, of readings. Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as
+ * vox_grid_readings. */
+VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, vox_reading* readings,
+                                          uint64_t capacity, uint64_t* out_count);
 
 /* ---- snapshots -------------------------------------------------------------------------------- */
 
