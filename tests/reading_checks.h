@@ -1,4 +1,5 @@
-/* Scenes for the tests of readings, and what a reading has to say by brute force over every triangle of every surface. */
+/* Scenes for the tests of readings, and what a reading has to say by brute force over every triangle of every
+ * surface. */
 #ifndef VOX_TESTS_READING_CHECKS_H
 #define VOX_TESTS_READING_CHECKS_H
 
@@ -17,10 +18,12 @@ typedef struct facet {
 } facet;
 
 static inline int compare_facets(const void* x, const void* y) {
-    return memcmp(x, y, sizeof(uint32_t) * 4); /* any order that brings equal corners together, then equal opposites */
+    return memcmp(
+        x, y, sizeof(uint32_t) * 4); /* any order that brings equal corners together, then equal opposites */
 }
 
-/* The facets of exactly one tetrahedron, doubled ones once; returns their number. part(t) = t / tets_a_part. */
+/* The facets of exactly one tetrahedron, doubled ones once; returns their number. part(t) = t / tets_a_part.
+ */
 static inline uint32_t surface_of(const uint32_t* tets, uint32_t count, uint32_t tets_a_part, facet** out) {
     facet* all = (facet*)malloc(sizeof(facet) * (4 * (size_t)count + 1));
     uint32_t n = 0, kept = 0;
@@ -47,7 +50,8 @@ static inline uint32_t surface_of(const uint32_t* tets, uint32_t count, uint32_t
     qsort(all, n, sizeof(facet), compare_facets);
     for (uint32_t first = 0, last; first < n; first = last) {
         int sides = 1;
-        for (last = first + 1; last < n && memcmp(all[last].sorted, all[first].sorted, sizeof all->sorted) == 0; ++last)
+        for (last = first + 1;
+             last < n && memcmp(all[last].sorted, all[first].sorted, sizeof all->sorted) == 0; ++last)
             sides += all[last].opposite != all[last - 1].opposite;
         if (sides == 1) all[kept++] = all[first];
     }
@@ -160,8 +164,8 @@ static inline void end_world(world* w) {
     }
 }
 
-/* Boxes that overlap each other. `coarse`: on a lattice of quarters, so that vertices meet facets, edges and corners and
- * many triangles are equally far. */
+/* Boxes that overlap each other. `coarse`: on a lattice of quarters, so that vertices meet facets, edges and
+ * corners and many triangles are equally far. */
 static inline world random_world(uint64_t* random, int coarse) {
     world w;
     memset(&w, 0, sizeof w);
@@ -174,7 +178,8 @@ static inline world random_world(uint64_t* random, int coarse) {
             at[axis] = coarse ? 0.25f * (float)random_below(random, 8) : random_float(random, 0, 2);
         m->shape = make_box(1 + random_below(random, 3), 1, at[0], at[1], at[2]);
         const uint32_t coordinates = 3 * m->shape.vertex_count;
-        for (uint32_t i = 0; !coarse && i < coordinates; ++i) m->shape.positions[i] += random_float(random, -0.2f, 0.2f);
+        for (uint32_t i = 0; !coarse && i < coordinates; ++i)
+            m->shape.positions[i] += random_float(random, -0.2f, 0.2f);
         if (kind == 0) { /* inside out */
             for (uint32_t t = 0; t < m->shape.tet_count; ++t) {
                 const uint32_t swapped = m->shape.tets[4 * t];
@@ -186,7 +191,8 @@ static inline world random_world(uint64_t* random, int coarse) {
                 uint32_t* v = m->shape.tets + 4 * t;
                 const uint32_t what = random_below(random, 3);
                 if (what == 0) memcpy(v, m->shape.tets + 4 * (m->shape.tet_count - 1 - t), 4 * sizeof *v);
-                if (what == 1) memcpy(m->shape.positions + 3 * v[0], m->shape.positions + 3 * v[1], 3 * sizeof(float));
+                if (what == 1)
+                    memcpy(m->shape.positions + 3 * v[0], m->shape.positions + 3 * v[1], 3 * sizeof(float));
                 if (what == 2) v[2] = v[3];
             }
         } else if (kind == 2 && b > 0) { /* points alone */
@@ -195,7 +201,8 @@ static inline world random_world(uint64_t* random, int coarse) {
         if (random_below(random, 2)) { /* doubles that no float comes near */
             m->given = (double*)malloc(sizeof(double) * coordinates);
             for (uint32_t i = 0; i < coordinates; ++i)
-                m->given[i] = (double)m->shape.positions[i] + (coarse ? 0 : 1e-9 * (double)random_float(random, -1, 1));
+                m->given[i] =
+                    (double)m->shape.positions[i] + (coarse ? 0 : 1e-9 * (double)random_float(random, -1, 1));
         }
         complete(m);
     }
@@ -225,16 +232,17 @@ static inline int index_of(const world* w, vox_mesh mesh) {
     return -1;
 }
 
-/* The closest triangle by definition, of parts other than that of the vertex for self-contact; its squared distance.
- * Of those exactly as close, as computed here, the lowest. */
-static inline double closest_by_definition(const model* b, const double* p, uint32_t part, const facet** out) {
+/* The closest triangle by definition, of parts other than that of the vertex for self-contact; its squared
+ * distance. Of those exactly as close, as computed here, the lowest. */
+static inline double closest_by_definition(const model* b, const double* p, uint32_t part,
+                                           const facet** out) {
     double least = INFINITY;
     for (uint32_t f = 0; f < b->surface_count; ++f) {
         const facet* candidate = &b->surface[f];
         if (part != UINT32_MAX && candidate->part != part) continue;
-        const double squared =
-            squared_to_triangle(p, b->positions + 3 * candidate->sorted[0], b->positions + 3 * candidate->sorted[1],
-                                b->positions + 3 * candidate->sorted[2]);
+        const double squared = squared_to_triangle(p, b->positions + 3 * candidate->sorted[0],
+                                                   b->positions + 3 * candidate->sorted[1],
+                                                   b->positions + 3 * candidate->sorted[2]);
         int lower = squared < least;
         if (squared == least)
             for (int i = 0, differ = 0; i < 3 && !differ; ++i) {
@@ -258,8 +266,10 @@ static inline const facet* facet_of(const model* b, const uint32_t triangle[3]) 
     return NULL;
 }
 
-/* Checks one reading; `exact`: all distances are exact, so that ties are too. Returns 1 when it has a surface. */
-static inline int check_reading(const world* w, const vox_contact* contact, const vox_reading* reading, int exact) {
+/* Checks one reading; `exact`: all distances are exact, so that ties are too. Returns 1 when it has a
+ * surface. */
+static inline int check_reading(const world* w, const vox_contact* contact, const vox_reading* reading,
+                                int exact) {
     const model *a = &w->models[index_of(w, contact->mesh_a)], *b = &w->models[index_of(w, contact->mesh_b)];
     const double* p = a->positions + 3 * contact->vertex;
     ck_assert_uint_eq(reading->user_data_a, 1000 + (uint64_t)(a - w->models));
@@ -289,7 +299,8 @@ static inline int check_reading(const world* w, const vox_contact* contact, cons
         for (int axis = 0; axis < 3; ++axis) at[axis] += reading->barycentric[i] * corner[i][axis];
     }
     ck_assert_double_eq_tol(sum, 1, 1e-12);
-    for (int axis = 0; axis < 3; ++axis) ck_assert_double_eq_tol(at[axis], reading->surface_position[axis], 1e-12);
+    for (int axis = 0; axis < 3; ++axis)
+        ck_assert_double_eq_tol(at[axis], reading->surface_position[axis], 1e-12);
     minus(reading->surface_position, p, way);
     ck_assert_double_eq_tol(sqrt(dot(way, way)), reading->distance, 1e-9);
 
@@ -319,7 +330,8 @@ static inline uint64_t check_readings(const world* w, int exact) {
     ck_assert_uint_eq(readings.count, contacts.count);
     ck_assert_uint_eq(readings.epoch, contacts.epoch);
     for (uint64_t i = 0; i < readings.count; ++i) {
-        const vox_reading* reading = (const vox_reading*)(const void*)((const char*)readings.data + i * readings.byte_stride);
+        const vox_reading* reading =
+            (const vox_reading*)(const void*)((const char*)readings.data + i * readings.byte_stride);
         ck_assert_uint_eq(reading->contact, i);
         surfaces += (uint64_t)check_reading(w, &contacts.data[i], reading, exact);
     }

@@ -1,4 +1,5 @@
-/* The life of readings: what is gone by the time they are asked for, copies of a part of them, errors, memory. */
+/* The life of readings: what is gone by the time they are asked for, copies of a part of them, errors,
+ * memory. */
 #include "reading_checks.h"
 
 /* ---- what is gone, and what there never was ---- */
@@ -60,18 +61,21 @@ START_TEST(after_removal) {
                     check_reading(&w, &contacts.data[i], r, 0);
                     continue;
                 }
-                ck_assert_uint_eq(r->known, a == gone ? VOX_READING_DEPTH : VOX_READING_DEPTH | VOX_READING_POSITION);
+                ck_assert_uint_eq(r->known,
+                                  a == gone ? VOX_READING_DEPTH : VOX_READING_DEPTH | VOX_READING_POSITION);
                 ck_assert_float_ge(r->depth, 0);
                 ck_assert_double_eq(r->distance, 0);
             }
             ck_assert_uint_gt(of_gone, 0);
             ck_assert_uint_gt(of_other, 0);
-            ck_fails(vox_mesh_copy_readings(w.grid, w.models[gone].mesh, NULL, 0, &of_gone), VOX_ERROR_INVALID_HANDLE, "stale");
+            ck_fails(vox_mesh_copy_readings(w.grid, w.models[gone].mesh, NULL, 0, &of_gone),
+                     VOX_ERROR_INVALID_HANDLE, "stale");
             ck_fails(vox_pair_copy_readings(w.grid, w.models[0].mesh, w.models[1].mesh, NULL, 0, &of_gone),
                      VOX_ERROR_INVALID_HANDLE, "stale");
             /* The next step forgets them. */
             ck_ok(vox_grid_step(w.grid));
-            ck_fails(vox_grid_readings(w.grid, &readings), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
+            ck_fails(vox_grid_readings(w.grid, &readings), VOX_ERROR_INVALID_STATE,
+                     "vox_grid_prepare_readings");
             end_world(&w);
         }
 }
@@ -84,7 +88,8 @@ START_TEST(without_penetrations) {
     ck_assert_uint_ge(check_readings(&w, 0), 4);
     vox_reading_view view;
     ck_ok(vox_grid_readings(w.grid, &view));
-    for (uint64_t i = 0; i < view.count; ++i) ck_assert_uint_eq(view.data[i].known, VOX_READING_POSITION | VOX_READING_SURFACE);
+    for (uint64_t i = 0; i < view.count; ++i)
+        ck_assert_uint_eq(view.data[i].known, VOX_READING_POSITION | VOX_READING_SURFACE);
     end_world(&w);
 }
 END_TEST
@@ -110,7 +115,8 @@ START_TEST(copies) {
         for (int a = 0; a < w.count; ++a) {
             uint64_t wanted = 0;
             for (uint64_t i = 0; i < contacts.count; ++i)
-                wanted += contacts.data[i].mesh_a == w.models[a].mesh || contacts.data[i].mesh_b == w.models[a].mesh;
+                wanted += contacts.data[i].mesh_a == w.models[a].mesh ||
+                          contacts.data[i].mesh_b == w.models[a].mesh;
             ck_ok(vox_mesh_copy_contacts(w.grid, w.models[a].mesh, some, room, &count));
             ck_assert_uint_eq(count, wanted);
             ck_ok(vox_mesh_copy_readings(w.grid, w.models[a].mesh, read, UINT64_MAX, &count));
@@ -176,23 +182,34 @@ START_TEST(bad_arguments) {
     view.count = 5;
     ck_fails(vox_grid_readings(w.grid, &view), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
     ck_assert_uint_eq(view.count, 5);
-    ck_fails(vox_mesh_copy_readings(w.grid, a, &reading, 1, &count), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
-    ck_fails(vox_pair_copy_readings(w.grid, a, b, &reading, 1, &count), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
+    ck_fails(vox_mesh_copy_readings(w.grid, a, &reading, 1, &count), VOX_ERROR_INVALID_STATE,
+             "vox_grid_prepare_readings");
+    ck_fails(vox_pair_copy_readings(w.grid, a, b, &reading, 1, &count), VOX_ERROR_INVALID_STATE,
+             "vox_grid_prepare_readings");
     ck_ok(vox_grid_prepare_readings(w.grid));
     ck_fails(vox_grid_prepare_readings(NULL), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_readings(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_readings(w.grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
-    ck_fails(vox_mesh_copy_readings(NULL, a, &reading, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_copy_readings(w.grid, a, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "readings is null");
-    ck_fails(vox_mesh_copy_readings(w.grid, a, &reading, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
+    ck_fails(vox_mesh_copy_readings(NULL, a, &reading, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_mesh_copy_readings(w.grid, a, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "readings is null");
+    ck_fails(vox_mesh_copy_readings(w.grid, a, &reading, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
     ck_fails(vox_mesh_copy_readings(w.grid, 0, &reading, 1, &count), VOX_ERROR_INVALID_HANDLE, "0");
-    ck_fails(vox_pair_copy_readings(NULL, a, b, &reading, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_pair_copy_readings(w.grid, a, b, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "readings is null");
-    ck_fails(vox_pair_copy_readings(w.grid, a, b, &reading, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
+    ck_fails(vox_pair_copy_readings(NULL, a, b, &reading, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_pair_copy_readings(w.grid, a, b, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "readings is null");
+    ck_fails(vox_pair_copy_readings(w.grid, a, b, &reading, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
     ck_fails(vox_pair_copy_readings(w.grid, a, 3, &reading, 1, &count), VOX_ERROR_INVALID_HANDLE, "3");
-    ck_fails(vox_pair_copy_contacts(NULL, a, b, &contact, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_pair_copy_contacts(w.grid, a, b, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "contacts is null");
-    ck_fails(vox_pair_copy_contacts(w.grid, a, b, &contact, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
+    ck_fails(vox_pair_copy_contacts(NULL, a, b, &contact, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_pair_copy_contacts(w.grid, a, b, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "contacts is null");
+    ck_fails(vox_pair_copy_contacts(w.grid, a, b, &contact, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
     ck_fails(vox_pair_copy_contacts(w.grid, 0, b, &contact, 1, &count), VOX_ERROR_INVALID_HANDLE, "0");
     ck_fails(vox_pair_copy_contacts(w.grid, a, 0, &contact, 1, &count), VOX_ERROR_INVALID_HANDLE, "0");
     ck_assert_uint_eq(count, 77);
@@ -249,7 +266,8 @@ typedef struct heap {
 static void* take(size_t size, size_t alignment, void* user) {
     heap* h = (heap*)user;
     void* memory = NULL;
-    if (++h->calls == h->fail_at || posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) != 0)
+    if (++h->calls == h->fail_at ||
+        posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) != 0)
         return NULL;
     ++h->live;
     return memory;

@@ -10,7 +10,8 @@ static body two_boxes(uint32_t n, float x, float y, float z) {
     memcpy(both.positions, first.positions, 3 * sizeof(float) * first.vertex_count);
     memcpy(both.positions + 3 * first.vertex_count, second.positions, 3 * sizeof(float) * first.vertex_count);
     memcpy(both.tets, first.tets, 4 * sizeof(uint32_t) * first.tet_count);
-    for (uint32_t i = 0; i < 4 * first.tet_count; ++i) both.tets[4 * first.tet_count + i] = second.tets[i] + first.vertex_count;
+    for (uint32_t i = 0; i < 4 * first.tet_count; ++i)
+        both.tets[4 * first.tet_count + i] = second.tets[i] + first.vertex_count;
     free_body(&first);
     free_body(&second);
     return both;
@@ -108,8 +109,8 @@ START_TEST(self_contact) {
         w.count = 1;
         model* m = &w.models[0];
         const uint32_t n = 2 + random_below(&random, 2);
-        m->shape = two_boxes(n, random_float(&random, 0.2f, 0.9f) * (float)n, random_float(&random, -0.7f, 0.7f),
-                             random_float(&random, -0.7f, 0.7f));
+        m->shape = two_boxes(n, random_float(&random, 0.2f, 0.9f) * (float)n,
+                             random_float(&random, -0.7f, 0.7f), random_float(&random, -0.7f, 0.7f));
         m->tets_a_part = m->shape.tet_count / 2;
         m->self = 1;
         complete(m);
@@ -163,7 +164,8 @@ START_TEST(self_contact_of_one_piece) {
 }
 END_TEST
 
-/* A transform counts, to the last bit, and a body scaled to nearly nothing or nearly everything keeps its normals. */
+/* A transform counts, to the last bit, and a body scaled to nearly nothing or nearly everything keeps its
+ * normals. */
 START_TEST(transform_and_scale) {
     static const double scales[] = {1, 1e-60, 1e-30, 1e30};
     for (int s = 0; s < 4; ++s) {
@@ -171,19 +173,22 @@ START_TEST(transform_and_scale) {
         world w;
         memset(&w, 0, sizeof w);
         w.count = 2;
-        for (int b = 0; b < 2; ++b) w.models[b].shape = make_box(2, 1, (float)b, 0.3f * (float)b, 0.2f * (float)b);
+        for (int b = 0; b < 2; ++b)
+            w.models[b].shape = make_box(2, 1, (float)b, 0.3f * (float)b, 0.2f * (float)b);
         w.grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
         for (int b = 0; b < 2; ++b) {
             model* m = &w.models[b];
             const double c = 0.8 * scale, d = 0.6 * scale;
-            const double matrix[12] = {c, -d, 0, b * 0.1 * scale, d, c, 0, 0.2 * scale, 0, 0, scale, 0.3 * scale};
+            const double matrix[12] = {c,           -d, 0, b * 0.1 * scale, d,          c, 0,
+                                       0.2 * scale, 0,  0, scale,           0.3 * scale};
             complete(m);
             for (uint32_t v = 0; v < m->shape.vertex_count; ++v) {
                 double x[3];
                 for (int axis = 0; axis < 3; ++axis) x[axis] = m->positions[3 * v + (uint32_t)axis];
                 for (int axis = 0; axis < 3; ++axis) {
                     const double* row = matrix + 4 * axis;
-                    m->positions[3 * v + (uint32_t)axis] = ((row[0] * x[0] + row[1] * x[1]) + row[2] * x[2]) + row[3];
+                    m->positions[3 * v + (uint32_t)axis] =
+                        ((row[0] * x[0] + row[1] * x[1]) + row[2] * x[2]) + row[3];
                 }
             }
             const vox_mesh_desc desc = desc_of(m, b);
@@ -204,8 +209,9 @@ START_TEST(transform_and_scale) {
             /* A box: the way to its surface is its normal. */
             ck_assert_double_eq_tol(dot(r->normal, r->normal), 1, 1e-9);
             for (int axis = 0; axis < 3; ++axis)
-                ck_assert_double_le(fabs(r->surface_position[axis] - r->position[axis] - r->distance * r->normal[axis]),
-                                    1e-9 * scale);
+                ck_assert_double_le(
+                    fabs(r->surface_position[axis] - r->position[axis] - r->distance * r->normal[axis]),
+                    1e-9 * scale);
         }
         end_world(&w);
     }
@@ -223,7 +229,8 @@ START_TEST(engines_and_workers) {
         ck_ok(vox_grid_prepare_readings(w.grid));
         ck_ok(vox_grid_readings(w.grid, &expected));
         for (uint32_t workers = 1; workers <= 8; ++workers) {
-            vox_grid* other = new_grid(workers % 2 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE, VOX_GRID_PENETRATIONS, workers);
+            vox_grid* other = new_grid(workers % 2 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE,
+                                       VOX_GRID_PENETRATIONS, workers);
             insert(&w, other);
             ck_ok(vox_grid_step(other));
             ck_ok(vox_grid_prepare_readings(other));
