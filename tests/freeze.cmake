@@ -19,3 +19,10 @@ if(VOX_BUILD_TOOLS)
   add_test(NAME replay COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/tools/replay.py)
   set_tests_properties(replay PROPERTIES ENVIRONMENT "VOX_TOOL=$<TARGET_FILE:vox_tool>")
 endif()
+
+# The same hashes in every configuration, and as checked in.
+add_executable(hashes portability/hashes.c portability/simd_level.cpp)
+target_link_libraries(hashes PRIVATE vox_internal)
+target_include_directories(hashes PRIVATE ${CMAKE_CURRENT_LIST_DIR})
+vox_target(hashes)
+add_test(NAME hashes COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/portability/matrix.py $<TARGET_FILE:hashes>)
