@@ -54,6 +54,8 @@ void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
 }
 
+} // namespace
+
 void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
     if (added > limit - count)
         throw Error(VOX_ERROR_LIMIT,
@@ -62,7 +64,6 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
                            static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
 }
 
-} // namespace
 } // namespace vox
 
 using namespace vox;

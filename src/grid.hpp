@@ -25,6 +25,9 @@ class Snapshot;
 // Throws Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
 
+// Throws Error(LIMIT) when `added` more of what a grid holds `count` of would be more than `limit`.
+void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what);
+
 } // namespace vox
 
 // Every public vox_grid_* and vox_mesh_* function is one member here; all throw, none changes anything when
