@@ -156,6 +156,30 @@ START_TEST(buffers_grow) {
 }
 END_TEST
 
+/* Arrays of fixed length in structs: no model fills more than there is. */
+START_TEST(capacities) {
+    body box = make_box(3, 1, 0, 0, 0);
+    const vox_mesh_desc mesh = body_desc(&box);
+    for (int model = VOX_COST_MODEL_PAPER; model <= VOX_COST_MODEL_FAST; ++model) {
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        vox_suggestion found;
+        memset(&found, 0, sizeof found);
+        found.struct_size = sizeof found;
+        desc.model = (vox_cost_model)model;
+        ck_ok(vox_suggest_cell_size(&desc, &mesh, 1, &found));
+        ck_assert_uint_eq(found.curve_count, VOX_COST_CURVE_CAPACITY);
+        ck_assert_uint_gt(found.term_count, 0);
+        ck_assert_uint_le(found.term_count, VOX_COST_TERM_CAPACITY);
+        ck_assert_uint_le(found.level_count, VOX_CELL_SIZE_LEVEL_CAPACITY);
+        double sum = 0; /* so there is none that had no place */
+        for (uint32_t i = 0; i < found.term_count; ++i) sum += found.terms[i].cost;
+        ck_assert_double_ge(sum, found.predicted_cost * (1 - 1e-9));
+        ck_assert_double_le(sum, found.predicted_cost * (1 + 1e-9));
+    }
+    free_body(&box);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, vertices_of_a_grid);
     tcase_add_test(tests, buffers_grow);
@@ -169,6 +193,7 @@ int main(void) {
     tcase_add_test(once, meshes_of_a_grid);
     tcase_add_test(once, cells_of_dense_storage);
     tcase_add_test(once, buckets_and_workers);
+    tcase_add_test(once, capacities);
     suite_add_tcase(suite, once);
     return run_suite(suite);
 }

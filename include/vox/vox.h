@@ -10,12 +10,15 @@
  *             Everywhere: INVALID_ARGUMENT for a null pointer that a comment does not allow, INVALID_HANDLE
  *             for an id that names no mesh of the grid.
  *   Structs   Structs whose first field is struct_size may grow. Fill them with vox_X_init or
- *             vox_default_X; the library reads and writes only the fields that struct_size covers,
- *             so old programs run with new libraries and the reverse.
+ *             vox_default_X; in those that a function writes, set struct_size before. The library reads
+ *             and writes only the fields that struct_size covers, so old programs run with new libraries
+ *             and the reverse. A struct_size below 4 or above 65536 is an INVALID_ARGUMENT.
  *   Ownership The library copies what it is given, except positions bound as borrowed. Pointers it
  *             hands out belong to it and live as long as their comment says.
  *   Threads   One thread at a time may change a grid. Between changes any number of threads may read
- *             it. Different grids are independent. vox_last_error() is per thread.
+ *             it: a function that takes a const grid reads it, any other changes it. Different grids are
+ *             independent. Functions without a grid run on any thread, at any time. vox_last_error() is
+ *             per thread.
  *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
  */
 #ifndef VOX_VOX_H
@@ -28,6 +31,10 @@
 #define VOX_VERSION_MINOR 1
 #define VOX_VERSION_PATCH 0
 
+/* Of the stable interface. A program built with one runs with every library of the same; part of the shared libraries'
+ * names (docs/abi.md). */
+#define VOX_ABI_VERSION 1
+
 #if defined(VOX_STATIC)
 #define VOX_EXPORT
 #elif defined(_WIN32) && defined(VOX_BUILD)
@@ -38,7 +45,7 @@
 #define VOX_EXPORT __attribute__((visibility("default")))
 #endif
 
-/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. */
+/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. docs/abi.md lists which. */
 #define VOX_API VOX_EXPORT
 #define VOX_EXPERIMENTAL VOX_EXPORT
 
@@ -82,7 +89,7 @@ VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
 VOX_API uint32_t vox_version(void);
 /* The same as "major.minor.patch". Static text. Cannot fail. */
 VOX_API const char* vox_version_string(void);
-/* Compiler, language level and options of this build, one line. Static text. Cannot fail. */
+/* Compiler, language level, instruction sets and options of this build, one line. Static text. Cannot fail. */
 VOX_API const char* vox_build_info(void);
 
 /* ---- memory and log --------------------------------------------------------------------------- */
@@ -133,8 +140,8 @@ typedef struct vox_task_system {
 
 /* ---- grid ------------------------------------------------------------------------------------- */
 
-/* Limits; passing one gives VOX_ERROR_LIMIT. */
-#define VOX_MAX_MESHES 1048576u           /* per grid, at one time */
+/* Limits; passing one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others. */
+#define VOX_MAX_MESHES 1048576u           /* per grid, at one time, with the slots that were retired */
 #define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
 #define VOX_MAX_VERTICES 2147483647u      /* per grid */
 #define VOX_MAX_TETS 2147483647u          /* per grid */
@@ -189,8 +196,8 @@ typedef struct vox_grid_desc {
     /* Most bytes the grid may hold at any time; a call that would pass it fails with VOX_ERROR_BUDGET.
      * 0: no limit. Default 4 GiB. */
     uint64_t byte_budget;
-    /* Buckets of the hash table, raised to the next prime. 0 (the default): the first prime that is at
-     * least twice the number of vertices. */
+    /* Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the
+     * first prime that is at least twice the number of vertices. */
     uint64_t hash_table_size;
     vox_allocator allocator;
     vox_log log;
@@ -244,7 +251,7 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * ascend in slot order, so a fresh grid orders meshes as they were inserted. A removed mesh's id never
  * names another mesh of the grid. */
 typedef uint32_t vox_mesh;
-#define VOX_NULL_MESH 0u
+#define VOX_NULL_MESH 0u /* names no mesh */
 
 typedef enum vox_format {
     VOX_FORMAT_FLOAT3 = 0,  /* three IEEE 754 singles x, y, z */
@@ -393,7 +400,8 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * In the steady state (same meshes, no more to do than before) it allocates nothing, with any number of workers; the
  * built-in scheduler's own memory is oneTBB's, not the grid's.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
- * allow; both name mesh and vertex), BUDGET, OUT_OF_MEMORY. */
+ * allow; both name mesh and vertex), LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+ * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
 /* Vertex `vertex` of mesh_a lies in the closed tetrahedron `tet` of mesh_b, which does not own it.
@@ -540,7 +548,7 @@ typedef struct vox_touch_event {
     uint32_t pair; /* its index in vox_grid_pairs; VOX_NO_PAIR when it ended */
 } vox_touch_event;
 
-#define VOX_NO_PAIR 0xffffffffu
+#define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair: none */
 
 /* All that began, then all that persisted, then all that ended: `count` together, `byte_stride` apart, each part
  * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. */
@@ -914,9 +922,9 @@ typedef struct vox_cost_sample {
     double cost;
 } vox_cost_sample;
 
-#define VOX_COST_CURVE_CAPACITY 64u
-#define VOX_COST_TERM_CAPACITY 12u
-#define VOX_CELL_SIZE_LEVEL_CAPACITY 4u
+#define VOX_COST_CURVE_CAPACITY 64u     /* samples of a curve */
+#define VOX_COST_TERM_CAPACITY 12u      /* terms of a cost; no model has more */
+#define VOX_CELL_SIZE_LEVEL_CAPACITY 4u /* grids side by side, of vox_suggestion.uniform_loss */
 
 /* One term of a cost: a piece of work, how often it is done, and what that costs. */
 typedef struct vox_cost_share {
