@@ -190,10 +190,12 @@ int main(void) {
     add_for_each_engine(suite, add_tests);
     TCase* once = tcase_create("one engine");
     tcase_set_timeout(once, 0);
-    tcase_add_test(once, meshes_of_a_grid);
     tcase_add_test(once, cells_of_dense_storage);
     tcase_add_test(once, buckets_and_workers);
     tcase_add_test(once, capacities);
     suite_add_tcase(suite, once);
+    TCase* large = tagged_tests("large");
+    tcase_add_test(large, meshes_of_a_grid);
+    suite_add_tcase(suite, large);
     return run_suite(suite);
 }
