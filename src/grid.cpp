@@ -81,8 +81,10 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
-      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_) {}
+      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
+      queries_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 

@@ -592,34 +592,34 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 
 /* ---- readings --------------------------------------------------------------------------------- */
 
-/* What a program that answers contacts, draws or reports them wants of each: where the vertex is, the surface next to it,
- * how deep it is. A grid that is never asked pays nothing: vox_grid_prepare_readings computes them, once a step and only
- * where they are wanted. It is a change of the grid; what follows it are reads. */
+/* What a program that answers contacts, draws or reports them wants of each: where the vertex is, the surface next to
+ * it, how deep it is. A grid that is never asked pays nothing: vox_grid_prepare_readings computes them, once a step and
+ * only where they are wanted. It is a change of the grid; what follows it are reads. */
 
 /* Which parts of a vox_reading there are; what belongs to others is all zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* not of a vertex that is gone by now, with its mesh or from it */
-    VOX_READING_SURFACE = 2,  /* not then either, nor when mesh_b or the tetrahedron is gone, or mesh_b has no surface */
+    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b or the tetrahedron is gone or mesh_b has no surface */
     VOX_READING_DEPTH = 4,    /* not of grids without VOX_GRID_PENETRATIONS */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_reading_flags;
 
 /* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same, the first two fields aside.
  * The surface of mesh_b, the facets of exactly one of its tetrahedra, doubled ones taken once, is looked at from the
- * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally far
- * the one with the lowest corners, each in ascending order, the first that differs deciding. For self-contact it is
- * one of the fold that the vertex has entered, never one that has the vertex as a corner: see vox_penetration_state.
+ * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally
+ * far the one with the lowest corners, compared in ascending order. For self-contact it is one of the fold that the
+ * vertex has entered, never one that has the vertex as a corner: see vox_penetration_state.
  * No reading depends on engine, cell size, workers or machine. */
 typedef struct vox_reading {
-    uint64_t contact;           /* its index in vox_grid_contacts */
-    uint32_t known;             /* vox_reading_flags, combined with | */
+    uint64_t contact;            /* its index in vox_grid_contacts */
+    uint32_t known;              /* vox_reading_flags, combined with | */
     vox_penetration_state state; /* DEPTH: state, depth and direction of the vertex's vox_penetration */
     float depth;
     float direction[3];
     double position[3];         /* POSITION: of the vertex, as it collides: its doubles, its transform */
-    double distance;            /* SURFACE: of the vertex to surface_position; see above */
+    double distance;            /* SURFACE: from the vertex to surface_position, and what follows but user data */
     double surface_position[3]; /* the closest point of `triangle` */
-    double barycentric[3];      /* its weights for the corners in that order: in [0, 1] to rounding, the sum 1 */
+    double barycentric[3];      /* its weights for the triangle's corners: in [0, 1] to rounding, the sum 1 */
     /* Unit, out of the triangle's tetrahedron, or where this is flat to the side on which the vertex is not. Where the
      * triangle has no area: from the vertex to the closest point, or 0, 0, 1 when it is there. */
     double normal[3];
@@ -630,9 +630,9 @@ typedef struct vox_reading {
     uint64_t user_data_b;
 } vox_reading;
 
-/* `count` readings, `byte_stride` apart, one for each contact in their order; a field of them, say position, is an array
- * of its own with that stride. `data` lives until the next step, clear, vox_grid_prepare_readings or destroy of the
- * grid. */
+/* `count` readings, `byte_stride` apart, one for each contact in their order; a field of them, say position, is an
+ * array of its own with that stride. `data` lives until the next step, clear, vox_grid_prepare_readings or destroy of
+ * the grid. */
 typedef struct vox_reading_view {
     const vox_reading* data;
     size_t byte_stride;
@@ -642,8 +642,8 @@ typedef struct vox_reading_view {
 
 /* Reads the contacts of the last step, of the meshes as they are now: positions that the caller has borrowed out must
  * still be those of the step. What was removed or changed in between is told by vox_reading.known. May be called
- * again; takes time in proportion to the contacts, and to the vertices and surfaces of the meshes that they name. Memory
- * for as many contacts and triangles is kept until the grid is destroyed: a call that needs no more than one
+ * again; takes time in proportion to the contacts, and to the vertices and surfaces of the meshes that they name.
+ * Memory for as many contacts and triangles is kept until the grid is destroyed: a call that needs no more than one
  * before allocates nothing. Enqueues at most one task.
  * Errors: NON_FINITE and LIMIT (positions that changed since the step; a mesh of more tetrahedra than
  * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; the readings that there were stay then. */

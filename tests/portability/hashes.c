@@ -1,7 +1,8 @@
-/* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts penetrations,
- * pairs and events, readings, answers of queries. The text is the same on every machine, with every compiler and
- * instruction set, engine, number of workers and format of positions: matrix.py, `./dev hashes`, `./dev portability`.
- *   hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
+/* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts
+ * penetrations, pairs and events, readings, answers of queries. The text is the same on every machine, with
+ * every compiler and instruction set, engine, number of workers and format of positions: matrix.py, `./dev
+ * hashes`, `./dev portability`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
+ * 0..3] [--cell-size FACTOR] */
 #include "scenes.h"
 #include "simd_level.h"
 
@@ -10,8 +11,8 @@
 typedef struct settings {
     vox_engine engine;
     uint32_t workers;
-    int doubles; /* positions given as doubles, of the same values */
-    int moved;   /* by a transform to where they are */
+    int doubles;      /* positions given as doubles, of the same values */
+    int moved;        /* by a transform to where they are */
     double cell_size; /* in edges of a tetrahedron; 0: the library's choice */
 } settings;
 
@@ -117,11 +118,14 @@ static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
             add_number(hash, points[i].mesh), add_number(hash, points[i].tet);
             add_floats(hash, points[i].barycentric, 4);
         }
-        for (uint64_t i = 0; i < tet_count && i < 4096; ++i) add_number(hash, tets[i].mesh), add_number(hash, tets[i].tet);
+        for (uint64_t i = 0; i < tet_count && i < 4096; ++i)
+            add_number(hash, tets[i].mesh), add_number(hash, tets[i].tet);
         add_number(hash, closest.mesh), add_number(hash, closest.tet), add_number(hash, closest.facet);
-        add_doubles(hash, closest.barycentric), add_doubles(hash, closest.position), add_double(hash, closest.distance);
+        add_doubles(hash, closest.barycentric), add_doubles(hash, closest.position),
+            add_double(hash, closest.distance);
         add_number(hash, ray.mesh), add_number(hash, ray.tet), add_number(hash, ray.surface_mesh);
-        add_number(hash, ray.surface_tet), add_number(hash, ray.surface_facet), add_number(hash, (uint64_t)ray.surface_side);
+        add_number(hash, ray.surface_tet), add_number(hash, ray.surface_facet),
+            add_number(hash, (uint64_t)ray.surface_side);
         add_double(hash, ray.t), add_double(hash, ray.surface_t), add_doubles(hash, ray.surface_barycentric);
     }
     return 1;
@@ -142,7 +146,8 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
     static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     int ok = 1;
     for (uint32_t b = 0; ok && b < s->count; ++b) {
-        const vox_mesh mesh = (b << 12) + 1; /* the id of a fresh grid's meshes: the slot, and the first generation */
+        const vox_mesh mesh =
+            (b << 12) + 1; /* the id of a fresh grid's meshes: the slot, and the first generation */
         if (how->doubles)
             ok = vox_mesh_bind_positions(grid, mesh, as_doubles[b], VOX_FORMAT_DOUBLE3, 0) == VOX_OK;
         if (how->moved) ok = ok && vox_mesh_set_transform(grid, mesh, here) == VOX_OK;
@@ -179,10 +184,11 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, const 
         write_doubles(s);
         ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK &&
              vox_grid_hash(grid, &hash) == VOX_OK && hash_penetrations(grid, &parts[0]) &&
-             hash_events(grid, &parts[1]) && hash_readings(grid, &parts[2]) && hash_queries(grid, s, &parts[3]);
+             hash_events(grid, &parts[1]) && hash_readings(grid, &parts[2]) &&
+             hash_queries(grid, s, &parts[3]);
         if (ok)
-            printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64 ", events %016" PRIx64
-                   ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
+            printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
+                   ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
                    name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
     }
     if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
@@ -210,8 +216,9 @@ static int refuse(scene* s, const settings* how) {
 }
 
 static int usage(void) {
-    fprintf(stderr, "usage: hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level 0..3] "
-                    "[--cell-size FACTOR]\n");
+    fprintf(stderr,
+            "usage: hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level 0..3] "
+            "[--cell-size FACTOR]\n");
     return 2;
 }
 
@@ -225,7 +232,8 @@ int main(int argc, char** argv) {
             how.doubles = 1;
         } else if (strcmp(argv[i], "--moved") == 0) {
             how.moved = 1;
-        } else if (strcmp(argv[i], "--engine") == 0 && (strcmp(value, "fast") == 0 || strcmp(value, "reference") == 0)) {
+        } else if (strcmp(argv[i], "--engine") == 0 &&
+                   (strcmp(value, "fast") == 0 || strcmp(value, "reference") == 0)) {
             how.engine = value[0] == 'f' ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
             ++i;
         } else if (strcmp(argv[i], "--workers") == 0 && atoi(value) > 0) {
@@ -247,7 +255,7 @@ int main(int argc, char** argv) {
     make_ring(&s, 12), ok &= run(&s, "ring, filtered", 1, 2, &how);
     make_many(&s, 3, 3), ok &= run(&s, "many", 1, 0, &how);
     make_soup(&s, 80, 200), ok &= run(&s, "soup", 1, 0, &how);
-    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, &how);  /* areas and volumes are too small for a float */
+    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, &how); /* areas and volumes are too small for a float */
     make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, &how); /* and so are normal coordinates */
     make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, &how);   /* or too large */
     make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, &how);

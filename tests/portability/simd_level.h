@@ -6,7 +6,8 @@
 extern "C" {
 #endif
 
-/* 0 portable to 3 AVX-512, or the best that the machine has where that is less. Returns the name of that in force. */
+/* 0 portable to 3 AVX-512, or the best that the machine has where that is less. Returns the name of that in
+ * force. */
 const char* force_simd_level(int level);
 
 #ifdef __cplusplus
