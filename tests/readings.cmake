@@ -5,6 +5,7 @@ foreach(name readings reading_life)
   target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)
   target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)
 endforeach()
+set_tests_properties(readings PROPERTIES LABELS "valgrind;threads") # also under the thread sanitizer
 
 # Limits, those that can be reached and those that cannot.
 vox_test(limits test_limits.c LIBS vox::vox)
