@@ -49,13 +49,6 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
 
 namespace {
 
-// A triangle's corners in ascending order: no other of the surface has the same.
-std::array<std::uint32_t, 3> sorted_corners(const Triangle& triangle) {
-    std::array<std::uint32_t, 3> corners{triangle.v[0], triangle.v[1], triangle.v[2]};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-}
-
 // Whether the plane of a triangle, and so the triangle, is farther from p than that.
 bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
     constexpr double rounding = 1 + 0x1p-40;
@@ -208,16 +201,12 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
     };
     bool found = false;
     double best = infinity, best_distance = infinity;
-    const auto is_lower = [this](std::uint32_t a, std::uint32_t b) {
-        const std::pmr::vector<Triangle>& triangles = solid_.topology->triangles;
-        return sorted_corners(triangles[a]) < sorted_corners(triangles[b]);
-    };
     const auto look_at = [&](std::uint32_t triangle) {
         ++visited;
         if (is_beyond_plane(solid_, triangle, p, best)) return;
         const Closest candidate = closest_point(solid_, triangle, p);
         if (candidate.squared > best ||
-            (candidate.squared == best && found && !is_lower(triangle, out.at.triangle)))
+            (candidate.squared == best && found && candidate.at.triangle >= out.at.triangle))
             return;
         if (fold && !accept(p, *fold, candidate)) return;
         found = true;

@@ -40,9 +40,9 @@ public:
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
 
-    // The closest point to p, of points equally far that of the triangle with the lowest corners, each in
-    // ascending order. `fold` may be null; triangles with its vertex are left out. False when there is none.
-    // Adds the triangles it has looked at to `visited`.
+    // The closest point to p, of points equally far that of the lowest triangle. `fold` may be null;
+    // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
+    // to `visited`.
     bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
 
     // The same for a vertex at p in `tet`; `self`: of its own mesh, where a point of the fold it has entered
