@@ -142,9 +142,9 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t ma
             if (t.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
             for (std::size_t facet = 0; facet < 4; ++facet) {
                 if (!(t.facets >> facet & 1)) continue;
-                const SeenPoint found = closest_seen_from(p, corner(t, facet_corners[facet][0]),
-                                                          corner(t, facet_corners[facet][1]),
-                                                          corner(t, facet_corners[facet][2]));
+                const SeenPoint found =
+                    closest_seen_from(p, corner(t, facet_corners[facet][0]),
+                                      corner(t, facet_corners[facet][1]), corner(t, facet_corners[facet][2]));
                 const double squared = found.at.squared_distance;
                 const std::tuple key(leaf.mesh, t.index, facet);
                 if (squared < most || (squared == most && (!best_tet || key < best_key))) {

@@ -42,8 +42,9 @@ double outside(double x, double min, double max) { return std::max({min - x, x -
 
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
     const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    const auto [at, way] = closest_seen_from(p, position_of(solid.positions, v[0]),
-                                             position_of(solid.positions, v[1]), position_of(solid.positions, v[2]));
+    const auto [at, way] =
+        closest_seen_from(p, position_of(solid.positions, v[0]), position_of(solid.positions, v[1]),
+                          position_of(solid.positions, v[2]));
     return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
@@ -240,8 +241,8 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
     return found;
 }
 
-bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
-                                  std::uint64_t& visited) {
+bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
+                                  Closest& out, std::uint64_t& visited) {
     if (!self) return find(p, nullptr, out, visited);
     Fold fold{vertex, tet, true};
     if (find(p, &fold, out, visited)) return true;
