@@ -11,7 +11,7 @@
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched out-parameters on
  * failure. Everything is double; the same calls give the same bits, for any number of workers of the grid.
  *
- *   Threads   One thread at a time may use a sim. Different sims are independent.
+ *   Threads   One thread at a time may use a sim, or an experiment. Different ones are independent.
  *   Units     One unit of length, mass and time throughout. The defaults suit metres, kilograms and seconds.
  *   Ownership What is given is copied. Views live as their comment says.
  *   Limits    Positions, velocities and accelerations are at most 1e15 in size on each axis, other numbers at most
