@@ -98,7 +98,7 @@ const ReadingBody& Readings::body_of(vox_mesh mesh) const noexcept {
 
 void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
                        const Events& events, Workers& workers) {
-    // Room for all first: nothing can fail after that.
+    // Room for all first: nothing can fail after that but a task system of the caller's.
     std::size_t triangles = 0;
     for (const ReadingBody& body : bodies_)
         if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
@@ -109,6 +109,7 @@ void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vo
     for (SurfaceTree& tree : trees_) tree.reserve(triangles);
     readings_.reserve(contacts.size());
 
+    prepared_ = false;
     readings_.assign(contacts.size(), {});
     list_depths(penetrations);
     list_runs(events);

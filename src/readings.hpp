@@ -33,7 +33,8 @@ public:
     // The meshes that touch, ascending, as ids: to be completed before prepare(), with finite positions.
     std::span<ReadingBody> list_meshes(const Events& events);
     // Of the contacts of a step and what else it found; meshes may have changed since. Throws what the memory
-    // throws, and leaves all as it was then.
+    // throws, and leaves all as it was then, or Error(INVALID_ARGUMENT) for a defective
+    // task system, and there are none then.
     void prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
                  const Events& events, Workers& workers);
     void forget() noexcept { prepared_ = false; }

@@ -359,6 +359,62 @@ START_TEST(budget) {
 }
 END_TEST
 
+/* A task system that runs what it is given at once, in two parts, or loses the second. */
+static int loses_items;
+static uint64_t enqueued;
+
+static void* run_in_two(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user) {
+    (void)min_range;
+    (void)user;
+    ++enqueued;
+    task(0, item_count / 2, 0, context);
+    if (!loses_items) task(item_count / 2, item_count, 1, context);
+    return NULL;
+}
+
+static void finish_nothing(void* handle, void* user) {
+    (void)handle;
+    (void)user;
+}
+
+START_TEST(task_systems) {
+    enum { n = 8 };
+    body bodies[n];
+    vox_grid* grid = NULL;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    desc.flags = 0;
+    desc.worker_count = 2;
+    desc.tasks.enqueue = run_in_two;
+    desc.tasks.finish = finish_nothing;
+    ck_ok(vox_grid_create(&desc, &grid));
+    for (int b = 0; b < n; ++b) {
+        vox_mesh mesh;
+        bodies[b] = make_box(4, 1, 3.2f * (float)(b % 2), 3.3f * (float)(b / 2 % 2), 3.4f * (float)(b / 4));
+        const vox_mesh_desc body = body_desc(&bodies[b]);
+        ck_ok(vox_mesh_insert(grid, &body, &mesh));
+    }
+    vox_reading_view view;
+    loses_items = 0;
+    ck_ok(vox_grid_step(grid));
+    enqueued = 0;
+    ck_ok(vox_grid_prepare_readings(grid));
+    ck_assert_uint_eq(enqueued, 1);
+    ck_ok(vox_grid_readings(grid, &view));
+    ck_assert_uint_gt(view.count, 512);
+    for (uint64_t i = 0; i < view.count; ++i)
+        ck_assert_uint_eq(view.data[i].known, VOX_READING_POSITION | VOX_READING_SURFACE);
+    loses_items = 1;
+    ck_fails(vox_grid_prepare_readings(grid), VOX_ERROR_INVALID_ARGUMENT, "items");
+    ck_fails(vox_grid_readings(grid, &view), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
+    loses_items = 0;
+    ck_ok(vox_grid_prepare_readings(grid));
+    ck_ok(vox_grid_readings(grid, &view));
+    vox_grid_destroy(grid);
+    for (int b = 0; b < n; ++b) free_body(&bodies[b]);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, no_surface);
     tcase_add_test(tests, after_removal);
@@ -368,6 +424,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, changed_positions);
     tcase_add_test(tests, memory);
     tcase_add_test(tests, budget);
+    tcase_add_test(tests, task_systems);
 }
 
 int main(void) {

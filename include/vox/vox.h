@@ -128,7 +128,8 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
  * least min_range items where it can, and has `task` called once for each range, now or later, on any thread; it
  * returns a handle for `finish`, or null when all calls have already returned. `finish` returns when they have.
  * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step, and at most once by
- * vox_grid_prepare_readings. Both null: the built-in scheduler. */
+ * vox_grid_prepare_readings; a call whose items were not all run, or on a worker that there is not, fails with
+ * INVALID_ARGUMENT, and leaves no contacts, or no readings. Both null: the built-in scheduler. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);
@@ -646,7 +647,8 @@ typedef struct vox_reading_view {
  * Memory for as many contacts and triangles is kept until the grid is destroyed: a call that needs no more than one
  * before allocates nothing. Enqueues at most one task.
  * Errors: NON_FINITE and LIMIT (positions that changed since the step; a mesh of more tetrahedra than
- * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; the readings that there were stay then. */
+ * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; the readings that there were stay then. INVALID_ARGUMENT: see
+ * vox_task_system; there are none then. */
 VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
 
 /* The readings that were prepared. Errors: INVALID_STATE when none were since the last step or clear. */
