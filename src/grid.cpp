@@ -54,6 +54,8 @@ void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
 }
 
+} // namespace
+
 void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
     if (added > limit - count)
         throw Error(VOX_ERROR_LIMIT,
@@ -62,7 +64,6 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
                            static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
 }
 
-} // namespace
 } // namespace vox
 
 using namespace vox;
@@ -80,8 +81,10 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
-      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), queries_(&memory_) {}
+      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
+      queries_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -131,6 +134,7 @@ void vox_grid::clear() {
     penetrations_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
+    readings_.forget();
     queries_.forget();
     ++epoch_;
 }
@@ -246,6 +250,7 @@ void vox_grid::step() {
     hits_.clear();
     events_.hide_pairs();
     events_.hide_events();
+    readings_.forget();
     ++epoch_;
 
     vox_counters counters{};
@@ -414,6 +419,21 @@ double vox_grid::share_without_contact() const noexcept {
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {
     if (log_.write) log_.write(level, text, log_.user);
+}
+
+// ---- readings --------------------------------------------------------------------------------------
+
+void vox_grid::prepare_readings() {
+    for (ReadingBody& reading : readings_.list_meshes(events_)) {
+        const vox_mesh id = reading.body.mesh_id;
+        if (!is_valid(id)) continue;
+        Mesh& mesh = slots_[slot_of(id)].mesh;
+        if (!mesh.has_positions()) continue;
+        if (mesh.topology().across.empty()) mesh.make_topology();
+        reading = {mesh.body(id), &mesh.topology()};
+        check_finite(reading.body);
+    }
+    readings_.prepare(contacts_, penetrations_, events_, workers_);
 }
 
 // ---- queries ---------------------------------------------------------------------------------------

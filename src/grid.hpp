@@ -9,6 +9,7 @@
 #include "mesh.hpp"
 #include "parallel.hpp"
 #include "queries.hpp"
+#include "readings.hpp"
 #include "reference.hpp"
 #include "scene.hpp"
 
@@ -23,6 +24,9 @@ class Snapshot;
 
 // Throws Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
+
+// Throws Error(LIMIT) when `added` more of what a grid holds `count` of would be more than `limit`.
+void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what);
 
 } // namespace vox
 
@@ -59,6 +63,9 @@ public:
     const vox::Mesh& mesh(vox_mesh mesh) const;
 
     void step();
+
+    void prepare_readings();
+    std::span<const vox_reading> readings() const { return readings_.all(); }
 
     void prepare_queries();
     const vox::Queries& queries() const { queries_.require_prepared(); return queries_; }
@@ -130,6 +137,7 @@ private:
     bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
+    vox::Readings readings_;
     vox::Queries queries_;
     vox_counters counters_{};
     vox_profile profile_{};

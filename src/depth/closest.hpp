@@ -45,6 +45,11 @@ public:
     // to `visited`.
     bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
 
+    // The same for a vertex at p in `tet`; `self`: of its own mesh, where a point of the fold it has entered
+    // is wanted, straight ahead if there is one.
+    bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
+                         std::uint64_t& visited);
+
 private:
     struct Box {
         Vec3d min, max;
