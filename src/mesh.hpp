@@ -1,5 +1,5 @@
-// One inserted mesh: topology (copied), positions (borrowed or copied), settings; and what the stages prepare of
-// it, which edits of the mesh (mesh_edit.cpp) keep up to date.
+// One inserted mesh: topology (copied), positions (borrowed or copied), settings; and what the stages prepare
+// of it, which edits of the mesh (mesh_edit.cpp) keep up to date.
 #pragma once
 
 #include "bits.hpp"
@@ -42,10 +42,10 @@ public:
     // Finds the rings of the filter, unless that is done.
     void make_rings();
 
-    // Edits. Each checks all it is given and takes all memory that it cannot do without, then changes the mesh,
-    // then repairs what was prepared of it; what cannot be repaired for want of memory, and what is better made
-    // anew because much has changed, is not prepared any more. Throw Error or what the memory throws, and then
-    // have changed nothing.
+    // Edits. Each checks all it is given and takes all memory that it cannot do without, then changes the
+    // mesh, then repairs what was prepared of it; what cannot be repaired for want of memory, and what is
+    // better made anew because much has changed, is not prepared any more. Throw Error or what the memory
+    // throws, and then have changed nothing.
     void set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled);
     void replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners);
     std::uint32_t append_tets(std::span<const Tet> corners); // the index of the first
@@ -53,9 +53,14 @@ public:
     std::uint32_t append_vertices(const vox_vertices_desc& desc);
     void remove_vertices(std::span<const std::uint32_t> vertices);
 
-    // A mesh of another topology with this one's settings: `desc` is checked, `view` its arrays. Where desc has no
-    // positions and the number of vertices stays, so do positions and rest pose. What cannot fail is left to
-    // take_over().
+    // For a mesh that was not edited: those tets are off, those of them and those vertices are removed (bits,
+    // as many words as it takes). Throws Error(INVALID_MESH) where that cannot be.
+    void restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
+                       std::span<const std::uint64_t> removed_vertices);
+
+    // A mesh of another topology with this one's settings: `desc` is checked, `view` its arrays. Where desc
+    // has no positions and the number of vertices stays, so do positions and rest pose. What cannot fail is
+    // left to take_over().
     Mesh with_topology(const vox_mesh_desc& desc, const Body& view) const;
     void take_over(Mesh&& before) noexcept;
 

@@ -237,6 +237,28 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
     }
 }
 
+void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
+                         std::span<const std::uint64_t> removed_vertices) {
+    const auto tets = static_cast<std::uint32_t>(tets_.size());
+    removed_vertices_.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertex_count_; ++v)
+        if (has_bit(removed_vertices, v)) removed_vertices_.add(v);
+    for (std::uint32_t t = 0; t < tets; ++t) {
+        if (!has_bit(off, t)) check_corners(t, tets_[t]);
+        if (!has_bit(off, t) && has_bit(removed, t))
+            throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " is removed, but not off", t));
+    }
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(tets);
+    reserve_off();
+    removed_.reserve(tets);
+    for (std::uint32_t t = 0; t < tets; ++t) {
+        if (has_bit(off, t)) switch_off(t, changes);
+        if (has_bit(removed, t)) removed_.add(t);
+    }
+    forget_prepared();
+}
+
 // ---- what was prepared ----------------------------------------------------------------------------
 
 void Mesh::list_tets_of() {

@@ -259,6 +259,20 @@ static void bad_calls(cut_scene* s, cut_mesh* m) {
     ck_assert_uint_eq(first, no_number);
 }
 
+/* Goes on with what a snapshot holds; there the meshes own their positions. */
+static void save_and_load(cut_scene* s) {
+    uint64_t size = 0;
+    vox_grid* loaded = NULL;
+    ck_ok(vox_grid_save(s->grid, NULL, 0, &size));
+    void* bytes = malloc((size_t)size);
+    ck_ok(vox_grid_save(s->grid, bytes, size, &size));
+    ck_ok(vox_grid_load(bytes, size, NULL, &loaded));
+    vox_grid_destroy(s->grid);
+    s->grid = loaded;
+    free(bytes);
+    for (uint32_t i = 0; i < s->count; ++i) s->meshes[i].owned = 1;
+}
+
 static void edit(cut_scene* s) {
     cut_mesh* m = some_mesh(s);
     const uint32_t draw = below(s, 100);
@@ -282,6 +296,8 @@ static void edit(cut_scene* s) {
         set_filter(s, m);
     else if (draw < 96)
         bad_calls(s, m);
+    else if (draw < 97)
+        save_and_load(s);
     else
         ck_ok(vox_grid_set_cell_size(s->grid, below(s, 2) ? 0 : 0.2));
 }
