@@ -97,6 +97,7 @@ vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_ver
         if (vertices.reserved != 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));
+        if (vertices.copies_of) (void)read_numbers(vertices.copies_of, vertices.count, 1, "copies_of");
         *out_first = grid->append_vertices(mesh, vertices);
     });
 }

@@ -14,7 +14,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
     : tets_(view.tets.begin(), view.tets.end(), memory), given_(memory), off_(memory), removed_(memory),
       removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory), positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
-    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) map_positions();
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)
         set_rest({.data = static_cast<const std::byte*>(desc.rest_positions),
                   .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
@@ -43,6 +43,7 @@ void Mesh::make_rings() {
 
 void Mesh::bind(const Positions& positions) noexcept {
     positions_ = positions;
+    owns_positions_ = false;
     owned_ = std::pmr::vector<double>(owned_.get_allocator());
 }
 
@@ -59,6 +60,7 @@ void* Mesh::map_positions() {
         positions_.data = to;
         positions_.byte_stride = size;
     }
+    owns_positions_ = true;
     return owned_.data();
 }
 

@@ -123,6 +123,7 @@ private:
     Bits off_, removed_;          // tets; those that are removed are off as well
     Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
+    bool owns_positions_ = false;    // also where there are no vertices yet
     Lists tets_of_;                  // the tets around each vertex, once an edit needed them
     bool has_tets_of_ = false;
     depth::Topology topology_;

@@ -134,7 +134,7 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
 std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const std::uint32_t before = vertex_count_;
     const auto added = static_cast<std::uint32_t>(desc.count), count = before + added;
-    const bool owns = !owned_.empty();
+    const bool owns = owns_positions_;
     const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     const std::size_t size = position_size();
     const std::size_t stride =
@@ -204,6 +204,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     if (owns) {
         owned_.resize(doubles);
         positions_.data = reinterpret_cast<const std::byte*>(owned_.data());
+        positions_.byte_stride = size;
         std::memcpy(reinterpret_cast<std::byte*>(owned_.data()) + before * size, news.data(), news.size());
     } else if (given.data) {
         bind(given);
@@ -353,8 +354,10 @@ Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
 }
 
 void Mesh::take_over(Mesh&& before) noexcept {
-    if (positions_.data == before.positions_.data && !before.owned_.empty())
+    if (before.owns_positions_ && positions_.data == before.positions_.data) {
         owned_ = std::move(before.owned_);
+        owns_positions_ = true;
+    }
     exceptions_ = std::move(before.exceptions_);
     user_data_ = before.user_data_;
     enabled_ = before.enabled_;

@@ -333,6 +333,53 @@ START_TEST(growing_from_nothing) {
 }
 END_TEST
 
+START_TEST(positions_of_its_own) {
+    /* An empty mesh that copies positions: the array given with the first vertices is not read any more. */
+    vox_mesh_desc desc = vox_default_mesh_desc(), solid = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_mesh mesh = 0, other = 0;
+    uint32_t first = 0, copy_of = 0;
+    uint64_t stride = 0;
+    void* mapped = NULL;
+    double place[3] = {0.125, 0.25, 0.125};
+    vox_contact_view view;
+    vox_grid* grid = make_grid(NULL);
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_insert(grid, &solid, &other));
+    vertices.count = 1;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "needs 1 more");
+    vertices.positions = place;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+    place[0] = 50;
+    vertices.positions = NULL;
+    vertices.copies_of = &copy_of;
+    for (uint32_t i = 1; i < 100; ++i) {
+        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        ck_assert_uint_eq(first, i);
+    }
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_assert_uint_eq(view.count, 100);
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
+    ck_assert_uint_eq(stride, 24);
+    for (int i = 0; i < 100; ++i) ck_assert(((double*)mapped)[3 * i] == 0.125);
+    /* Others over the same vertices: the positions stay its own. */
+    vox_mesh_desc anew = vox_default_mesh_desc();
+    anew.vertex_count = 100;
+    anew.tets = unit_tet;
+    anew.tet_count = 1;
+    ck_ok(vox_mesh_set_topology(grid, mesh, &anew));
+    void* again = NULL;
+    ck_ok(vox_mesh_map_positions(grid, mesh, &again, &stride));
+    ck_assert(again == mapped && stride == 24);
+    ck_ok(vox_grid_step(grid));
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 /* ---- queries, suggestions, cell size ---- */
 
 START_TEST(queries_and_suggestions_see_it) {
@@ -626,6 +673,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, off_and_on);
     tcase_add_test(tests, topology_keeps_what_is_not_topology);
     tcase_add_test(tests, growing_from_nothing);
+    tcase_add_test(tests, positions_of_its_own);
     tcase_add_test(tests, queries_and_suggestions_see_it);
     tcase_add_test(tests, cell_size_follows_a_cut);
     tcase_add_test(tests, allocation_n_fails);

@@ -392,7 +392,7 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that; the first edit of a
  * mesh, and one now and then when a quarter of its tetrahedra have changed, is in proportion to the mesh. An edit of
  * more than an eighth leaves that to the next step, as does one that finds no memory for repairs: so a step after an
- * edit may allocate. Memory: about 20 bytes a tetrahedron and 20 a vertex from the first edit on, 16 a tetrahedron
+ * edit may allocate. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on, 16 a tetrahedron
  * more once one was off.
  * Positions must be bound, or else come before the next step, as ever. `count` 0 does nothing; an index may be named
  * several times. Errors of all: INVALID_ARGUMENT (also: an index that the mesh does not have, or that was removed),
