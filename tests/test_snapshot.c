@@ -730,12 +730,16 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, cut_off_and_damaged);
     tcase_add_test(tests, missing_and_additional_chunks);
     tcase_add_test(tests, allocation_n_fails);
+}
+
+static void add_long_tests(TCase* tests) {
     tcase_add_test(tests, every_word_turned_hostile);
 }
 
 int main(void) {
     Suite* suite = suite_create("snapshot");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     TCase* hostile = tcase_create("hostile");
     tcase_set_timeout(hostile, 0);
     tcase_add_loop_test(hostile, hostile_numbers, 0, (int)(sizeof defects / sizeof *defects));
