@@ -181,7 +181,8 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         if (!desc) grid->describe(settings);
         const double p_nc = grid->share_without_contact();
         if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
-        const Scene scene(settings.model, grid->bodies());
+        std::vector<std::vector<Tet>> on;
+        const Scene scene(settings.model, grid->bodies(on));
         write_struct(out,
                      suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
                              std::pmr::get_default_resource()),

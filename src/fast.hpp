@@ -4,6 +4,7 @@
 
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
+#include "fast/repair.hpp"
 #include "fast/rest.hpp"
 #include "fast/stream.hpp"
 #include "fast/surface.hpp"
@@ -24,18 +25,27 @@ namespace vox {
 
 class Workers;
 
-// What the engine prepares of a mesh's topology, once, and keeps of its positions. An empty one is prepared
-// for an empty mesh.
+// What the engine prepares of a mesh's topology, and keeps of its positions. An empty one is prepared for an
+// empty mesh.
 struct FastMesh : fast::Tiles {
     explicit FastMesh(std::pmr::memory_resource* memory) noexcept
-        : Tiles(memory), surface(memory), rest(memory) {}
+        : Tiles(memory), surface(memory), rest(memory), places(memory) {}
 
     fast::Surface surface; // of bodies with self-collision
     fast::Rest rest;       // the positions of the last step
+    fast::Places places;   // for edits
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
     // (or what the memory throws) and leaves this as it was then.
     void prepare(const Body& body);
+
+    // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it; vertices
+    // that are new at the end. False, or what the memory throws: all is to be prepared anew.
+    bool follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of);
+    bool follow_vertices(const Body& body, std::uint32_t count_before);
+
+private:
+    void expect_vertices(std::uint32_t vertex_count);
 };
 
 struct FastSettings {

@@ -1,5 +1,6 @@
 #include "grid.hpp"
 
+#include "bits.hpp"
 #include "clock.hpp"
 #include "contacts.hpp"
 #include "error.hpp"
@@ -170,6 +171,69 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
     mark_moved(a);
 }
 
+// ---- cutting and growing --------------------------------------------------------------------------
+
+void vox_grid::was_cut(vox_mesh id) {
+    mark_moved(id);
+    adaptive_.scene_changed();
+}
+
+void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
+    Mesh& changed = mesh(id);
+    check_limit(vertex_count_ - changed.vertex_count(), view.vertex_count, VOX_MAX_VERTICES, "vertices");
+    check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
+    Mesh made = changed.with_topology(desc, view);
+    if (fast_ && made.has_positions()) made.make_tiles();
+    if (find_penetrations_) made.make_topology();
+    vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
+    tet_count_ += view.tets.size() - changed.tet_count();
+    made.take_over(std::move(changed));
+    changed = std::move(made);
+    if (view.vertex_count == 0) contacts_hold_ = false; // nothing of it can be seen to move
+    adaptive_.scene_changed();
+}
+
+void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
+    mesh(id).set_tets_enabled(tets, enabled);
+    was_cut(id);
+}
+
+void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
+    mesh(id).replace_tets(tets, corners);
+    was_cut(id);
+}
+
+std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
+    Mesh& grown = mesh(id);
+    check_limit(tet_count_, corners.size(), VOX_MAX_TETS, "tets");
+    if (find_penetrations_) depth::check_tet_count(grown.tet_count() + corners.size());
+    const std::uint32_t first = grown.append_tets(corners);
+    tet_count_ += corners.size();
+    was_cut(id);
+    return first;
+}
+
+void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
+    mesh(id).remove_tets(tets);
+    was_cut(id);
+}
+
+std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
+    Mesh& grown = mesh(id);
+    check_limit(vertex_count_, desc.count, VOX_MAX_VERTICES, "vertices");
+    const std::uint32_t first = grown.append_vertices(desc);
+    vertex_count_ += desc.count;
+    was_cut(id);
+    return first;
+}
+
+void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
+    mesh(id).remove_vertices(vertices);
+    was_cut(id);
+}
+
+// ---- more of meshes -------------------------------------------------------------------------------
+
 void vox_grid::vacate(std::uint32_t slot) noexcept {
     Slot& s = slots_[slot];
     for (const vox_mesh other : s.mesh.exceptions())
@@ -261,6 +325,7 @@ void vox_grid::step() {
             detect_fast(carry, counters, profile);
         else
             detect_reference(counters, profile);
+        drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
         if (carry) counters.carried_contacts = carry_contacts();
@@ -291,7 +356,7 @@ void vox_grid::step() {
     counters.meshes = static_cast<std::uint32_t>(bodies_.size());
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
-        counters.tets += body.tets.size();
+        counters.tets += body.tets.size() - body.off_count;
     }
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.size();
@@ -322,12 +387,28 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
         s.body = static_cast<std::uint32_t>(bodies_.size());
-        bodies_.push_back(s.mesh.body(id));
+        // Of meshes that were inserted without positions, and after edits.
+        s.mesh.make_rings();
+        if (find_penetrations_) s.mesh.make_topology();
+        if (fast_) s.mesh.make_tiles();
+        Body& body = bodies_.emplace_back(s.mesh.body(id));
+        if (body.off_count == body.tets.size()) { // no stage need know of them
+            body.tets = {};
+            body.off_count = 0;
+        }
         topologies_.push_back(&s.mesh.topology());
-        if (!fast_) continue;
-        s.mesh.make_tiles(); // of meshes that were inserted without positions
-        tiles_.push_back(&s.mesh.tiles());
+        if (fast_) tiles_.push_back(&s.mesh.tiles());
     }
+}
+
+// What vertices that were removed are in does not matter.
+void vox_grid::drop_removed_vertices() {
+    if (std::all_of(bodies_.begin(), bodies_.end(),
+                    [](const Body& body) { return body.removed_vertices.empty(); }))
+        return;
+    std::erase_if(hits_, [this](const Hit& hit) {
+        return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex);
+    });
 }
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
@@ -393,7 +474,7 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-std::vector<Body> vox_grid::bodies() const {
+std::vector<Body> vox_grid::bodies(std::vector<std::vector<Tet>>& on) const {
     std::vector<Body> bodies;
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
@@ -401,7 +482,14 @@ std::vector<Body> vox_grid::bodies() const {
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        bodies.push_back(s.mesh.body(id));
+        Body& body = bodies.emplace_back(s.mesh.body(id));
+        if (body.off_count == 0) continue;
+        std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
+        for (std::size_t t = 0; t < body.tets.size(); ++t)
+            if (!has_bit(body.off, t)) tets.push_back(body.tets[t]);
+        body.tets = tets;
+        body.off = {};
+        body.off_count = 0;
     }
     return bodies;
 }
@@ -450,7 +538,7 @@ void vox_grid::prepare_queries() {
         const Body body = s.mesh.body(id);
         check_finite(body);
         s.mesh.make_tiles(); // of the reference engine's meshes too
-        if (s.mesh.topology().across.empty()) s.mesh.make_topology();
+        s.mesh.make_topology();
         bodies.push_back({body, &s.mesh.tiles(), &s.mesh.topology()});
     }
     queries_.prepare(bodies);

@@ -45,10 +45,10 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
-    // For suggestions: the meshes with their positions as they are now, the fields of a desc that the grid
-    // knows, and the share of its tets that held no vertex in the last step. Throws INVALID_STATE for a mesh
-    // without positions.
-    std::vector<vox::Body> bodies() const;
+    // For suggestions: the meshes with their positions as they are now (`on` gets the tets of those some of
+    // which are off), the fields of a desc that the grid knows, and the share of its tets that held no vertex in
+    // the last step. Throws INVALID_STATE for a mesh without positions.
+    std::vector<vox::Body> bodies(std::vector<std::vector<vox::Tet>>& on) const;
     void describe(vox_suggest_desc& desc) const noexcept;
     double share_without_contact() const noexcept;
 
@@ -58,6 +58,13 @@ public:
     void set_filter(vox_mesh mesh, const vox_filter& filter);
     void set_enabled(vox_mesh mesh, bool enabled);
     void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
+    void set_topology(vox_mesh mesh, const vox_mesh_desc& desc, const vox::Body& view);
+    void set_tets_enabled(vox_mesh mesh, std::span<const std::uint32_t> tets, bool enabled);
+    void replace_tets(vox_mesh mesh, std::span<const std::uint32_t> tets, std::span<const vox::Tet> corners);
+    std::uint32_t append_tets(vox_mesh mesh, std::span<const vox::Tet> corners);
+    void remove_tets(vox_mesh mesh, std::span<const std::uint32_t> tets);
+    std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
+    void remove_vertices(vox_mesh mesh, std::span<const std::uint32_t> vertices);
     bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh);
     const vox::Mesh& mesh(vox_mesh mesh) const;
@@ -92,7 +99,9 @@ private:
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
+    void was_cut(vox_mesh mesh);
     void gather_bodies(vox_counters& counters);
+    void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
     std::uint64_t carry_contacts();
     void detect_reference(vox_counters& counters, vox_profile& profile);

@@ -390,6 +390,88 @@ VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** 
  * Errors: INVALID_ARGUMENT (an element that is not finite). */
 VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]);
 
+/* ---- cutting and growing ---------------------------------------------------------------------- */
+
+/* Edits of a mesh between steps. Indices stay: a tetrahedron or vertex keeps its index whatever happens to others,
+ * and the index of one that was removed is never given to another (it counts towards the limits all the same), until
+ * vox_mesh_set_topology begins anew. What an edit takes away is as if it were not there: for contacts, penetrations,
+ * queries, suggestions and the rings of a filter. Contacts of the last step stay as they are until the next one,
+ * whose events follow from it: a pair that still touches persists.
+ * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that; the first edit of a
+ * mesh, and one now and then when a quarter of its tetrahedra have changed, is in proportion to the mesh. An edit of
+ * more than an eighth leaves that to the next step, as does one that finds no memory for repairs: so a step after an
+ * edit may allocate. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on, 16 a tetrahedron
+ * more once one was off.
+ * Positions must be bound, or else come before the next step, as ever. `count` 0 does nothing; an index may be named
+ * several times. Errors of all: INVALID_ARGUMENT (also: an index that the mesh does not have, or that was removed),
+ * INVALID_MESH ("tet 17 names vertex 900 of 812", or one that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */
+
+/* Other tetrahedra, vertices and positions, as if the mesh had been inserted with them; its id, user data, filter,
+ * transform, exceptions of pairs and whether it is enabled stay. Of `desc`, user_data, filter and the flag
+ * VOX_MESH_SELF_COLLISION do not count. positions null: those that it has, and its rest pose, stay where the number of
+ * vertices does, else it has none until vox_mesh_bind_positions. The rest pose of a filter with a rest distance is
+ * taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE, as vox_mesh_set_filter. */
+VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc);
+
+/* enabled 0: the tetrahedra named are off, which means that they hold nothing and have no edges and facets; 1 (as
+ * inserted): on again. Their vertices stay and collide with others either way. Errors: INVALID_ARGUMENT for other
+ * numbers. */
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                             uint32_t enabled);
+
+/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count: of an index
+ * named twice the last. One that is off stays off. A cut that opens a gap appends copies of the vertices on it and has
+ * the tetrahedra of one side name those. */
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                         const uint32_t* corners);
+
+/* Adds `count` tetrahedra with 4 corners each, copied; *out_first is the index of the first, those of the others
+ * follow. */
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
+                                        uint32_t* out_first);
+
+/* Takes tetrahedra away, off ones too. Their vertices stay: see vox_mesh_remove_vertices. */
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count);
+
+/* Vertices to come, and where they are. All positions are in the format that the mesh was inserted with or bound to
+ * last. */
+typedef struct vox_vertices_desc {
+    uint32_t struct_size;
+    uint32_t reserved; /* 0 */
+    uint64_t count;
+    /* Of a mesh that borrows its positions: an array of all of them, first those of the vertices it has, then the new
+     * ones, borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions. Of a mesh with
+     * positions of its own (copied, mapped, or loaded): `count` of them, copied; what vox_mesh_map_positions gave
+     * ends. May be null for a mesh that has none yet; with copies_of also for one with positions of its own. */
+    const void* positions;
+    uint64_t position_byte_stride; /* 0: tightly packed */
+    /* For each the vertex that it is a copy of: null, or `count` indices of vertices that the mesh had before. A copy
+     * begins where that is in the rest pose and, where `positions` is null, in the positions of the mesh's own. */
+    const uint32_t* copies_of;
+    /* For meshes with a rest pose (vox_filter.self_rest_distance), `count` positions in it, copied; null: those of
+     * copies_of or, where that is null too, the positions of the new vertices as they are now. */
+    const void* rest_positions;
+    uint64_t rest_position_byte_stride; /* 0: tightly packed */
+} vox_vertices_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers: all 0. */
+VOX_API vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size);
+
+static inline vox_vertices_desc vox_default_vertices_desc(void) {
+    vox_vertices_desc desc;
+    (void)vox_vertices_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* Adds vertices, which no tetrahedron names yet; *out_first is the index of the first, those of the others follow.
+ * Errors: also INVALID_STATE (a rest pose, and no position for a new vertex), NON_FINITE (one of the rest pose). */
+VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
+                                            uint32_t* out_first);
+
+/* Takes vertices away that no tetrahedron which is on names (else INVALID_ARGUMENT): they make no contacts any more, and
+ * no tetrahedron may name them again. Their positions are still read and must stay finite: best where they are. */
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count);
+
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
 /* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
@@ -786,8 +868,8 @@ VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3]
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. From `cells` to `skipped_degenerate`, what was taken over from the step before
- * counts nothing. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
- * them with the reference engine, those with a vertex of theirs to test with the fast one. */
+ * counts nothing. `tets`: those that are on. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all
+ * of them with the reference engine, those with a vertex of theirs to test with the fast one. */
 typedef struct vox_counters {
     uint32_t struct_size;
     uint32_t meshes;

@@ -207,7 +207,8 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
         if (is_beyond_plane(solid_, triangle, p, best)) return;
         const Closest candidate = closest_point(solid_, triangle, p);
         if (candidate.squared > best ||
-            (candidate.squared == best && found && candidate.at.triangle >= out.at.triangle))
+            (candidate.squared == best && found &&
+             !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
             return;
         if (fold && !accept(p, *fold, candidate)) return;
         found = true;

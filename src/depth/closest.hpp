@@ -40,7 +40,7 @@ public:
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
 
-    // The closest point to p, of points equally far that of the lowest triangle. `fold` may be null;
+    // The closest point to p, of points equally far that of the first triangle (Topology::before). `fold` may be null;
     // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
     // to `visited`.
     bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);

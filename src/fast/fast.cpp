@@ -4,6 +4,7 @@
 // own.
 #include "fast.hpp"
 
+#include "bits.hpp"
 #include "clock.hpp"
 #include "error.hpp"
 #include "filter.hpp"
@@ -15,6 +16,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace vox {
 
@@ -25,10 +27,6 @@ namespace {
 // A piece of a body is so many blocks of vertices, or super-tiles, at most.
 constexpr std::uint32_t piece_blocks = 2048;
 constexpr std::uint32_t piece_supers = 8;
-// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
-// on.
-constexpr std::size_t min_winding_tets = 2000;
-constexpr std::size_t max_surface = 8;
 
 template <class Pieces>
 void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pieces& pieces) {
@@ -71,18 +69,36 @@ Vec3d choose_origin(std::span<const Body> bodies) {
 } // namespace
 
 void FastMesh::prepare(const Body& body) {
-    FastMesh made(surface.triangles.get_allocator().resource());
-    fast::make_tiles(body.tets, body.vertex_count, body.positions, made);
+    std::pmr::memory_resource* memory = surface.triangles.get_allocator().resource();
+    FastMesh made(memory);
+    fast::make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
     if (body.self_collision) {
         fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
-        // A surface that is most of the body never pays.
-        if (made.surface.triangles.size() * max_surface > body.tets.size() ||
-            body.tets.size() < min_winding_tets)
-            made.surface = fast::Surface(surface.triangles.get_allocator().resource());
+        if (!fast::surface_pays(made.surface.triangles.size(), made.tets.size()))
+            made.surface = fast::Surface(memory);
+        std::erase_if(made.surface.loose,
+                      [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
-    made.rest.positions.resize(std::size_t{body.vertex_count} * 3);
-    made.rest.parts.resize((made.block_count() + piece_blocks - 1) / piece_blocks);
+    made.expect_vertices(body.vertex_count);
+    made.places.first_young_super = made.super_tile_count();
+    made.places.first_young_vertex = body.vertex_count;
     *this = std::move(made);
+}
+
+void FastMesh::expect_vertices(std::uint32_t vertex_count) {
+    rest.positions.resize(std::size_t{vertex_count} * 3);
+    rest.parts.resize((block_count() + piece_blocks - 1) / piece_blocks);
+}
+
+bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of) {
+    return fast::repair(*this, surface, places, body, changes, tets_of);
+}
+
+bool FastMesh::follow_vertices(const Body& body, std::uint32_t count_before) {
+    if (count_before == 0) return false;
+    fast::add_vertices(*this, surface, places, count_before, body.vertex_count);
+    expect_vertices(body.vertex_count);
+    return true;
 }
 
 // Turns findings into hits: the exact part of the narrow phase.
@@ -444,9 +460,7 @@ void Fast::know_super_tiles(const Step& step, const Piece& piece) {
             for (std::uint32_t t = mesh.super_first[s]; t < mesh.super_first[s + 1]; ++t)
                 fast::add(box, tile_boxes_[state.first_tile + t]);
         } else {
-            const std::span<const std::uint32_t> of =
-                std::span(mesh.blocks)
-                    .subspan(mesh.block_begin[s], mesh.block_begin[s + 1] - mesh.block_begin[s]);
+            const std::span<const std::uint32_t> of = std::as_const(mesh.blocks)[s];
             if (!knows_sides || !out_of_reach(of))
                 for (const std::uint32_t block : of) fast::add(box, blocks[block]);
         }

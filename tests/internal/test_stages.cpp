@@ -33,17 +33,16 @@ void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) 
     }
     ck_assert_uint_eq(tiles.super_first.front(), 0);
     ck_assert_uint_eq(tiles.super_first.back(), tiles.tiles.size());
-    ck_assert_uint_eq(tiles.block_begin.back(), tiles.blocks.size());
+    ck_assert_uint_eq(tiles.super_tile_count(), tiles.blocks.size());
     for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
         ck_assert_uint_lt(tiles.super_first[s], tiles.super_first[s + 1]);
         std::set<std::uint32_t> blocks;
         for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
             for (std::uint32_t i = 0; i < tiles.tiles[t].vertex_count; ++i)
                 blocks.insert(block_of[tiles.vertices[tiles.tiles[t].first_vertex + i]]);
-        const auto begin = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s]);
-        const auto end = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s + 1]);
-        ck_assert_msg(std::equal(begin, end, blocks.begin(), blocks.end()), "%s: blocks of super-tile %u",
-                      name, s);
+        const std::span<const std::uint32_t> listed = tiles.blocks[s];
+        ck_assert_msg(std::equal(listed.begin(), listed.end(), blocks.begin(), blocks.end()),
+                      "%s: blocks of super-tile %u", name, s);
     }
 }
 
