@@ -1,4 +1,5 @@
-// Cost of the depth stage per colliding vertex, and of what it adds to the insertion of a mesh.
+// Cost of the depth stage per colliding vertex, of reading contacts, and of what the stage adds to the
+// insertion of a mesh.
 //
 //   bench_depth [--tets N] [--rounds K]
 //
@@ -31,6 +32,7 @@ struct Row {
     double tets = 1;   // of the second ball, over those of the first
     double radius = 1; // of the second ball
     std::uint64_t depth_ns = ~std::uint64_t{0}, step_ns = ~std::uint64_t{0};
+    double readings_ns = 1e18; // vox_grid_prepare_readings
     vox_counters counters{};
 };
 
@@ -85,6 +87,9 @@ public:
         must(vox_grid_counters(grid_, &row.counters));
         row.depth_ns = std::min(row.depth_ns, profile.depth_ns);
         row.step_ns = std::min(row.step_ns, profile.step_ns);
+        const double start = now();
+        must(vox_grid_prepare_readings(grid_));
+        row.readings_ns = std::min(row.readings_ns, 1e9 * (now() - start));
     }
 
 private:
@@ -122,18 +127,21 @@ void run(double tets, int rounds) {
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < scenes.size(); ++i)
             for (int step = 0; step < 4; ++step) scenes[i]->step(rows[i]);
-    std::printf("%-10s %8s %8s %9s %10s %8s %9s %9s %9s %8s\n", "scene", "overlap", "tets", "vertices",
-                "edges", "passed", "closest", "depth ns", "ns each", "of step");
+    std::printf("%-10s %8s %8s %9s %10s %8s %9s %9s %9s %8s %9s %8s\n", "scene", "overlap", "tets",
+                "vertices", "edges", "passed", "closest", "depth ns", "ns each", "of step", "readings",
+                "of step");
     for (const Row& row : rows) {
         const vox_counters& c = row.counters;
         const double n = double(std::max<std::uint64_t>(c.penetrations, 1));
-        std::printf("%-10s %8.2f %8llu %9llu %10.2f %8.2f %9llu %9llu %9.0f %7.1f%%\n", row.name, row.overlap,
-                    static_cast<unsigned long long>(c.tets), static_cast<unsigned long long>(c.penetrations),
-                    double(c.leaving_edges) / n,
+        std::printf("%-10s %8.2f %8llu %9llu %10.2f %8.2f %9llu %9llu %9.0f %7.1f%% %9.0f %7.1f%%\n",
+                    row.name, row.overlap, static_cast<unsigned long long>(c.tets),
+                    static_cast<unsigned long long>(c.penetrations), double(c.leaving_edges) / n,
                     double(c.edge_tests) / double(std::max<std::uint64_t>(c.leaving_edges, 1)),
                     static_cast<unsigned long long>(c.closest_searches),
                     static_cast<unsigned long long>(row.depth_ns), double(row.depth_ns) / n,
-                    100 * double(row.depth_ns) / double(row.step_ns));
+                    100 * double(row.depth_ns) / double(row.step_ns),
+                    row.readings_ns / double(std::max<std::uint64_t>(c.contacts, 1)),
+                    100 * row.readings_ns / double(row.step_ns));
     }
 }
 
@@ -154,7 +162,9 @@ int main(int argc, char** argv) {
         }
     }
     try {
-        std::printf("depth stage: edges a vertex, tetrahedra passed an edge; least of %d rounds\n", rounds);
+        std::printf("depth stage: edges a vertex, tetrahedra passed an edge; readings: ns a contact; least "
+                    "of %d rounds\n",
+                    rounds);
         run(tets, rounds);
         time_insertion(tets, rounds);
     } catch (const std::exception& error) {

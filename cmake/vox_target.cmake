@@ -19,8 +19,7 @@ endfunction()
 # A library with C linkage only: everything but vox_* is hidden, by compiler flags and by an export map.
 function(vox_library name export_map)
   vox_target(${name})
-  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${VOX_ABI_VERSION})
   if(BUILD_SHARED_LIBS)
     target_compile_definitions(${name} PRIVATE VOX_BUILD)
     if(UNIX AND NOT APPLE AND NOT EMSCRIPTEN)

@@ -35,6 +35,13 @@ const char* vox_build_info(void) {
         ", msvc " VOX_STRING(_MSC_FULL_VER)
 #endif
         ", C++ " VOX_STRING(__cplusplus)
+#if defined(__x86_64__) || defined(_M_X64)
+            ", SIMD portable SSE4 AVX2 AVX-512"
+#elif defined(__aarch64__)
+            ", SIMD NEON"
+#elif defined(__wasm_simd128__)
+            ", SIMD 128"
+#endif
 #if defined(VOX_TBB)
             ", oneTBB"
 #endif

@@ -1,5 +1,6 @@
 // The C border of vox.h's cell-size section.
 
+#include "bits.hpp"
 #include "border.hpp"
 #include "cost/calibrate.hpp"
 #include "cost/minimise.hpp"
@@ -88,7 +89,7 @@ public:
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
         const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
-        geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure(bodies_);
+        geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
         effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles : quick(tets);
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
@@ -97,6 +98,20 @@ public:
     SuggestScene view() const noexcept { return {bodies_, tiles_, activity_, effort_}; }
 
 private:
+    // Of the tetrahedra that are not off.
+    Geometry measure_without_off() const {
+        std::vector<std::vector<Tet>> on;
+        std::vector<Body> bodies = bodies_;
+        for (Body& body : bodies) {
+            if (body.off_count == 0) continue;
+            std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
+            for (std::size_t t = 0; t < body.tets.size(); ++t)
+                if (!has_bit(body.off, t)) tets.push_back(body.tets[t]);
+            body.tets = tets;
+        }
+        return measure(bodies);
+    }
+
     // Where there are none.
     void make_tiles() {
         made_.reserve(bodies_.size());
@@ -104,7 +119,7 @@ private:
             if (tiles_[b]) continue;
             const Body& body = bodies_[b];
             fast::make_tiles(body.tets, body.vertex_count, body.positions,
-                             made_.emplace_back(std::pmr::get_default_resource()));
+                             made_.emplace_back(std::pmr::get_default_resource()), body.off);
             tiles_[b] = &made_.back();
         }
     }

@@ -33,7 +33,10 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
         }
         if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0) {
             const double height = dot(p - a, normal);
-            return {height * height / area, {weight[0], weight[1], weight[2]}};
+            const double squared = height * height;
+            constexpr double small = 0x1p-900; // below, digits are lost
+            return {squared > small ? squared / area : height * (height / area),
+                    {weight[0], weight[1], weight[2]}};
         }
     }
     ClosestPoint best{};
@@ -47,6 +50,12 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
         best.weight[j] = t;
     }
     return best;
+}
+
+SeenPoint closest_seen_from(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
+    const Vec3d from_p[3] = {a - p, b - p, c - p};
+    const ClosestPoint at = closest_on_triangle({0, 0, 0}, from_p[0], from_p[1], from_p[2]);
+    return {at, at.weight[0] * from_p[0] + at.weight[1] * from_p[1] + at.weight[2] * from_p[2]};
 }
 
 } // namespace vox

@@ -15,4 +15,12 @@ struct ClosestPoint {
 // The point of the closed triangle abc closest to p; abc may be an edge or a point.
 ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 
+// The same as seen from p, so that rounding errors are those of distances, not of coordinates. All searches
+// for the closest point of a surface compare by this one.
+struct SeenPoint {
+    ClosestPoint at;
+    Vec3d way; // from p
+};
+SeenPoint closest_seen_from(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
+
 } // namespace vox

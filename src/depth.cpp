@@ -189,15 +189,8 @@ void Depth::find_closest(const Scene& scene, const Range& range, Worker& worker)
         const std::uint32_t a = scene.hits[point.hit].body_a;
         const Vec3d p = position_of(scene.bodies[a].positions, point.vertex);
         Closest closest;
-        bool found = false;
-        if (has_surface && a == b) {
-            Fold fold{point.vertex, point.tet, true};
-            found = worker.tree.find(p, &fold, closest, worker.counts.closest_tests);
-            fold.only_straight = false;
-            if (!found) found = worker.tree.find(p, &fold, closest, worker.counts.closest_tests);
-        } else if (has_surface) {
-            found = worker.tree.find(p, nullptr, closest, worker.counts.closest_tests);
-        }
+        const bool found = has_surface && worker.tree.find_of_contact(p, point.vertex, point.tet, a == b,
+                                                                      closest, worker.counts.closest_tests);
         point.depth = found ? length(closest.way) : 0;
         point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
         if (length(point.direction) > 0) continue;

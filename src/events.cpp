@@ -143,16 +143,13 @@ std::span<const vox_pair> Events::pairs() const noexcept {
                             : std::span<const vox_pair>();
 }
 
-std::uint64_t Events::copy_contacts(std::span<const vox_contact> contacts, vox_mesh mesh,
-                                    std::span<vox_contact> out) const noexcept {
-    std::uint64_t count = 0;
-    for (const vox_pair& pair : pairs()) {
-        if (pair.mesh_a != mesh && pair.mesh_b != mesh) continue;
-        const std::uint32_t* index = pair_contacts() + pair.first;
-        for (const std::uint32_t* end = index + pair.a_in_b + pair.b_in_a; index != end; ++index, ++count)
-            if (count < out.size()) out[count] = contacts[*index];
-    }
-    return count;
+const vox_pair* Events::find_pair(vox_mesh a, vox_mesh b) const noexcept {
+    vox_pair wanted{};
+    wanted.mesh_a = std::min(a, b);
+    wanted.mesh_b = std::max(a, b);
+    const std::span<const vox_pair> all = pairs();
+    const auto place = std::lower_bound(all.begin(), all.end(), wanted, pair_before);
+    return place != all.end() && !pair_before(wanted, *place) ? &*place : nullptr;
 }
 
 vox_touch_view Events::touch_events() const noexcept {

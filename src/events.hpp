@@ -47,9 +47,26 @@ public:
     std::span<const vox_pair> pairs() const noexcept;
     // Their contacts, as vox_pair_view.contacts.
     const std::uint32_t* pair_contacts() const noexcept { return touching_[current_].contacts.data(); }
-    // vox_mesh_copy_contacts, of the contacts of the last update().
-    std::uint64_t copy_contacts(std::span<const vox_contact> contacts, vox_mesh mesh,
-                                std::span<vox_contact> out) const noexcept;
+    std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
+        return {pair_contacts() + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
+    }
+    // Copies as many as there is room for of the items, one for each contact, that a mesh has a part in, in
+    // the order of its pairs, or those of a pair of meshes; returns how many there are.
+    template <class Item>
+    std::uint64_t copy_of_mesh(std::span<const Item> items, vox_mesh mesh,
+                               std::span<Item> out) const noexcept {
+        std::uint64_t count = 0;
+        for (const vox_pair& pair : pairs())
+            if (pair.mesh_a == mesh || pair.mesh_b == mesh) copy_of(pair, items, out, count);
+        return count;
+    }
+    template <class Item>
+    std::uint64_t copy_of_pair(std::span<const Item> items, vox_mesh a, vox_mesh b,
+                               std::span<Item> out) const noexcept {
+        std::uint64_t count = 0;
+        if (const vox_pair* pair = find_pair(a, b)) copy_of(*pair, items, out, count);
+        return count;
+    }
     // Views without an epoch.
     vox_touch_view touch_events() const noexcept;
     vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) where they are not wanted
@@ -65,6 +82,17 @@ private:
 
         auto operator<=>(const Inside&) const = default;
     };
+
+    template <class Item>
+    void copy_of(const vox_pair& pair, std::span<const Item> items, std::span<Item> out,
+                 std::uint64_t& count) const noexcept {
+        for (const std::uint32_t index : contacts_of(pair)) {
+            if (count < out.size()) out[static_cast<std::size_t>(count)] = items[index];
+            ++count;
+        }
+    }
+    // Of two meshes in either order; null when they do not touch.
+    const vox_pair* find_pair(vox_mesh a, vox_mesh b) const noexcept;
 
     Touching& next() noexcept { return touching_[1 - current_]; }
     void compare(std::span<const vox_contact> contacts);

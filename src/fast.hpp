@@ -5,6 +5,7 @@
 #include "cost/activity.hpp"
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
+#include "fast/repair.hpp"
 #include "fast/rest.hpp"
 #include "fast/stream.hpp"
 #include "fast/surface.hpp"
@@ -25,18 +26,27 @@ namespace vox {
 
 class Workers;
 
-// What the engine prepares of a mesh's topology, once, and keeps of its positions. An empty one is prepared
-// for an empty mesh.
+// What the engine prepares of a mesh's topology, and keeps of its positions. An empty one is prepared for an
+// empty mesh.
 struct FastMesh : fast::Tiles {
     explicit FastMesh(std::pmr::memory_resource* memory) noexcept
-        : Tiles(memory), surface(memory), rest(memory) {}
+        : Tiles(memory), surface(memory), rest(memory), places(memory) {}
 
     fast::Surface surface; // of bodies with self-collision
     fast::Rest rest;       // the positions of the last step
+    fast::Places places;   // for edits
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
     // (or what the memory throws) and leaves this as it was then.
     void prepare(const Body& body);
+
+    // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it;
+    // vertices that are new at the end. False, or what the memory throws: all is to be prepared anew.
+    bool follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of);
+    bool follow_vertices(const Body& body, std::uint32_t count_before);
+
+private:
+    void expect_vertices(std::uint32_t vertex_count);
 };
 
 struct FastSettings {
@@ -89,15 +99,15 @@ private:
         std::uint32_t first_block; // in block_boxes_
         bool rounded;              // `positions` are
         bool moved;                // or may have, since the last step
-        bool reached;              // by others: super_boxes_ and the tile_boxes_ they meet are made
-        bool tiles_known;          // all of tile_boxes_ are
-        bool self;                 // some vertices of the window may be in tets of the same body
-        std::uint32_t binned;      // vertices in the windows
-        fast::Box own;             // where vertices of the window may be in tets of the same body
-        std::uint32_t buffers;     // in large_buffers_, or none
-        const fast::Bins* bins;    // of its windows; null: there are none
-        std::uint32_t root;        // of their tree, in bins->windows
-        double cell_size;          // of the windows
+        bool reached;           // by others: super_boxes_ and the tile_boxes_ are made where they meet them
+        bool tiles_known;       // all of tile_boxes_ are
+        bool self;              // some vertices of the window may be in tets of the same body
+        std::uint32_t binned;   // vertices in the windows
+        fast::Box own;          // where vertices of the window may be in tets of the same body
+        std::uint32_t buffers;  // in large_buffers_, or none
+        const fast::Bins* bins; // of its windows; null: there are none
+        std::uint32_t root;     // of their tree, in bins->windows
+        double cell_size;       // of the windows
     };
     // Vertices of body a may be in tets of body b, and then are in `region`.
     struct Reach {
@@ -145,6 +155,8 @@ private:
     void shrink_to_tiles(const Step& step, Reach& reach) const;
     void sort_reaches(const Step& step);
     std::span<const std::uint32_t> reaching(std::uint32_t b) const noexcept; // in reaches_
+    bool knows_sides(const Step& step, std::uint32_t body) const noexcept;
+    void find_sides(const Step& step, const Piece& piece);
     void know_super_tiles(const Step& step, const Piece& piece);
     void know_tiles(const Step& step, const Piece& piece);
     void make_windows(Step& step);
@@ -159,7 +171,9 @@ private:
 
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> tile_known_; // tile_boxes_ is of this step
+    std::pmr::vector<std::uint8_t> tile_known_;   // tile_boxes_ is of this step
+    std::pmr::vector<fast::Box> reached_regions_; // of each body, around the regions where others reach it
+    std::pmr::vector<std::uint8_t> block_sides_;  // of block_boxes_, from there: sides_of()
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
     std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
     std::pmr::vector<std::uint8_t> piece_moved_;

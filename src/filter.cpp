@@ -1,6 +1,6 @@
 // Category, mask and group decide as in Box2D and Box3D (E. Catto). The vertices within k edges of each are
-// found once, by breadth-first search from tetrahedron to tetrahedron, and kept sorted, so that a test in the
-// step is four binary searches and allocates nothing.
+// found by breadth-first search from tetrahedron to tetrahedron, again where the mesh is cut, and kept sorted, so
+// that a test in the step is four binary searches and allocates nothing.
 #include "filter.hpp"
 
 #include "closest_point.hpp"
@@ -56,47 +56,78 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
              std::pmr::memory_resource* memory)
     : Rings(memory) {
     if (count == 0 || vertex_count == 0) return;
-
-    // The tetrahedra of each vertex: counted, summed, placed.
-    std::pmr::vector<std::size_t> first_tet(std::size_t{vertex_count} + 2, 0, memory);
-    for (const Tet& tet : tets)
-        for (const std::uint32_t v : tet.v) ++first_tet[v + 2];
-    for (std::size_t v = 2; v < first_tet.size(); ++v) first_tet[v] += first_tet[v - 1];
-    std::pmr::vector<std::uint32_t> tets_of(4 * tets.size(), memory);
-    for (std::uint32_t t = 0; t < tets.size(); ++t)
-        for (const std::uint32_t v : tets[t].v) tets_of[first_tet[v + 1]++] = t;
-
-    std::pmr::vector<std::uint32_t> reached_from(vertex_count, ~0u, memory);
-    first.reserve(std::size_t{vertex_count} + 1);
-    first.push_back(0);
+    Lists tets_of(memory);
+    tets_of.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count,
+                           [&](std::uint32_t t) { return std::span<const std::uint32_t>(tets[t].v); });
+    reached_from.resize(vertex_count, 0);
+    std::pmr::vector<std::uint32_t> found(memory);
+    near.reserve(vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        // The queue of the search is what it finds.
-        const std::size_t found = near.size();
-        near.push_back(v);
-        reached_from[v] = v;
-        std::size_t begin = found;
-        for (std::uint32_t ring = 0; ring < count; ++ring) {
-            const std::size_t end = near.size();
-            for (; begin < end; ++begin) {
-                const std::uint32_t at = near[begin];
-                for (std::size_t i = first_tet[at]; i < first_tet[at + 1]; ++i)
-                    for (const std::uint32_t corner : tets[tets_of[i]].v) {
-                        if (reached_from[corner] == v) continue;
-                        reached_from[corner] = v;
-                        near.push_back(corner);
-                    }
-            }
+        search(tets, tets_of, v, count, found);
+        near.begin_list();
+        for (const std::uint32_t w : found) near.push(w);
+    }
+}
+
+// Breadth first; the queue is what is found.
+void Rings::search(std::span<const Tet> tets, const Lists& tets_of, std::uint32_t vertex, std::uint32_t count,
+                   std::pmr::vector<std::uint32_t>& found) {
+    if (++searches == 0) { // after 2^32 of them
+        std::fill(reached_from.begin(), reached_from.end(), 0u);
+        searches = 1;
+    }
+    found.assign(1, vertex);
+    reached_from[vertex] = searches;
+    std::size_t begin = 0;
+    for (std::uint32_t ring = 0; ring < count; ++ring) {
+        const std::size_t end = found.size();
+        for (; begin < end; ++begin) {
+            const std::uint32_t at = found[begin];
+            for (const std::uint32_t t : tets_of[at])
+                for (const std::uint32_t corner : tets[t].v) {
+                    if (reached_from[corner] == searches) continue;
+                    reached_from[corner] = searches;
+                    found.push_back(corner);
+                }
         }
-        std::sort(near.begin() + static_cast<std::ptrdiff_t>(found), near.end());
-        first.push_back(near.size());
+    }
+    std::sort(found.begin(), found.end());
+}
+
+void Rings::add_vertices(std::size_t vertex_count) {
+    for (std::size_t v = near.size(); v < vertex_count; ++v) {
+        near.resize(v + 1);
+        near.add(v, static_cast<std::uint32_t>(v));
+    }
+    reached_from.resize(vertex_count, 0);
+}
+
+// Where an edge came or went, its ends are among the changed vertices: others are near it if they are, or were,
+// near those.
+void Rings::repair(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+                   std::uint32_t count) {
+    std::pmr::memory_resource* memory = near.memory();
+    std::pmr::vector<std::uint32_t> changed(memory), affected(memory), found(memory);
+    list_changed_vertices(changes, changed);
+    for (const std::uint32_t v : changed) {
+        const std::span<const std::uint32_t> was = near[v];
+        affected.insert(affected.end(), was.begin(), was.end());
+        search(tets, tets_of, v, count, found);
+        affected.insert(affected.end(), found.begin(), found.end());
+    }
+    std::sort(affected.begin(), affected.end());
+    affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+    for (const std::uint32_t v : affected) {
+        search(tets, tets_of, v, count, found);
+        near.assign(v, found);
     }
 }
 
 bool SelfFilter::is_near(std::uint32_t vertex, const Tet& tet) const noexcept {
-    const std::uint32_t* begin = rings.near.data() + rings.first[vertex];
-    const std::uint32_t* end = rings.near.data() + rings.first[vertex + 1];
-    return std::any_of(tet.v, tet.v + 4,
-                       [=](std::uint32_t corner) { return std::binary_search(begin, end, corner); });
+    const std::span<const std::uint32_t> near = rings.near[vertex];
+    return std::any_of(tet.v, tet.v + 4, [=](std::uint32_t corner) {
+        return std::binary_search(near.begin(), near.end(), corner);
+    });
 }
 
 bool SelfFilter::rests_close(std::uint32_t vertex, const Tet& tet) const noexcept {

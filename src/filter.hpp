@@ -2,7 +2,9 @@
 // tetrahedra of one mesh by their distance along edges and in the rest pose.
 #pragma once
 
+#include "lists.hpp"
 #include "scene.hpp"
+#include "tet_changes.hpp"
 
 #include <vox/vox.h>
 
@@ -24,14 +26,27 @@ bool collide(const Body& a, const Body& b) noexcept;
 
 // The vertices within so many edges of each vertex.
 struct Rings {
-    explicit Rings(std::pmr::memory_resource* memory) noexcept : first(memory), near(memory) {}
+    explicit Rings(std::pmr::memory_resource* memory) noexcept : near(memory), reached_from(memory) {}
     // Time and memory in proportion to what they hold. None for count 0.
     Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_t count,
           std::pmr::memory_resource* memory);
 
-    // Those of v: near[first[v]] to near[first[v + 1]], ascending, v among them.
-    std::pmr::vector<std::size_t> first;
-    std::pmr::vector<std::uint32_t> near;
+    // Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it. Throws what the memory
+    // throws, and is to be made anew then.
+    void repair(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+                std::uint32_t count);
+
+    // More of them, at the end, that no tetrahedron names. Throws as repair().
+    void add_vertices(std::size_t vertex_count);
+
+    Lists near; // of each vertex: ascending, itself among them
+
+private:
+    void search(std::span<const Tet> tets, const Lists& tets_of, std::uint32_t vertex, std::uint32_t count,
+                std::pmr::vector<std::uint32_t>& found);
+
+    std::pmr::vector<std::uint32_t> reached_from; // of each vertex, the last search that met it
+    std::uint32_t searches = 0;
 };
 
 // The filters of self-contact.
@@ -45,7 +60,7 @@ struct SelfFilter {
     // Whether a contact of `vertex` with `tet` is none: a corner of the tet is within the rings, or the
     // closed tet is closer than rest_distance in the rest pose.
     bool skips(std::uint32_t vertex, const Tet& tet) const noexcept {
-        return (!rings.first.empty() && is_near(vertex, tet)) ||
+        return (!rings.near.empty() && is_near(vertex, tet)) ||
                (rest_distance > 0 && rests_close(vertex, tet));
     }
 

@@ -2,12 +2,14 @@
 // parts of their lists, so that large meshes are described in next to no time.
 #include "geometry.hpp"
 
+#include "bits.hpp"
 #include "mesh_check.hpp"
 #include "predicates.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace vox {
@@ -104,8 +106,7 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         check_finite(bodies[b]);
         stats.vertices += bodies[b].vertex_count;
-        stats.tets += bodies[b].tets.size();
-        stats.edges += topologies[b]->neighbours.size() / 2;
+        stats.tets += bodies[b].tets.size() - bodies[b].off_count;
         stats.boundary_facets += topologies[b]->triangles.size();
     }
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -116,15 +117,16 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const Body& body = bodies[b];
         const depth::Topology& topology = *topologies[b];
-        const auto at = [&](std::uint32_t v) { return body.positions.exact(v); };
+        const auto at = [&](std::size_t v) { return body.positions.exact(v); };
         for_some(body.tets.size(), wanted, static_cast<double>(stats.tets),
-                 [&](std::size_t t, double weight) { sample_tet(body, topology, t, weight, means); });
-        for_some(topology.neighbours.size(), 2 * wanted, 2 * static_cast<double>(stats.edges),
-                 [&](std::size_t i, double weight) {
-                     const auto& first = topology.first_neighbour;
-                     const auto v = static_cast<std::uint32_t>(
-                         std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1);
-                     means.edge.add(length(between(at(v), at(topology.neighbours[i]))), weight / 2);
+                 [&](std::size_t t, double weight) {
+                     if (!has_bit(body.off, t)) sample_tet(body, topology, t, weight, means);
+                 });
+        // A few edges around each of some vertices; each edge is met from both of its ends.
+        for_some(body.vertex_count, wanted / 2, static_cast<double>(stats.vertices),
+                 [&](std::size_t v, double weight) {
+                     for (const std::uint32_t w : topology.neighbours_of(static_cast<std::uint32_t>(v)))
+                         means.edge.add(length(between(at(v), at(w))), weight / 2);
                  });
         for_some(topology.triangles.size(), wanted, static_cast<double>(stats.boundary_facets),
                  [&](std::size_t i, double weight) {
@@ -133,8 +135,11 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
                  });
 
         double own_lo[3] = {infinity, infinity, infinity}, own_hi[3] = {-infinity, -infinity, -infinity};
+        std::uint64_t ends = 0;
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-            if (!body.tets.empty() && topology.neighbours_of(v).empty()) continue;
+            const std::size_t neighbours = topology.neighbours_of(v).size();
+            ends += neighbours;
+            if (!body.tets.empty() && neighbours == 0) continue;
             const Vec3d p = at(v);
             const double x[3] = {p.x, p.y, p.z};
             for (int a = 0; a < 3; ++a) {
@@ -142,6 +147,7 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
                 own_hi[a] = std::max(own_hi[a], x[a]);
             }
         }
+        stats.edges += ends / 2;
         double volume = 1;
         for (int a = 0; a < 3; ++a) {
             lo[a] = std::min(lo[a], own_lo[a]);

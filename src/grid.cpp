@@ -1,5 +1,6 @@
 #include "grid.hpp"
 
+#include "bits.hpp"
 #include "clock.hpp"
 #include "contacts.hpp"
 #include "error.hpp"
@@ -54,6 +55,8 @@ void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
 }
 
+} // namespace
+
 void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
     if (added > limit - count)
         throw Error(VOX_ERROR_LIMIT,
@@ -62,7 +65,6 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
                            static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
 }
 
-} // namespace
 } // namespace vox
 
 using namespace vox;
@@ -80,8 +82,10 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_), contacts_(&memory_),
-      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), queries_(&memory_) {}
+      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
+      queries_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -131,6 +135,7 @@ void vox_grid::clear() {
     penetrations_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
+    readings_.forget();
     queries_.forget();
     ++epoch_;
 }
@@ -165,6 +170,69 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
     }
     mark_moved(a);
 }
+
+// ---- cutting and growing --------------------------------------------------------------------------
+
+void vox_grid::was_cut(vox_mesh id) {
+    mark_moved(id);
+    adaptive_.scene_changed();
+}
+
+void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
+    Mesh& changed = mesh(id);
+    check_limit(vertex_count_ - changed.vertex_count(), view.vertex_count, VOX_MAX_VERTICES, "vertices");
+    check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
+    Mesh made = changed.with_topology(desc, view);
+    if (fast_ && made.has_positions()) made.make_tiles();
+    if (find_penetrations_) made.make_topology();
+    vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
+    tet_count_ += view.tets.size() - changed.tet_count();
+    made.take_over(std::move(changed));
+    changed = std::move(made);
+    if (view.vertex_count == 0) contacts_hold_ = false; // nothing of it can be seen to move
+    adaptive_.scene_changed();
+}
+
+void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
+    mesh(id).set_tets_enabled(tets, enabled);
+    was_cut(id);
+}
+
+void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
+    mesh(id).replace_tets(tets, corners);
+    was_cut(id);
+}
+
+std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
+    Mesh& grown = mesh(id);
+    check_limit(tet_count_, corners.size(), VOX_MAX_TETS, "tets");
+    if (find_penetrations_) depth::check_tet_count(grown.tet_count() + corners.size());
+    const std::uint32_t first = grown.append_tets(corners);
+    tet_count_ += corners.size();
+    was_cut(id);
+    return first;
+}
+
+void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
+    mesh(id).remove_tets(tets);
+    was_cut(id);
+}
+
+std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
+    Mesh& grown = mesh(id);
+    check_limit(vertex_count_, desc.count, VOX_MAX_VERTICES, "vertices");
+    const std::uint32_t first = grown.append_vertices(desc);
+    vertex_count_ += desc.count;
+    was_cut(id);
+    return first;
+}
+
+void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
+    mesh(id).remove_vertices(vertices);
+    was_cut(id);
+}
+
+// ---- more of meshes -------------------------------------------------------------------------------
 
 void vox_grid::vacate(std::uint32_t slot) noexcept {
     Slot& s = slots_[slot];
@@ -247,6 +315,7 @@ void vox_grid::step() {
     hits_.clear();
     events_.hide_pairs();
     events_.hide_events();
+    readings_.forget();
     ++epoch_;
 
     vox_counters counters{};
@@ -257,6 +326,7 @@ void vox_grid::step() {
             detect_fast(carry, counters, profile);
         else
             detect_reference(counters, profile);
+        drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
         if (carry) counters.carried_contacts = carry_contacts();
@@ -287,7 +357,7 @@ void vox_grid::step() {
     counters.meshes = static_cast<std::uint32_t>(bodies_.size());
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
-        counters.tets += body.tets.size();
+        counters.tets += body.tets.size() - body.off_count;
     }
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.size();
@@ -318,12 +388,28 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
         s.body = static_cast<std::uint32_t>(bodies_.size());
-        bodies_.push_back(s.mesh.body(id));
+        // Of meshes that were inserted without positions, and after edits.
+        s.mesh.make_rings();
+        if (find_penetrations_) s.mesh.make_topology();
+        if (fast_) s.mesh.make_tiles();
+        Body& body = bodies_.emplace_back(s.mesh.body(id));
+        if (body.off_count == body.tets.size()) { // no stage need know of them
+            body.tets = {};
+            body.off_count = 0;
+        }
         topologies_.push_back(&s.mesh.topology());
-        if (!fast_) continue;
-        s.mesh.make_tiles(); // of meshes that were inserted without positions
-        tiles_.push_back(&s.mesh.tiles());
+        if (fast_) tiles_.push_back(&s.mesh.tiles());
     }
+}
+
+// What vertices that were removed are in does not matter.
+void vox_grid::drop_removed_vertices() {
+    if (std::all_of(bodies_.begin(), bodies_.end(),
+                    [](const Body& body) { return body.removed_vertices.empty(); }))
+        return;
+    std::erase_if(hits_, [this](const Hit& hit) {
+        return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex);
+    });
 }
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
@@ -405,7 +491,8 @@ vox_grid::Known vox_grid::known() const {
         known.tiles.push_back(s.mesh.tiles_if_made());
         const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
         known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
-        known.activity.push_back(s.body == Slot::none ? Activity{} : fast_engine_.activity(s.body, s.mesh.vertex_count()));
+        known.activity.push_back(s.body == Slot::none ? Activity{}
+                                                      : fast_engine_.activity(s.body, s.mesh.vertex_count()));
     }
     return known;
 }
@@ -425,6 +512,21 @@ void vox_grid::write_log(vox_log_level level, const char* text) const {
     if (log_.write) log_.write(level, text, log_.user);
 }
 
+// ---- readings --------------------------------------------------------------------------------------
+
+void vox_grid::prepare_readings() {
+    for (ReadingBody& reading : readings_.list_meshes(events_)) {
+        const vox_mesh id = reading.body.mesh_id;
+        if (!is_valid(id)) continue;
+        Mesh& mesh = slots_[slot_of(id)].mesh;
+        if (!mesh.has_positions()) continue;
+        if (mesh.topology().across.empty()) mesh.make_topology();
+        reading = {mesh.body(id), &mesh.topology()};
+        check_finite(reading.body);
+    }
+    readings_.prepare(contacts_, penetrations_, events_, workers_);
+}
+
 // ---- queries ---------------------------------------------------------------------------------------
 
 void vox_grid::prepare_queries() {
@@ -439,7 +541,7 @@ void vox_grid::prepare_queries() {
         const Body body = s.mesh.body(id);
         check_finite(body);
         s.mesh.make_tiles(); // of the reference engine's meshes too
-        if (s.mesh.topology().across.empty()) s.mesh.make_topology();
+        s.mesh.make_topology();
         bodies.push_back({body, &s.mesh.tiles(), &s.mesh.topology()});
     }
     queries_.prepare(bodies);

@@ -9,6 +9,7 @@
 #include "mesh.hpp"
 #include "parallel.hpp"
 #include "queries.hpp"
+#include "readings.hpp"
 #include "reference.hpp"
 #include "scene.hpp"
 
@@ -23,6 +24,9 @@ class Snapshot;
 
 // Throws Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
+
+// Throws Error(LIMIT) when `added` more of what a grid holds `count` of would be more than `limit`.
+void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what);
 
 } // namespace vox
 
@@ -41,12 +45,12 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
-    // For suggestions: the meshes with their positions as they are now, what there is of them already, the fields
-    // of a desc that the grid knows, and the share of its tets that held no vertex in the last step. Throws
-    // INVALID_STATE for a mesh without positions.
+    // For suggestions: the meshes with their positions as they are now, what there is of them already, the
+    // fields of a desc that the grid knows, and the share of its tets that held no vertex in the last step.
+    // Throws INVALID_STATE for a mesh without positions.
     struct Known {
         std::vector<vox::Body> bodies;
-        std::vector<const vox::fast::Tiles*> tiles;           // null where they were not made, as the next ones
+        std::vector<const vox::fast::Tiles*> tiles; // null where they were not made, as the next ones
         std::vector<const vox::depth::Topology*> topologies;
         std::vector<vox::Activity> activity;
     };
@@ -60,14 +64,27 @@ public:
     void set_filter(vox_mesh mesh, const vox_filter& filter);
     void set_enabled(vox_mesh mesh, bool enabled);
     void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
+    void set_topology(vox_mesh mesh, const vox_mesh_desc& desc, const vox::Body& view);
+    void set_tets_enabled(vox_mesh mesh, std::span<const std::uint32_t> tets, bool enabled);
+    void replace_tets(vox_mesh mesh, std::span<const std::uint32_t> tets, std::span<const vox::Tet> corners);
+    std::uint32_t append_tets(vox_mesh mesh, std::span<const vox::Tet> corners);
+    void remove_tets(vox_mesh mesh, std::span<const std::uint32_t> tets);
+    std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
+    void remove_vertices(vox_mesh mesh, std::span<const std::uint32_t> vertices);
     bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh);
     const vox::Mesh& mesh(vox_mesh mesh) const;
 
     void step();
 
+    void prepare_readings();
+    std::span<const vox_reading> readings() const { return readings_.all(); }
+
     void prepare_queries();
-    const vox::Queries& queries() const { queries_.require_prepared(); return queries_; }
+    const vox::Queries& queries() const {
+        queries_.require_prepared();
+        return queries_;
+    }
 
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
@@ -91,7 +108,9 @@ private:
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
+    void was_cut(vox_mesh mesh);
     void gather_bodies(vox_counters& counters);
+    void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
     std::uint64_t carry_contacts();
     void detect_reference(vox_counters& counters, vox_profile& profile);
@@ -131,11 +150,12 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
-    // They are what another step would find of meshes that were in the last one and have not moved since. False
-    // after every change of a setting that contacts may depend on.
+    // They are what another step would find of meshes that were in the last one and have not moved since.
+    // False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
+    vox::Readings readings_;
     vox::Queries queries_;
     vox_counters counters_{};
     vox_profile profile_{};

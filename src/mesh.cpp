@@ -11,10 +11,10 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : tets_(view.tets.begin(), view.tets.end(), memory), owned_(memory), topology_(memory), tiles_(memory),
-      positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
+    : tets_(view.tets.begin(), view.tets.end(), memory), given_(memory), off_(memory), removed_(memory),
+      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory), positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
-    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && positions_.data) map_positions();
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)
         set_rest({.data = static_cast<const std::byte*>(desc.rest_positions),
                   .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
@@ -29,8 +29,21 @@ void Mesh::make_tiles() {
     has_tiles_ = true;
 }
 
+void Mesh::make_topology() {
+    if (has_topology_) return;
+    depth::make_topology(tets_, vertex_count_, topology_);
+    has_topology_ = true;
+}
+
+void Mesh::make_rings() {
+    if (has_rings_) return;
+    self_filter_.rings = Rings(tets_, vertex_count_, filter_.self_rings, memory());
+    has_rings_ = true;
+}
+
 void Mesh::bind(const Positions& positions) noexcept {
     positions_ = positions;
+    owns_positions_ = false;
     owned_ = std::pmr::vector<double>(owned_.get_allocator());
 }
 
@@ -47,6 +60,7 @@ void* Mesh::map_positions() {
         positions_.data = to;
         positions_.byte_stride = size;
     }
+    owns_positions_ = true;
     return owned_.data();
 }
 
@@ -66,7 +80,10 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .filter = {filter_.category, filter_.mask, filter_.group},
             .exceptions = exceptions_,
             .self_filter =
-                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr};
+                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,
+            .off = off_.words(),
+            .off_count = off_.count(),
+            .removed_vertices = removed_vertices_.words()};
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
@@ -78,10 +95,9 @@ void Mesh::set_filter(const vox_filter& filter) {
                         "yet and was inserted without rest_positions");
         rest = copy_finite(body(VOX_NULL_MESH).positions); // as they collide
     }
-    Rings rings(self_filter_.rings.near.get_allocator().resource());
-    const bool other_rings = filter.self_rings != filter_.self_rings;
-    if (other_rings)
-        rings = Rings(tets_, vertex_count_, filter.self_rings, rings.near.get_allocator().resource());
+    Rings rings(memory());
+    const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
+    if (other_rings) rings = Rings(tets_, vertex_count_, filter.self_rings, memory());
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
         Body with_self = body(VOX_NULL_MESH);
         with_self.self_collision = true;
@@ -89,6 +105,7 @@ void Mesh::set_filter(const vox_filter& filter) {
     }
     if (!rest.empty()) self_filter_.rest = std::move(rest);
     if (other_rings) self_filter_.rings = std::move(rings);
+    has_rings_ = true;
     self_filter_.rest_distance = filter.self_rest_distance;
     filter_ = filter;
 }

@@ -1,6 +1,8 @@
-// One inserted mesh: topology (copied), positions (borrowed or copied), settings.
+// One inserted mesh: topology (copied), positions (borrowed or copied), settings; and what the stages prepare
+// of it, which edits of the mesh (mesh_edit.cpp) keep up to date.
 #pragma once
 
+#include "bits.hpp"
 #include "depth/topology.hpp"
 #include "fast.hpp"
 #include "filter.hpp"
@@ -19,7 +21,8 @@ class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : tets_(memory), owned_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()),
+        : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
+          owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()),
           self_filter_(memory), exceptions_(memory) {}
     // A copy of a checked desc: `view` are its arrays (mesh_check.hpp), desc.filter not looked at.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -28,15 +31,40 @@ public:
     Mesh(Mesh&&) noexcept = default;
     Mesh& operator=(Mesh&&) noexcept = default;
 
-    // Prepares the depth stage, once.
-    void make_topology() { depth::make_topology(tets_, vertex_count_, topology_); }
+    // Prepares the depth stage, unless that is done.
+    void make_topology();
     const depth::Topology& topology() const noexcept { return topology_; }
 
-    // Makes the fast engine's tiles, once; needs positions.
+    // Makes the fast engine's tiles, unless that is done; needs positions.
     void make_tiles();
     FastMesh& tiles() noexcept { return tiles_; }
     // Null before they are made.
     const FastMesh* tiles_if_made() const noexcept { return has_tiles_ ? &tiles_ : nullptr; }
+
+    // Finds the rings of the filter, unless that is done.
+    void make_rings();
+
+    // Edits. Each checks all it is given and takes all memory that it cannot do without, then changes the
+    // mesh, then repairs what was prepared of it; what cannot be repaired for want of memory, and what is
+    // better made anew because much has changed, is not prepared any more. Throw Error or what the memory
+    // throws, and then have changed nothing.
+    void set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled);
+    void replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners);
+    std::uint32_t append_tets(std::span<const Tet> corners); // the index of the first
+    void remove_tets(std::span<const std::uint32_t> tets);
+    std::uint32_t append_vertices(const vox_vertices_desc& desc);
+    void remove_vertices(std::span<const std::uint32_t> vertices);
+
+    // For a mesh that was not edited: those tets are off, those of them and those vertices are removed (bits,
+    // as many words as it takes). Throws Error(INVALID_MESH) where that cannot be.
+    void restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
+                       std::span<const std::uint64_t> removed_vertices);
+
+    // A mesh of another topology with this one's settings: `desc` is checked, `view` its arrays. Where desc
+    // has no positions and the number of vertices stays, so do positions and rest pose. What cannot fail is
+    // left to take_over().
+    Mesh with_topology(const vox_mesh_desc& desc, const Body& view) const;
+    void take_over(Mesh&& before) noexcept;
 
     // Borrows positions; those of its own are released.
     void bind(const Positions& positions) noexcept;
@@ -77,11 +105,34 @@ private:
     // For a rest pose. Throws Error(NON_FINITE or LIMIT).
     std::pmr::vector<Vec3f> copy_finite(const Positions& positions) const;
 
-    std::pmr::vector<Tet> tets_;
+    // Edits.
+    std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }
+    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets_[tet] : given_[tet]; }
+    void check_tets(std::span<const std::uint32_t> tets) const;
+    void check_corners(std::uint32_t tet, const Tet& corners) const;
+    void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;
+    void reserve_off();
+    void list_tets_of();
+    void follow(std::span<const TetChange> changes) noexcept;
+    void follow_vertices(std::uint32_t count_before) noexcept;
+    void forget_tiles() noexcept;
+    void forget_topology() noexcept;
+    void forget_rings() noexcept;
+    void forget_prepared() noexcept;
+
+    std::pmr::vector<Tet> tets_;  // as the stages see them: those that are off name one vertex four times
+    std::pmr::vector<Tet> given_; // as they are or will be when on; empty: all as in tets_
+    Bits off_, removed_;          // tets; those that are removed are off as well
+    Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
-    depth::Topology topology_;       // empty unless it was made
+    bool owns_positions_ = false;    // also where there are no vertices yet
+    Lists tets_of_;                  // the tets around each vertex, once an edit needed them
+    bool has_tets_of_ = false;
+    depth::Topology topology_;
+    bool has_topology_ = false;
     FastMesh tiles_;
     bool has_tiles_ = false;
+    bool has_rings_ = false;
     Positions positions_; // without the transform
     std::array<double, 12> transform_{};
     bool has_transform_ = false;

@@ -87,6 +87,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
     const bool rounded = body.positions.rounded(); // else all are floats
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
     for (const fast::Tile& tile : from.tiles->tiles) {
+        if (tile.tet_count == 0) continue; // all of them are off
         Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box()};
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t index = from.tiles->tets[tile.first_tet + i];

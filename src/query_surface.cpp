@@ -122,7 +122,7 @@ struct Facet {
 
 vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept {
     double most = radius * radius;
-    ClosestPoint best{};
+    SeenPoint best{};
     std::tuple<std::uint32_t, std::uint32_t, std::size_t> best_key; // mesh, tet, facet
     const Tetrahedron* best_tet = nullptr;
     const auto bound = [&](const Box3f& box) noexcept {
@@ -142,13 +142,13 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t ma
             if (t.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
             for (std::size_t facet = 0; facet < 4; ++facet) {
                 if (!(t.facets >> facet & 1)) continue;
-                const ClosestPoint found = closest_on_triangle(p, corner(t, facet_corners[facet][0]),
-                                                               corner(t, facet_corners[facet][1]),
-                                                               corner(t, facet_corners[facet][2]));
+                const SeenPoint found =
+                    closest_seen_from(p, corner(t, facet_corners[facet][0]),
+                                      corner(t, facet_corners[facet][1]), corner(t, facet_corners[facet][2]));
+                const double squared = found.at.squared_distance;
                 const std::tuple key(leaf.mesh, t.index, facet);
-                if (found.squared_distance < most ||
-                    (found.squared_distance == most && (!best_tet || key < best_key))) {
-                    most = found.squared_distance;
+                if (squared < most || (squared == most && (!best_tet || key < best_key))) {
+                    most = squared;
                     best = found;
                     best_key = key;
                     best_tet = &t;
@@ -162,12 +162,9 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t ma
     hit.mesh = meshes_[mesh].id;
     hit.tet = tet;
     hit.facet = static_cast<std::uint32_t>(facet);
-    hit.distance = std::sqrt(best.squared_distance);
-    Vec3d at{0, 0, 0};
-    for (std::size_t c = 0; c < 3; ++c) {
-        hit.barycentric[c] = best.weight[c];
-        at = at + best.weight[c] * corner(*best_tet, facet_corners[facet][c]);
-    }
+    hit.distance = std::sqrt(best.at.squared_distance);
+    for (std::size_t c = 0; c < 3; ++c) hit.barycentric[c] = best.at.weight[c];
+    const Vec3d at = p + best.way;
     hit.position[0] = at.x;
     hit.position[1] = at.y;
     hit.position[2] = at.z;

@@ -3,6 +3,7 @@
 // paper does not have, the second half of pass one and pass two run for each of them.
 #include "reference.hpp"
 
+#include "bits.hpp"
 #include "clock.hpp"
 #include "error.hpp"
 #include "filter.hpp"
@@ -146,7 +147,8 @@ inline Vec3d Reference::position(std::size_t particle) const {
     return exact_.empty() ? Vec3d(particles_[particle].position) : exact_[particle];
 }
 
-// Boxes from the deformed positions. A tetrahedron of zero volume holds nothing and gets an empty box.
+// Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an empty
+// box.
 void Reference::compute_boxes(Step& step) {
     std::size_t count = 0;
     for (const Body& body : step.bodies) count += body.tets.size();
@@ -155,8 +157,13 @@ void Reference::compute_boxes(Step& step) {
     Box3f* box = boxes_.data();
     for (std::size_t b = 0; b < step.bodies.size(); ++b) {
         const std::size_t own = first_[b];
-        for (const Tet& tet : step.bodies[b].tets) {
+        const Body& body = step.bodies[b];
+        for (const Tet& tet : body.tets) {
             *box = empty_box();
+            if (body.off_count != 0 && has_bit(body.off, static_cast<std::size_t>(&tet - body.tets.data()))) {
+                ++box;
+                continue;
+            }
             if (orientation(position(own + tet.v[0]), position(own + tet.v[1]), position(own + tet.v[2]),
                             position(own + tet.v[3]), step.counters.exact_tests) == 0)
                 ++step.counters.skipped_degenerate;

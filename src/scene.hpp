@@ -93,6 +93,10 @@ struct Body {
     std::span<const std::uint32_t>
         exceptions{}; // ascending mesh_ids that it never collides with, nor they with it
     const SelfFilter* self_filter = nullptr; // null: there is none
+    // Tetrahedra that are off hold no vertex and have no edges and facets: they name one vertex four times.
+    std::span<const std::uint64_t> off{}; // as bits (bits.hpp); empty: none
+    std::uint64_t off_count = 0;
+    std::span<const std::uint64_t> removed_vertices{}; // as bits: they are in no tetrahedron
 };
 
 // A vertex found inside a closed tetrahedron, before canonical order. Bodies by index in the scene.

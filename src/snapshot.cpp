@@ -30,7 +30,7 @@ struct Loading {
     std::pmr::vector<vox_mesh> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;               // of them
     std::pmr::vector<std::uint32_t> free_slots;
-    vox_mesh last_filtered = VOX_NULL_MESH;
+    vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
 };
 
 void save_point(const Vec3f& p, SnapshotWriter& out) {
@@ -54,6 +54,21 @@ void load_points(SnapshotChunk& in, std::uint64_t count, std::pmr::vector<Point>
     in.expect(count, sizeof(Point), "positions");
     points.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) load_point(in, points.emplace_back());
+}
+
+// As many words as that many bits take, zeros past the end of `bits`.
+void save_bits(std::span<const std::uint64_t> bits, std::uint64_t count, SnapshotWriter& out) {
+    for (std::size_t word = 0; word < (count + 63) / 64; ++word) out.u64(word < bits.size() ? bits[word] : 0);
+}
+
+void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what,
+               std::pmr::vector<std::uint64_t>& bits) {
+    const std::uint64_t words = (count + 63) / 64;
+    in.expect(words, 8, what);
+    bits.resize(static_cast<std::size_t>(words));
+    for (std::uint64_t& word : bits) word = in.u64();
+    if (count % 64 != 0 && bits.back() >> count % 64 != 0)
+        in.refuse(format("bits of %s past the last one, number %" PRIu64, what, count));
 }
 
 // Calls what a program would call; where it says that an argument is wrong, the snapshot is.
@@ -87,6 +102,8 @@ private:
     static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
     static void save_mesh(const vox_grid& grid, vox_mesh id, SnapshotWriter& out);
     static void load_mesh(SnapshotChunk& in, Loading& to);
+    static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
+    static void load_cuts(SnapshotChunk& in, Loading& to);
     static void save_filters(const vox_grid& grid, SnapshotWriter& out);
     static void load_filter(SnapshotChunk& in, Loading& to);
     static void save_exceptions(const vox_grid& grid, SnapshotWriter& out);
@@ -109,9 +126,10 @@ private:
         void (*load)(SnapshotChunk& in, Loading& to);
     };
     static constexpr Part parts[] = {
-        {"GRID", false, true, load_settings},   {"SLOT", false, true, load_slots},
-        {"MESH", true, false, load_mesh},       {"FILT", true, false, load_filter},
-        {"PAIR", false, true, load_exceptions}, {"EVNT", false, true, load_events}};
+        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
+        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
+        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
+        {"EVNT", false, true, load_events}};
 };
 
 // ---- GRID: settings -------------------------------------------------------------------------------
@@ -251,8 +269,8 @@ void Snapshot::save_mesh(const vox_grid& grid, vox_mesh id, SnapshotWriter& out)
     out.u32(positions.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3);
     if (mesh.has_transform_)
         for (const double element : mesh.transform_) out.f64(element);
-    for (const Tet& tet : body.tets)
-        for (const std::uint32_t vertex : tet.v) out.u32(vertex);
+    for (std::uint32_t t = 0; t < body.tets.size(); ++t)
+        for (const std::uint32_t vertex : mesh.given(t).v) out.u32(vertex);
     for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
         if (positions.doubles)
             save_point(positions.exact(v), out);
@@ -324,6 +342,40 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
         if (bits & disabled_bit) grid.set_enabled(id, false);
         if (bits & transform_bit) grid.mesh(id).set_transform(transform.data());
     });
+}
+
+// ---- CUTS: which tets are off or removed, and which vertices are removed -------------------------
+
+void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
+    for_each_mesh(grid, [&](vox_mesh id) {
+        const Mesh& mesh = grid.mesh(id);
+        if (mesh.off_.count() == 0 && mesh.removed_vertices_.count() == 0) return;
+        out.begin_chunk("CUTS");
+        out.u32(id);
+        out.u32(0); // reserved
+        save_bits(mesh.off_.words(), mesh.tet_count(), out);
+        save_bits(mesh.removed_.words(), mesh.tet_count(), out);
+        save_bits(mesh.removed_vertices_.words(), mesh.vertex_count(), out);
+        out.end_chunk();
+    });
+}
+
+void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
+    const vox_mesh id = in.u32();
+    if (!to.grid.is_valid(id)) in.refuse(format("mesh %" PRIu32 " is not in it", id));
+    if (id <= to.last_cut) in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.last_cut));
+    to.last_cut = id;
+    if (const std::uint32_t reserved = in.u32(); reserved != 0)
+        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
+
+    Mesh& mesh = to.grid.mesh(id);
+    std::pmr::vector<std::uint64_t> off(&to.grid.memory_), removed(off.get_allocator()),
+        removed_vertices(off.get_allocator());
+    load_bits(in, mesh.tet_count(), "tetrahedra that are off", off);
+    load_bits(in, mesh.tet_count(), "tetrahedra that are removed", removed);
+    load_bits(in, mesh.vertex_count(), "vertices that are removed", removed_vertices);
+    in.end();
+    or_refuse(in, id, [&] { mesh.restore_edits(off, removed, removed_vertices); });
 }
 
 // ---- FILT: what a mesh does not collide with, where that is not the default ----------------------
@@ -473,6 +525,7 @@ void Snapshot::save(const vox_grid& grid, SnapshotWriter& out) {
     save_settings(grid, out);
     save_slots(grid, out);
     save_meshes(grid, out);
+    save_cuts(grid, out);
     save_filters(grid, out);
     save_exceptions(grid, out);
     save_events(grid, out);

@@ -15,7 +15,30 @@ if(CMAKE_SIZEOF_VOID_P EQUAL 8 AND NOT CMAKE_CROSSCOMPILING AND NOT MSVC)
     COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/abi/layout.py ${CMAKE_C_COMPILER})
 endif()
 
+if(BUILD_SHARED_LIBS AND CMAKE_READELF AND UNIX AND NOT APPLE)
+  foreach(library vox vox_io vox_sim)
+    if(TARGET ${library})
+      add_test(NAME soname_${library}
+        COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/abi/soname.sh ${CMAKE_READELF} $<TARGET_FILE:${library}>
+          ${PROJECT_SOURCE_DIR}/include/vox/vox.h)
+    endif()
+  endforeach()
+endif()
+
 if(VOX_BUILD_TOOLS)
   add_test(NAME replay COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/tools/replay.py)
   set_tests_properties(replay PROPERTIES ENVIRONMENT "VOX_TOOL=$<TARGET_FILE:vox_tool>")
 endif()
+
+# The same hashes in every configuration, and as checked in. Other compilers and optimisations: ./dev hashes.
+add_executable(hashes portability/hashes.c portability/simd_level.cpp)
+target_link_libraries(hashes PRIVATE vox_internal)
+target_include_directories(hashes PRIVATE ${CMAKE_CURRENT_LIST_DIR})
+target_include_directories(hashes SYSTEM PRIVATE ${VOX_HIGHWAY_INCLUDE_DIR})
+vox_target(hashes)
+set(few)
+if(VOX_SANITIZE)
+  set(few --few)
+endif()
+add_test(NAME hashes
+  COMMAND Python3::Interpreter -B ${CMAKE_CURRENT_LIST_DIR}/portability/matrix.py $<TARGET_FILE:hashes> ${few})

@@ -28,16 +28,29 @@ static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
 static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
 
-static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) {
+static inline void add_tagged_for_each_engine(Suite* suite, void (*add_tests)(TCase*), const char* tag) {
     static const char* const names[] = {"reference", "fast"};
     static void (*const setups[])(void) = {use_reference, use_fast};
     for (int i = 0; i < 2; ++i) {
         TCase* tests = tcase_create(names[i]);
         tcase_set_timeout(tests, 0);
+        tcase_set_tags(tests, tag);
         tcase_add_checked_fixture(tests, setups[i], NULL);
         add_tests(tests);
         suite_add_tcase(suite, tests);
     }
+}
+
+static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) {
+    add_tagged_for_each_engine(suite, add_tests, "");
+}
+
+/* CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large" there and under the sanitizers. */
+static inline TCase* tagged_tests(const char* tag) {
+    TCase* tests = tcase_create(tag);
+    tcase_set_timeout(tests, 0);
+    tcase_set_tags(tests, tag);
+    return tests;
 }
 
 static inline int run_suite(Suite* suite) {

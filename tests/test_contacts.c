@@ -540,7 +540,6 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, overlapping_tets);
     tcase_add_test(tests, self_contact);
     tcase_add_test(tests, both_directions_in_canonical_order);
-    tcase_add_test(tests, settings_do_not_change_contacts);
     tcase_add_test(tests, hash_tells_contacts_apart);
     tcase_add_test(tests, strided_copied_rebound);
     tcase_add_test(tests, unbound_positions);
@@ -555,8 +554,13 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, counters_and_profile);
 }
 
+static void add_long_tests(TCase* tests) {
+    tcase_add_test(tests, settings_do_not_change_contacts);
+}
+
 int main(void) {
     Suite* suite = suite_create("contacts");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     return run_suite(suite);
 }

@@ -559,7 +559,6 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, body_inside_a_body);
     tcase_add_test(tests, points_without_edges);
     tcase_add_test(tests, edges_leave_on_opposite_sides);
-    tcase_add_test(tests, crossing_bars);
     tcase_add_test(tests, no_way_through_a_facet_of_three);
     tcase_add_test(tests, no_surface_at_all);
     tcase_add_test(tests, coincident_bodies);
@@ -569,13 +568,18 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, winding_does_not_matter);
     tcase_add_test(tests, doubled_tets);
     tcase_add_test(tests, flat_tets_on_the_surface);
-    tcase_add_test(tests, inverted_tets);
     tcase_add_test(tests, self_fold);
     tcase_add_test(tests, one_vertex_in_two_bodies);
+}
+
+static void add_long_tests(TCase* tests) {
+    tcase_add_test(tests, crossing_bars);
+    tcase_add_test(tests, inverted_tets);
 }
 
 int main(void) {
     Suite* suite = suite_create("penetration states");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     return run_suite(suite);
 }

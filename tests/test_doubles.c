@@ -596,11 +596,8 @@ START_TEST(suggested_cell_size) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, exact_for_the_doubles_given);
     tcase_add_test(tests, floats_and_doubles_in_one_grid);
     tcase_add_test(tests, less_than_a_float_apart);
-    tcase_add_test(tests, doubles_of_floats_are_those_floats);
-    tcase_add_test(tests, self_contact_of_large_bodies);
     tcase_add_test(tests, bound_in_another_format);
     tcase_add_test(tests, limits);
     tcase_add_test(tests, refused);
@@ -609,13 +606,22 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, steady_state_holds_the_same_memory);
 }
 
+static void add_long_tests(TCase* tests) {
+    tcase_add_test(tests, exact_for_the_doubles_given);
+    tcase_add_test(tests, doubles_of_floats_are_those_floats);
+    tcase_add_test(tests, self_contact_of_large_bodies);
+}
+
 int main(void) {
     Suite* suite = suite_create("doubles");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     TCase* others = tcase_create("both engines, or none");
     tcase_set_timeout(others, 0);
     tcase_add_test(others, suggested_cell_size);
-    tcase_add_test(others, engines_agree_on_large_bodies);
     suite_add_tcase(suite, others);
+    TCase* long_tests = tagged_tests("long");
+    tcase_add_test(long_tests, engines_agree_on_large_bodies);
+    suite_add_tcase(suite, long_tests);
     return run_suite(suite);
 }

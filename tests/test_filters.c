@@ -691,7 +691,6 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, category_mask_and_group);
     tcase_add_test(tests, pair_exceptions);
     tcase_add_test(tests, disabled_meshes);
-    tcase_add_test(tests, self_filters_by_definition);
     tcase_add_test(tests, lowest_tet_that_is_left);
     tcase_add_test(tests, overlap_in_the_rest_pose);
     tcase_add_test(tests, rest_pose_in_double);
@@ -700,8 +699,13 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, arguments);
 }
 
+static void add_long_tests(TCase* tests) {
+    tcase_add_test(tests, self_filters_by_definition);
+}
+
 int main(void) {
     Suite* suite = suite_create("filters");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     return run_suite(suite);
 }

@@ -388,15 +388,17 @@ int main(void) {
     Suite* suite = suite_create("rest");
     TCase* tests = tcase_create("rest");
     tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, some_move);
     tcase_add_test(tests, nothing_moves);
     tcase_add_test(tests, small_and_hidden_moves);
     tcase_add_test(tests, failed_steps);
-    tcase_add_test(tests, budget_ends_a_step);
     tcase_add_test(tests, meshes_come_and_go);
     tcase_add_test(tests, bound_elsewhere);
     tcase_add_test(tests, settings_and_marks);
     tcase_add_test(tests, reference_engine_rests_never);
     suite_add_tcase(suite, tests);
+    TCase* long_tests = tagged_tests("long");
+    tcase_add_test(long_tests, some_move);
+    tcase_add_test(long_tests, budget_ends_a_step);
+    suite_add_tcase(suite, long_tests);
     return run_suite(suite);
 }

@@ -154,6 +154,20 @@ static void make_scene(scene* s, vox_engine engine, double cell_size) {
     mesh = vox_default_mesh_desc();
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[7]));
 
+    /* Cut: tets of two meshes off or removed, and a corner of the first. */
+    static const uint32_t off[] = {20, 21, 22}, removed[] = {21, 0, 33};
+    uint32_t around[8], count = 0;
+    for (uint32_t t = 0; t < s->bodies[0].tet_count; ++t)
+        for (int c = 0; c < 4; ++c)
+            if (s->bodies[0].tets[4 * t + c] == 0) around[count++] = t;
+    ck_ok(vox_mesh_set_tets_enabled(s->grid, s->ids[0], around, count, 0));
+    const uint32_t corner = 0;
+    ck_ok(vox_mesh_remove_vertices(s->grid, s->ids[0], &corner, 1));
+    for (int i = 0; i < 2; ++i) {
+        ck_ok(vox_mesh_set_tets_enabled(s->grid, s->ids[i], off, 3, 0));
+        ck_ok(vox_mesh_remove_tets(s->grid, s->ids[i], removed, 3));
+    }
+
     ck_ok(vox_grid_step(s->grid));
     /* From here on the last step's results are out of date: what follows must survive all the same. */
     ck_ok(vox_mesh_remove(s->grid, s->ids[removed_body]));
@@ -499,6 +513,15 @@ static const defect defects[] = {
     {"MESH", 6, 16, 8, 1ull << 60, VOX_ERROR_LIMIT,
      "vertex_count is 1152921504606846976"}, /* without positions */
     {"MESH", 6, -16, 4, 0x544c4946u, VOX_ERROR_FORMAT, "mesh 28673 is not in it"},
+    {"CUTS", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
+    {"CUTS", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
+    {"CUTS", 0, 4, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
+    {"CUTS", 0, 8, 8, UINT64_MAX, VOX_ERROR_FORMAT, "tetrahedra that are off past the last one, number 40"},
+    {"CUTS", 0, 16, 8, 1u << 2, VOX_ERROR_FORMAT, "mesh 1: tet 2 is removed, but not off"},
+    {"CUTS", 0, 24, 8, 1u << 26, VOX_ERROR_FORMAT, "names vertex 26, which was removed"},
+    {"CUTS", 0, 24, 8, 1u << 27, VOX_ERROR_FORMAT, "vertices that are removed past the last one, number 27"},
+    {"CUTS", 0, -8, 8, 24, VOX_ERROR_FORMAT, "1 vertices that are removed of 8 bytes each, it has 0 more bytes"},
+    {"CUTS", 0, -8, 8, 40, VOX_ERROR_FORMAT, "40 bytes, expected 32"},
     {"FILT", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
     {"FILT", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
     {"FILT", 0, 24, 4, 9, VOX_ERROR_LIMIT, "9"},
@@ -707,12 +730,16 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, cut_off_and_damaged);
     tcase_add_test(tests, missing_and_additional_chunks);
     tcase_add_test(tests, allocation_n_fails);
+}
+
+static void add_long_tests(TCase* tests) {
     tcase_add_test(tests, every_word_turned_hostile);
 }
 
 int main(void) {
     Suite* suite = suite_create("snapshot");
     add_for_each_engine(suite, add_tests);
+    add_tagged_for_each_engine(suite, add_long_tests, "long");
     TCase* hostile = tcase_create("hostile");
     tcase_set_timeout(hostile, 0);
     tcase_add_loop_test(hostile, hostile_numbers, 0, (int)(sizeof defects / sizeof *defects));

@@ -11,7 +11,8 @@
 
 enum {
     max_members = 14,
-    max_vertices = 64, /* of a body: a box of 3 * 3 * 3 cubes */
+    max_vertices = 80, /* of a body: a box of 3 * 3 * 3 cubes has 64 */
+    max_tets = 135,
     max_pairs = max_members * max_members,
     max_inside = 1 << 16,
     id_table = 1 << 21
@@ -32,6 +33,7 @@ typedef struct member {
     uint32_t stride;
     vox_filter filter;
     uint32_t enabled;
+    uint8_t off[max_tets], removed[max_tets]; /* tets; those removed are off, too */
 } member;
 
 typedef struct pair {
@@ -134,6 +136,13 @@ static void place(soak* s, member* m, uint32_t stride) {
             m->positions[stride * v + axis] = m->shape.positions[3 * v + axis] + offset[axis];
 }
 
+/* A body of one's own to grow: 0 cubes a side are one vertex and no tets. */
+static body make_shape(soak* s) {
+    body shape = make_box(below(s, 4), 0.25f, -0.25f, -0.25f, -0.25f);
+    shape.positions = (float*)realloc(shape.positions, 3 * max_vertices * sizeof(float));
+    return shape;
+}
+
 static vox_mesh_desc member_desc(const member* m) {
     vox_mesh_desc desc = array_desc(m->positions, m->shape.vertex_count, m->shape.tets, m->shape.tet_count);
     desc.position_byte_stride = m->stride * sizeof(float);
@@ -164,7 +173,7 @@ static void insert(soak* s) {
     if (s->count == max_members) return;
     member m;
     memset(&m, 0, sizeof m);
-    m.shape = make_box(below(s, 4), 0.25f, -0.25f, -0.25f, -0.25f); /* 0 cubes: one vertex, no tets */
+    m.shape = make_shape(s);
     m.user_data = random_next(&s->random);
     m.filter = vox_default_filter();
     if (below(s, 3) == 0) m.filter = random_filter(s);
@@ -277,13 +286,88 @@ static void except_pair(soak* s) {
     }
 }
 
+static int may_fail(soak* s, int g, vox_result result) {
+    s->ledgers[g].fail_at = 0;
+    if (result == VOX_OK) return 0;
+    demand(result == VOX_ERROR_OUT_OF_MEMORY);
+    ++s->failures;
+    return 1;
+}
+
+/* Calls an edit, which may fail once and then has changed nothing. */
+#define edit(call)                                                                                               do {                                                                                                             if (below(s, 8) == 0) s->ledgers[g].fail_at = s->ledgers[g].calls + 1 + below(s, 6);                         if (may_fail(s, g, call)) good(call);                                                                    } while (0)
+
+/* Tets off, on again, or gone for good. */
+static void cut(soak* s) {
+    uint32_t tets[8], count = 0;
+    member* m = s->count ? &s->members[below(s, s->count)] : NULL;
+    if (!m || m->shape.tet_count == 0) return;
+    const uint32_t how = below(s, 5), first = below(s, m->shape.tet_count);
+    for (uint32_t t = first; t < m->shape.tet_count && count < 1 + first % 8; ++t)
+        if (!m->removed[t]) tets[count++] = t;
+    for (int g = 0; g < 2; ++g)
+        if (how == 0)
+            edit(vox_mesh_remove_tets(s->grids[g], m->id, tets, count));
+        else
+            edit(vox_mesh_set_tets_enabled(s->grids[g], m->id, tets, count, how > 2));
+    for (uint32_t i = 0; i < count; ++i) {
+        m->off[tets[i]] = how < 3;
+        m->removed[tets[i]] = how == 0;
+    }
+}
+
+/* A vertex becomes two, and some of its tets take the other one. */
+static void split(soak* s) {
+    uint32_t tets[max_tets], corners[4 * max_tets], count = 0;
+    member* m = s->count ? &s->members[below(s, s->count)] : NULL;
+    if (!m || m->shape.vertex_count == max_vertices) return;
+    const uint32_t v = below(s, m->shape.vertex_count), copy = m->shape.vertex_count++;
+    memcpy(m->positions + m->stride * copy, m->positions + m->stride * v, 3 * sizeof(float));
+    memcpy(m->shape.positions + 3 * copy, m->shape.positions + 3 * v, 3 * sizeof(float));
+    for (uint32_t t = 0; t < m->shape.tet_count; ++t) {
+        uint32_t* tet = m->shape.tets + 4 * t;
+        for (uint32_t c = 0; c < 4 && !m->removed[t]; ++c) {
+            if (tet[c] != v || below(s, 2)) continue;
+            tet[c] = copy;
+            memcpy(corners + 4 * count, tet, 4 * sizeof(uint32_t));
+            tets[count++] = t;
+        }
+    }
+    vox_vertices_desc desc = vox_default_vertices_desc();
+    desc.count = 1;
+    desc.copies_of = &v;
+    desc.positions = m->positions;
+    desc.position_byte_stride = m->stride * sizeof(float);
+    for (int g = 0; g < 2; ++g) {
+        uint32_t first = 0;
+        edit(vox_mesh_append_vertices(s->grids[g], m->id, &desc, &first));
+        demand(first == copy);
+        edit(vox_mesh_replace_tets(s->grids[g], m->id, tets, count, corners));
+    }
+}
+
+/* Another body under the same id. */
+static void regrow(soak* s) {
+    if (s->count == 0) return;
+    member* m = &s->members[below(s, s->count)];
+    free_body(&m->shape);
+    m->shape = make_shape(s);
+    memset(m->off, 0, sizeof m->off);
+    memset(m->removed, 0, sizeof m->removed);
+    place(s, m, m->stride);
+    const vox_mesh_desc desc = member_desc(m);
+    for (int g = 0; g < 2; ++g) edit(vox_mesh_set_topology(s->grids[g], m->id, &desc));
+}
+
 static void stale_ids(soak* s) {
+    const uint32_t tet = 0;
     uint64_t user_data = 0;
     for (int g = 0; g < 2 && s->stale; ++g) {
         demand(vox_mesh_is_valid(s->grids[g], s->stale) == 0);
         demand(vox_mesh_remove(s->grids[g], s->stale) == VOX_ERROR_INVALID_HANDLE);
         demand(vox_mesh_user_data(s->grids[g], s->stale, &user_data) == VOX_ERROR_INVALID_HANDLE);
         demand(vox_mesh_set_enabled(s->grids[g], s->stale, 0) == VOX_ERROR_INVALID_HANDLE);
+        demand(vox_mesh_remove_tets(s->grids[g], s->stale, &tet, 1) == VOX_ERROR_INVALID_HANDLE);
     }
 }
 
@@ -396,6 +480,9 @@ static const operation operations[] = {
     {"filter", set_filter, 8},
     {"enable", set_enabled, 8},
     {"except", except_pair, 8},
+    {"cut", cut, 24},
+    {"split", split, 12},
+    {"regrow", regrow, 4},
     {"stale ids", stale_ids, 2},
     {"reserve", reserve, 2},
     {"not finite", step_over_nan, 3},
@@ -422,7 +509,7 @@ static void check_contacts(soak* s, const vox_contact_view* view) {
         const member *a = find(s, c->mesh_a), *b = find(s, c->mesh_b);
         demand(i == 0 || contact_before(c - 1, c));
         demand(a && b && a->enabled && b->enabled);
-        demand(c->vertex < a->shape.vertex_count && c->tet < b->shape.tet_count);
+        demand(c->vertex < a->shape.vertex_count && c->tet < b->shape.tet_count && !b->off[c->tet]);
         const float sum = c->barycentric[0] + c->barycentric[1] + c->barycentric[2] + c->barycentric[3];
         demand(fabsf(sum - 1) < 1e-5f);
 
@@ -506,11 +593,21 @@ static void check_against_fresh(soak* s, const vox_contact_view* view) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* fresh = NULL;
     vox_mesh ids[max_members];
+    uint32_t left[max_members][max_tets]; /* which tet the n-th one that is on is */
     desc.engine = below(s, 2) ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
     desc.flags = 0;
     good(vox_grid_create(&desc, &fresh));
     for (uint32_t i = 0; i < s->count; ++i) {
-        const vox_mesh_desc mesh = member_desc(&s->members[i]);
+        const member* m = &s->members[i];
+        vox_mesh_desc mesh = member_desc(m);
+        uint32_t tets[4 * max_tets], count = 0;
+        for (uint32_t t = 0; t < m->shape.tet_count; ++t) {
+            if (m->off[t]) continue;
+            memcpy(tets + 4 * count, m->shape.tets + 4 * t, 4 * sizeof(uint32_t));
+            left[i][count++] = t;
+        }
+        mesh.tets = tets;
+        mesh.tet_count = count;
         good(vox_mesh_insert(fresh, &mesh, &ids[i]));
         good(vox_mesh_set_enabled(fresh, ids[i], s->members[i].enabled));
     }
@@ -522,10 +619,11 @@ static void check_against_fresh(soak* s, const vox_contact_view* view) {
     good(vox_grid_contacts(fresh, &again));
     demand(again.count == view->count);
     for (uint64_t i = 0; i < view->count; ++i) {
-        vox_contact c = view->data[i];
+        vox_contact c = view->data[i], other = again.data[i];
+        other.tet = left[find(s, c.mesh_b) - s->members][other.tet];
         c.mesh_a = ids[find(s, c.mesh_a) - s->members];
         c.mesh_b = ids[find(s, c.mesh_b) - s->members];
-        demand(memcmp(&c, &again.data[i], sizeof c) == 0);
+        demand(memcmp(&c, &other, sizeof c) == 0);
     }
     vox_grid_destroy(fresh);
 }

@@ -88,36 +88,35 @@ static const body_case bodies[] = {
 };
 
 START_TEST(stuffed_body) {
-    const body_case* body = &bodies[_i];
-    for (double across = 10; across < 60; across += 20) {
-        const double cell = body->longest / across;
-        vox_io_mesh *mesh = NULL, *again = NULL;
-        ck_ok(body->make(cell, &mesh));
-        ck_ok(body->make(cell, &again));
-        check_same(mesh, again);
-        const vox_io_mesh_view view = solid_view(mesh);
-        const solid_facts facts = check_stuffed(mesh);
-        ck_assert_uint_eq(facts.pinched_edges, 0);
-        ck_assert_int_eq(facts.euler, body->euler);
-        double deepest = 0;
-        for (size_t v = 0; v < view.vertex_count; ++v) {
-            const double depth = body->depth(view.positions + 3 * v);
-            ck_assert_msg(depth > -1e-9, "%s: vertex %zu lies %g outside", body->name, v, -depth);
-            if (depth > deepest) deepest = depth;
-        }
-        ck_assert_double_gt(deepest, 0.3 * body->longest / 10);
-        if (across == 50) ck_assert_double_eq_tol(facts.volume / body->volume, 1, 0.01);
-        const vox_io_quality quality = quality_of(mesh, NULL);
-        ck_assert_uint_eq(quality.tets, view.tet_count);
-        ck_assert_uint_eq(quality.vertices, view.vertex_count);
-        ck_assert_uint_eq(quality.boundary_facets, facts.boundary_facets);
-        ck_assert_double_eq_tol(quality.min_dihedral, facts.min_dihedral, 1e-6);
-        ck_assert_double_eq_tol(quality.max_dihedral, facts.max_dihedral, 1e-6);
-        ck_assert_double_eq_tol(quality.volume, facts.volume, 1e-9);
-        ck_assert_double_eq(quality.hausdorff, 0);
-        vox_io_mesh_destroy(mesh);
-        vox_io_mesh_destroy(again);
+    const body_case* body = &bodies[_i % 4];
+    const int across = 10 + 20 * (_i / 4); /* cells along its longest side */
+    const double cell = body->longest / across;
+    vox_io_mesh *mesh = NULL, *again = NULL;
+    ck_ok(body->make(cell, &mesh));
+    ck_ok(body->make(cell, &again));
+    check_same(mesh, again);
+    const vox_io_mesh_view view = solid_view(mesh);
+    const solid_facts facts = check_stuffed(mesh);
+    ck_assert_uint_eq(facts.pinched_edges, 0);
+    ck_assert_int_eq(facts.euler, body->euler);
+    double deepest = 0;
+    for (size_t v = 0; v < view.vertex_count; ++v) {
+        const double depth = body->depth(view.positions + 3 * v);
+        ck_assert_msg(depth > -1e-9, "%s: vertex %zu lies %g outside", body->name, v, -depth);
+        if (depth > deepest) deepest = depth;
     }
+    ck_assert_double_gt(deepest, 0.3 * body->longest / 10);
+    if (across == 50) ck_assert_double_eq_tol(facts.volume / body->volume, 1, 0.01);
+    const vox_io_quality quality = quality_of(mesh, NULL);
+    ck_assert_uint_eq(quality.tets, view.tet_count);
+    ck_assert_uint_eq(quality.vertices, view.vertex_count);
+    ck_assert_uint_eq(quality.boundary_facets, facts.boundary_facets);
+    ck_assert_double_eq_tol(quality.min_dihedral, facts.min_dihedral, 1e-6);
+    ck_assert_double_eq_tol(quality.max_dihedral, facts.max_dihedral, 1e-6);
+    ck_assert_double_eq_tol(quality.volume, facts.volume, 1e-9);
+    ck_assert_double_eq(quality.hausdorff, 0);
+    vox_io_mesh_destroy(mesh);
+    vox_io_mesh_destroy(again);
 }
 END_TEST
 
@@ -246,10 +245,13 @@ int main(void) {
     tcase_add_loop_test(tests, lattice_ball_is_the_papers, 0, 5);
     tcase_add_test(tests, lattice_ball_of_any_size);
     tcase_add_test(tests, lattice_ball_is_the_same_again);
-    tcase_add_loop_test(tests, stuffed_body, 0, 4);
-    tcase_add_loop_test(tests, stuffed_body_is_near_its_surface, 0, 4);
+    tcase_add_loop_test(tests, stuffed_body, 0, 8);
     tcase_add_test(tests, box_is_exact);
     tcase_add_test(tests, bad_arguments);
     suite_add_tcase(suite, tests);
+    TCase* large = tagged_tests("large");
+    tcase_add_loop_test(large, stuffed_body, 8, 12);
+    tcase_add_loop_test(large, stuffed_body_is_near_its_surface, 0, 4);
+    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

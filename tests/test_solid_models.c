@@ -114,10 +114,13 @@ int main(void) {
     Suite* suite = suite_create("models to tetrahedra");
     TCase* tests = tcase_create("models");
     tcase_set_timeout(tests, 0);
-    tcase_add_loop_test(tests, fifty_cells, 0, 3);
-    tcase_add_loop_test(tests, half_a_cell, 0, 3);
+    tcase_add_loop_test(tests, fifty_cells, 0, 1);
     tcase_add_test(tests, self_intersecting);
-    tcase_add_test(tests, million);
     suite_add_tcase(suite, tests);
+    TCase* large = tagged_tests("large");
+    tcase_add_loop_test(large, fifty_cells, 1, 3);
+    tcase_add_loop_test(large, half_a_cell, 0, 3);
+    tcase_add_test(large, million);
+    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

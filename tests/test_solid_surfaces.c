@@ -539,7 +539,6 @@ int main(void) {
     tcase_set_timeout(tests, 0);
     tcase_add_checked_fixture(tests, clear, NULL);
     tcase_add_loop_test(tests, box, 0, 4);
-    tcase_add_test(tests, sphere);
     tcase_add_test(tests, distance_is_exact);
     tcase_add_test(tests, kept_distance);
     tcase_add_test(tests, cavity);
@@ -550,11 +549,15 @@ int main(void) {
     tcase_add_test(tests, open_surfaces_are_refused);
     tcase_add_test(tests, nothing_inside);
     tcase_add_test(tests, any_place_and_scale);
-    tcase_add_test(tests, coarser_inside);
     tcase_add_test(tests, cubes);
     tcase_add_test(tests, progress_and_cancel);
     tcase_add_test(tests, old_and_new_structs);
     tcase_add_test(tests, bad_arguments);
     suite_add_tcase(suite, tests);
+    TCase* large = tagged_tests("large");
+    tcase_add_checked_fixture(large, clear, NULL);
+    tcase_add_test(large, sphere);
+    tcase_add_test(large, coarser_inside);
+    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

@@ -7,3 +7,4 @@ foreach(name command_line command_line_meshes sweep)
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77
     ENVIRONMENT "VOX_TOOL=$<TARGET_FILE:vox_tool>;VOX_MESHES=${VOX_MESHES}")
 endforeach()
+set_tests_properties(command_line_meshes sweep PROPERTIES LABELS heavy)

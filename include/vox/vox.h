@@ -10,12 +10,15 @@
  *             Everywhere: INVALID_ARGUMENT for a null pointer that a comment does not allow, INVALID_HANDLE
  *             for an id that names no mesh of the grid.
  *   Structs   Structs whose first field is struct_size may grow. Fill them with vox_X_init or
- *             vox_default_X; the library reads and writes only the fields that struct_size covers,
- *             so old programs run with new libraries and the reverse.
+ *             vox_default_X; in those that a function writes, set struct_size before. The library reads
+ *             and writes only the fields that struct_size covers, so old programs run with new libraries
+ *             and the reverse. A struct_size below 4 or above 65536 is an INVALID_ARGUMENT.
  *   Ownership The library copies what it is given, except positions bound as borrowed. Pointers it
  *             hands out belong to it and live as long as their comment says.
  *   Threads   One thread at a time may change a grid. Between changes any number of threads may read
- *             it. Different grids are independent. vox_last_error() is per thread.
+ *             it: a function that takes a const grid reads it, any other changes it. Different grids are
+ *             independent. Functions without a grid run on any thread, at any time. vox_last_error() is
+ *             per thread.
  *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
  */
 #ifndef VOX_VOX_H
@@ -28,6 +31,10 @@
 #define VOX_VERSION_MINOR 1
 #define VOX_VERSION_PATCH 0
 
+/* Of the stable interface. A program built with one runs with every library of the same; part of the shared libraries'
+ * names (docs/abi.md). */
+#define VOX_ABI_VERSION 1
+
 #if defined(VOX_STATIC)
 #define VOX_EXPORT
 #elif defined(_WIN32) && defined(VOX_BUILD)
@@ -38,7 +45,7 @@
 #define VOX_EXPORT __attribute__((visibility("default")))
 #endif
 
-/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. */
+/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. docs/abi.md lists which. */
 #define VOX_API VOX_EXPORT
 #define VOX_EXPERIMENTAL VOX_EXPORT
 
@@ -82,7 +89,7 @@ VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
 VOX_API uint32_t vox_version(void);
 /* The same as "major.minor.patch". Static text. Cannot fail. */
 VOX_API const char* vox_version_string(void);
-/* Compiler, language level and options of this build, one line. Static text. Cannot fail. */
+/* Compiler, language level, instruction sets and options of this build, one line. Static text. Cannot fail. */
 VOX_API const char* vox_build_info(void);
 
 /* ---- memory and log --------------------------------------------------------------------------- */
@@ -120,8 +127,9 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
 /* The caller's scheduler, in the manner of Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
  * least min_range items where it can, and has `task` called once for each range, now or later, on any thread; it
  * returns a handle for `finish`, or null when all calls have already returned. `finish` returns when they have.
- * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step. Both null: the
- * built-in scheduler. */
+ * Both are called on the thread that called the library, at most VOX_MAX_TASKS times a step, and at most once by
+ * vox_grid_prepare_readings; a call whose items were not all run, or on a worker that there is not, fails with
+ * INVALID_ARGUMENT, and leaves no contacts, or no readings. Both null: the built-in scheduler. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);
@@ -133,8 +141,8 @@ typedef struct vox_task_system {
 
 /* ---- grid ------------------------------------------------------------------------------------- */
 
-/* Limits; passing one gives VOX_ERROR_LIMIT. */
-#define VOX_MAX_MESHES 1048576u           /* per grid, at one time */
+/* Limits; passing one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others. */
+#define VOX_MAX_MESHES 1048576u           /* per grid, at one time, with the slots that were retired */
 #define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
 #define VOX_MAX_VERTICES 2147483647u      /* per grid */
 #define VOX_MAX_TETS 2147483647u          /* per grid */
@@ -180,7 +188,9 @@ typedef struct vox_grid_desc {
     /* Edge length of a cell, > 0. 0 (the default): the library chooses it, by the cost model of the engine. The
      * reference engine does so at the first step and again when the counts of its steps say that another size
      * would be better (bodies deform, come into contact, are inserted or removed); every change is written to the
-     * log and counted in cell_size_changes. The fast one chooses for each of its windows, at every step. */
+     * log and counted in cell_size_changes. Where tetrahedra are of such unlike sizes that one cell size for all would
+     * be dear, it uses a few grids, one after the other, each with a cell size and all vertices, for tetrahedra of
+     * some sizes. The fast one chooses for each of its windows, at every step. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
      * cell. All zero (the default): the box of all positions, found at every step. */
@@ -189,8 +199,8 @@ typedef struct vox_grid_desc {
     /* Most bytes the grid may hold at any time; a call that would pass it fails with VOX_ERROR_BUDGET.
      * 0: no limit. Default 4 GiB. */
     uint64_t byte_budget;
-    /* Buckets of the hash table, raised to the next prime. 0 (the default): the first prime that is at
-     * least twice the number of vertices. */
+    /* Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the
+     * first prime that is at least twice the number of vertices. */
     uint64_t hash_table_size;
     vox_allocator allocator;
     vox_log log;
@@ -231,7 +241,8 @@ VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_
  * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
-/* The cell size in use: the one set, or the one chosen for the last step; 0 when none was chosen yet. */
+/* The cell size in use: the one set, or the one chosen for the last step (of several, that of the smallest
+ * tetrahedra); 0 when none was chosen yet. */
 VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
 
 /* Sets vox_grid_desc.worker_count for the steps to come. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and 0
@@ -244,7 +255,7 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * ascend in slot order, so a fresh grid orders meshes as they were inserted. A removed mesh's id never
  * names another mesh of the grid. */
 typedef uint32_t vox_mesh;
-#define VOX_NULL_MESH 0u
+#define VOX_NULL_MESH 0u /* names no mesh */
 
 typedef enum vox_format {
     VOX_FORMAT_FLOAT3 = 0,  /* three IEEE 754 singles x, y, z */
@@ -382,6 +393,88 @@ VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** 
  * Errors: INVALID_ARGUMENT (an element that is not finite). */
 VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]);
 
+/* ---- cutting and growing ---------------------------------------------------------------------- */
+
+/* Edits of a mesh between steps. Indices stay: a tetrahedron or vertex keeps its index whatever happens to others,
+ * and the index of one that was removed is never given to another (it counts towards the limits all the same), until
+ * vox_mesh_set_topology begins anew. What an edit takes away is as if it were not there: for contacts, penetrations,
+ * queries, suggestions and the rings of a filter. Contacts of the last step stay as they are until the next one,
+ * whose events follow from it: a pair that still touches persists.
+ * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that; the first edit of a
+ * mesh, and one now and then when a quarter of its tetrahedra have changed, is in proportion to the mesh. An edit of
+ * more than an eighth leaves that to the next step, as does one that finds no memory for repairs: so a step after an
+ * edit may allocate. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on, 16 a tetrahedron
+ * more once one was off.
+ * Positions must be bound, or else come before the next step, as ever. `count` 0 does nothing; an index may be named
+ * several times. Errors of all: INVALID_ARGUMENT (also: an index that the mesh does not have, or that was removed),
+ * INVALID_MESH ("tet 17 names vertex 900 of 812", or one that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */
+
+/* Other tetrahedra, vertices and positions, as if the mesh had been inserted with them; its id, user data, filter,
+ * transform, exceptions of pairs and whether it is enabled stay. Of `desc`, user_data, filter and the flag
+ * VOX_MESH_SELF_COLLISION do not count. positions null: those that it has, and its rest pose, stay where the number of
+ * vertices does, else it has none until vox_mesh_bind_positions. The rest pose of a filter with a rest distance is
+ * taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE, as vox_mesh_set_filter. */
+VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc);
+
+/* enabled 0: the tetrahedra named are off, which means that they hold nothing and have no edges and facets; 1 (as
+ * inserted): on again. Their vertices stay and collide with others either way. Errors: INVALID_ARGUMENT for other
+ * numbers. */
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                             uint32_t enabled);
+
+/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count: of an index
+ * named twice the last. One that is off stays off. A cut that opens a gap appends copies of the vertices on it and has
+ * the tetrahedra of one side name those. */
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                         const uint32_t* corners);
+
+/* Adds `count` tetrahedra with 4 corners each, copied; *out_first is the index of the first, those of the others
+ * follow. */
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
+                                        uint32_t* out_first);
+
+/* Takes tetrahedra away, off ones too. Their vertices stay: see vox_mesh_remove_vertices. */
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count);
+
+/* Vertices to come, and where they are. All positions are in the format that the mesh was inserted with or bound to
+ * last. */
+typedef struct vox_vertices_desc {
+    uint32_t struct_size;
+    uint32_t reserved; /* 0 */
+    uint64_t count;
+    /* Of a mesh that borrows its positions: an array of all of them, first those of the vertices it has, then the new
+     * ones, borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions. Of a mesh with
+     * positions of its own (copied, mapped, or loaded): `count` of them, copied; what vox_mesh_map_positions gave
+     * ends. May be null for a mesh that has none yet; with copies_of also for one with positions of its own. */
+    const void* positions;
+    uint64_t position_byte_stride; /* 0: tightly packed */
+    /* For each the vertex that it is a copy of: null, or `count` indices of vertices that the mesh had before. A copy
+     * begins where that is in the rest pose and, where `positions` is null, in the positions of the mesh's own. */
+    const uint32_t* copies_of;
+    /* For meshes with a rest pose (vox_filter.self_rest_distance), `count` positions in it, copied; null: those of
+     * copies_of or, where that is null too, the positions of the new vertices as they are now. */
+    const void* rest_positions;
+    uint64_t rest_position_byte_stride; /* 0: tightly packed */
+} vox_vertices_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers: all 0. */
+VOX_API vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size);
+
+static inline vox_vertices_desc vox_default_vertices_desc(void) {
+    vox_vertices_desc desc;
+    (void)vox_vertices_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* Adds vertices, which no tetrahedron names yet; *out_first is the index of the first, those of the others follow.
+ * Errors: also INVALID_STATE (a rest pose, and no position for a new vertex), NON_FINITE (one of the rest pose). */
+VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
+                                            uint32_t* out_first);
+
+/* Takes vertices away that no tetrahedron which is on names (else INVALID_ARGUMENT): they make no contacts any more, and
+ * no tetrahedron may name them again. Their positions are still read and must stay finite: best where they are. */
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count);
+
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
 /* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
@@ -393,7 +486,8 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * In the steady state (same meshes, no more to do than before) it allocates nothing, with any number of workers; the
  * built-in scheduler's own memory is oneTBB's, not the grid's.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
- * allow; both name mesh and vertex), BUDGET, OUT_OF_MEMORY. */
+ * allow; both name mesh and vertex), LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+ * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
 /* Vertex `vertex` of mesh_a lies in the closed tetrahedron `tet` of mesh_b, which does not own it.
@@ -515,6 +609,11 @@ VOX_API vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view)
 VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
                                           uint64_t capacity, uint64_t* out_count);
 
+/* The same of the contacts between two meshes, in either order, or of one mesh with itself (mesh_a = mesh_b): those of
+ * their vox_pair. */
+VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
+                                          vox_contact* contacts, uint64_t capacity, uint64_t* out_count);
+
 /* Of a touch_event: how the last successful step differs from the successful step before it. */
 typedef enum vox_touch {
     VOX_TOUCH_BEGAN = 1,     /* touches, and did not */
@@ -535,7 +634,7 @@ typedef struct vox_touch_event {
     uint32_t pair; /* its index in vox_grid_pairs; VOX_NO_PAIR when it ended */
 } vox_touch_event;
 
-#define VOX_NO_PAIR 0xffffffffu
+#define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair: none */
 
 /* All that began, then all that persisted, then all that ended: `count` together, `byte_stride` apart, each part
  * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. */
@@ -576,6 +675,79 @@ typedef struct vox_contact_event_view {
 /* The same for single vertices, under the same rules, on grids with VOX_GRID_CONTACT_EVENTS.
  * Errors: INVALID_STATE on other grids. */
 VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view);
+
+/* ---- readings --------------------------------------------------------------------------------- */
+
+/* What a program that answers contacts, draws or reports them wants of each: where the vertex is, the surface next to
+ * it, how deep it is. A grid that is never asked pays nothing: vox_grid_prepare_readings computes them, once a step and
+ * only where they are wanted. It is a change of the grid; what follows it are reads. */
+
+/* Which parts of a vox_reading there are; what belongs to others is all zero. */
+typedef enum vox_reading_flags {
+    VOX_READING_POSITION = 1, /* not of a vertex that is gone by now, with its mesh or from it */
+    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b or the tetrahedron is gone or mesh_b has no surface */
+    VOX_READING_DEPTH = 4,    /* not of grids without VOX_GRID_PENETRATIONS */
+    VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
+} vox_reading_flags;
+
+/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same, the first two fields aside.
+ * The surface of mesh_b, the facets of exactly one of its tetrahedra, doubled ones taken once, is looked at from the
+ * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally
+ * far the one with the lowest corners, compared in ascending order. For self-contact it is one of the fold that the
+ * vertex has entered, never one that has the vertex as a corner: see vox_penetration_state.
+ * No reading depends on engine, cell size, workers or machine. */
+typedef struct vox_reading {
+    uint64_t contact;            /* its index in vox_grid_contacts */
+    uint32_t known;              /* vox_reading_flags, combined with | */
+    vox_penetration_state state; /* DEPTH: state, depth and direction of the vertex's vox_penetration */
+    float depth;
+    float direction[3];
+    double position[3];         /* POSITION: of the vertex, as it collides: its doubles, its transform */
+    double distance;            /* SURFACE: from the vertex to surface_position, and what follows but user data */
+    double surface_position[3]; /* the closest point of `triangle` */
+    double barycentric[3];      /* its weights for the triangle's corners: in [0, 1] to rounding, the sum 1 */
+    /* Unit, out of the triangle's tetrahedron, or where this is flat to the side on which the vertex is not. Where the
+     * triangle has no area: from the vertex to the closest point, or 0, 0, 1 when it is there. */
+    double normal[3];
+    uint32_t triangle[3];       /* vertices of mesh_b, the lowest first, counter-clockwise seen from where the normal
+                                   points */
+    uint32_t reserved;
+    uint64_t user_data_a;       /* of mesh_a, as given at insertion */
+    uint64_t user_data_b;
+} vox_reading;
+
+/* `count` readings, `byte_stride` apart, one for each contact in their order; a field of them, say position, is an
+ * array of its own with that stride. `data` lives until the next step, clear, vox_grid_prepare_readings or destroy of
+ * the grid. */
+typedef struct vox_reading_view {
+    const vox_reading* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_reading_view;
+
+/* Reads the contacts of the last step, of the meshes as they are now: positions that the caller has borrowed out must
+ * still be those of the step. What was removed or changed in between is told by vox_reading.known. May be called
+ * again; takes time in proportion to the contacts, and to the vertices and surfaces of the meshes that they name.
+ * Memory for as many contacts and triangles is kept until the grid is destroyed: a call that needs no more than one
+ * before allocates nothing. Enqueues at most one task.
+ * Errors: NON_FINITE and LIMIT (positions that changed since the step; a mesh of more tetrahedra than
+ * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; the readings that there were stay then. INVALID_ARGUMENT: see
+ * vox_task_system; there are none then. */
+VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
+
+/* The readings that were prepared. Errors: INVALID_STATE when none were since the last step or clear. */
+VOX_API vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view);
+
+/* As vox_mesh_copy_contacts, of readings: the same ones in the same order. Errors: INVALID_ARGUMENT, INVALID_HANDLE,
+ * INVALID_STATE as vox_grid_readings. */
+VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings, uint64_t capacity,
+                                          uint64_t* out_count);
+
+/* As vox_pair_copy_contacts, of readings. Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as
+ * vox_grid_readings. */
+VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, vox_reading* readings,
+                                          uint64_t capacity, uint64_t* out_count);
 
 /* ---- snapshots -------------------------------------------------------------------------------- */
 
@@ -699,14 +871,14 @@ VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3]
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. From `cells` to `skipped_degenerate`, what was taken over from the step before
- * counts nothing. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all of
- * them with the reference engine, those with a vertex of theirs to test with the fast one. */
+ * counts nothing. `tets`: those that are on. `skipped_degenerate`: tetrahedra of exactly zero volume that were met: all
+ * of them with the reference engine, those with a vertex of theirs to test with the fast one. */
 typedef struct vox_counters {
     uint32_t struct_size;
     uint32_t meshes;
     uint64_t vertices;
     uint64_t tets;
-    uint64_t cells;              /* occupied cells */
+    uint64_t cells;              /* occupied cells; where there are several cell sizes, of all of them together */
     uint64_t entries;            /* vertices in them */
     uint64_t fullest_cell;       /* most vertices in one cell */
     uint64_t visited_cells;      /* objective voxels looked into */
@@ -837,9 +1009,9 @@ typedef struct vox_cost_sample {
     double cost;
 } vox_cost_sample;
 
-#define VOX_COST_CURVE_CAPACITY 64u
-#define VOX_COST_TERM_CAPACITY 12u
-#define VOX_CELL_SIZE_LEVEL_CAPACITY 4u
+#define VOX_COST_CURVE_CAPACITY 64u     /* samples of a curve */
+#define VOX_COST_TERM_CAPACITY 12u      /* terms of a cost; no model has more */
+#define VOX_CELL_SIZE_LEVEL_CAPACITY 4u /* grids side by side, of vox_suggestion.uniform_loss */
 
 /* One term of a cost: a piece of work, how often it is done, and what that costs. */
 typedef struct vox_cost_share {
@@ -868,7 +1040,8 @@ typedef struct vox_suggestion {
     double budget_cell_size; /* cells must not be smaller, for the byte budget; 0: it does not matter */
     /* REFERENCE: what one cell size for tetrahedra of all sizes loses: predicted cost over that of a few grids
      * side by side, each with the cell size that is best for its share of the tetrahedra, less 1. About 0 where
-     * one size is as good as several, and for the other models. */
+     * one size is as good as several, and for the other models. A grid with cell_size 0 uses them where there are
+     * several. */
     double uniform_loss;
     double levels[VOX_CELL_SIZE_LEVEL_CAPACITY]; /* those sizes, for the smallest tets first; level_count of them */
     uint32_t level_count;
@@ -888,7 +1061,10 @@ VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox
 
 /* The same for the meshes of a grid. desc null: the model of the grid's engine, with its storage and byte budget; the
  * paper's model takes p_nc from the last step where there was one with contacts and desc is null or has the
- * default. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE for a mesh without positions. */
+ * default. FAST knows from the last step which meshes rest and which need no cells for self-collision: those cost
+ * nothing. Quicker than vox_suggest_cell_size: counts are those of samples, and so are the means of grids with
+ * VOX_GRID_PENETRATIONS, to a few per cent. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE
+ * for a mesh without positions. */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
                                               vox_suggestion* out);
 

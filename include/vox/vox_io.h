@@ -40,7 +40,7 @@ typedef struct vox_io_load_desc {
     uint32_t reserved; /* 0 */
 } vox_io_load_desc;
 
-#define VOX_IO_ALL_MESHES 0xffffffffu
+#define VOX_IO_ALL_MESHES 0xffffffffu /* vox_io_load_desc.mesh_index: join them */
 
 /* Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size` covers. */
 VOX_API vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct_size);
@@ -230,7 +230,7 @@ VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t stru
  * elements than .msh 2.2 can number), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc);
 
-/* Receives `size` bytes of a file, in order; 0 on success, anything else ends the writing. */
+/* Receives `size` bytes of a file, in order, on the thread that writes; 0 on success, anything else ends the writing. */
 typedef struct vox_io_sink {
     int32_t (*write)(const void* data, size_t size, void* user);
     void* user;

@@ -11,9 +11,11 @@
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched out-parameters on
  * failure. Everything is double; the same calls give the same bits, for any number of workers of the grid.
  *
- *   Threads   One thread at a time may use a sim. Different sims are independent.
+ *   Threads   One thread at a time may use a sim, or an experiment. Different ones are independent.
  *   Units     One unit of length, mass and time throughout. The defaults suit metres, kilograms and seconds.
  *   Ownership What is given is copied. Views live as their comment says.
+ *   Limits    Positions, velocities and accelerations are at most 1e15 in size on each axis, other numbers at most
+ *             1e60, and a body's mass at least 1e-60.
  */
 #ifndef VOX_VOX_SIM_H
 #define VOX_VOX_SIM_H
@@ -151,7 +153,7 @@ VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body, const dou
                                           const double* velocities);
 
 /* An acceleration of all particles of a body from now on, in addition to gravity; at first 0, 0, 0.
- * Errors: INVALID_ARGUMENT (not finite). */
+ * Errors: INVALID_ARGUMENT (not a number of at most 1e15 on an axis). */
 VOX_API vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const double acceleration[3]);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
@@ -302,7 +304,7 @@ VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t 
  * lucky ones (docs/paper.md has figures). Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
 VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
 
-#define VOX_FIT_CAPACITY 9u
+#define VOX_FIT_CAPACITY 9u /* coefficients of a fit */
 
 /* A polynomial through times, in logarithms: ln(time) = sum of coefficients[k] * u^k for k = 0 to degree, where u goes
  * from -1 at range_min to 1 at range_max, linear in ln(cell size). */

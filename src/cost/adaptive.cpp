@@ -54,7 +54,7 @@ double few_box_sides(std::span<const Body> bodies) {
                     std::max({longest, std::abs(double{p.x} - double{q.x}),
                               std::abs(double{p.y} - double{q.y}), std::abs(double{p.z} - double{q.z})});
             }
-            if (!std::isfinite(longest)) continue;
+            if (!(longest > 0) || !std::isfinite(longest)) continue;
             sum += longest;
             count += 1;
         }

@@ -30,7 +30,7 @@ public:
         double byte_limit; // of the cells of dense storage; 0: none
     };
 
-    // Meshes came or went.
+    // Meshes came or went, or were cut.
     void scene_changed() noexcept { scene_changed_ = true; }
     // Forgets everything: the next step chooses anew.
     void restart() noexcept { *this = {}; }

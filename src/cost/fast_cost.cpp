@@ -85,8 +85,8 @@ public:
         Box* boxes = tile_boxes_.data() + first_tile_[body];
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
             Box super = fast::empty_box;
-            for (std::uint32_t i = tiles.block_begin[s]; i < tiles.block_begin[s + 1]; ++i)
-                fast::add(super, blocks_[first_block_[body] + tiles.blocks[i]]);
+            for (const std::uint32_t block : tiles.blocks[s])
+                fast::add(super, blocks_[first_block_[body] + block]);
             if (!fast::overlap(super, region)) continue;
             const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
             fast::tile_boxes(tiles, positions_[body], first, last, boxes, known_.data() + first_tile_[body]);

@@ -42,12 +42,10 @@ double outside(double x, double min, double max) { return std::max({min - x, x -
 
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
     const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    // Seen from p, so that rounding errors are those of distances, not of coordinates.
-    const Vec3d a = position_of(solid.positions, v[0]) - p, b = position_of(solid.positions, v[1]) - p,
-                c = position_of(solid.positions, v[2]) - p;
-    const auto [squared, weight] = closest_on_triangle({0, 0, 0}, a, b, c);
-    const Vec3d way = weight[0] * a + weight[1] * b + weight[2] * c;
-    return {{triangle, {weight[0], weight[1], weight[2]}, p + way}, way, squared};
+    const auto [at, way] =
+        closest_seen_from(p, position_of(solid.positions, v[0]), position_of(solid.positions, v[1]),
+                          position_of(solid.positions, v[2]));
+    return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
 namespace {
@@ -83,9 +81,11 @@ Box joined(const Box& a, const Box& b) {
 
 template <class Box>
 double squared_distance(const Vec3d& p, const Box& box) {
+    // A few roundings less, so that no triangle in the box is closer, or equally close, as that is computed.
+    constexpr double slack = 1 - 0x1p-48;
     const double x = outside(p.x, box.min.x, box.max.x), y = outside(p.y, box.min.y, box.max.y),
                  z = outside(p.z, box.min.z, box.max.z);
-    return x * x + y * y + z * z;
+    return (x * x + y * y + z * z) * slack;
 }
 
 } // namespace
@@ -207,7 +207,8 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
         if (is_beyond_plane(solid_, triangle, p, best)) return;
         const Closest candidate = closest_point(solid_, triangle, p);
         if (candidate.squared > best ||
-            (candidate.squared == best && found && candidate.at.triangle >= out.at.triangle))
+            (candidate.squared == best && found &&
+             !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
             return;
         if (fold && !accept(p, *fold, candidate)) return;
         found = true;
@@ -239,6 +240,15 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
     }
     if (found) last_ = out.at.triangle;
     return found;
+}
+
+bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
+                                  Closest& out, std::uint64_t& visited) {
+    if (!self) return find(p, nullptr, out, visited);
+    Fold fold{vertex, tet, true};
+    if (find(p, &fold, out, visited)) return true;
+    fold.only_straight = false;
+    return find(p, &fold, out, visited);
 }
 
 } // namespace vox::depth

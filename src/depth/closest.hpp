@@ -40,10 +40,15 @@ public:
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
 
-    // The closest point to p, of points equally far that of the lowest triangle. `fold` may be null;
+    // The closest point to p, of points equally far that of the first triangle (Topology::before). `fold` may be null;
     // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
     // to `visited`.
     bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
+
+    // The same for a vertex at p in `tet`; `self`: of its own mesh, where a point of the fold it has entered
+    // is wanted, straight ahead if there is one.
+    bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
+                         std::uint64_t& visited);
 
 private:
     struct Box {

@@ -1,5 +1,6 @@
 // Tetrahedra are listed by corner with a counting sort; then every vertex, with its tetrahedra at hand, finds
-// its neighbours and matches the facets of which it is the lowest corner.
+// its neighbours and matches the facets of which it is the lowest corner. After an edit the same is done for
+// the facets and vertices of what changed alone.
 #include "topology.hpp"
 
 #include "../error.hpp"
@@ -10,9 +11,6 @@
 namespace vox::depth {
 
 namespace {
-
-// So that lists of three corners of four facets, and of all edges both ways, have 32-bit ends.
-constexpr std::uint32_t most_tets = UINT32_MAX / 12;
 
 // A facet with the vertex at hand as lowest corner.
 struct Facet {
@@ -26,25 +24,6 @@ struct Facet {
         return place < other.place;
     }
 };
-
-bool names_a_vertex_twice(const Tet& t) noexcept {
-    return t.v[0] == t.v[1] || t.v[0] == t.v[2] || t.v[0] == t.v[3] || t.v[1] == t.v[2] || t.v[1] == t.v[3] ||
-           t.v[2] == t.v[3];
-}
-
-// For each vertex the items that have it as a corner, ascending. corners_of(item) may be empty.
-template <class CornersOf>
-void list_by_vertex(std::uint32_t items, std::uint32_t vertex_count, CornersOf corners_of,
-                    std::pmr::vector<std::uint32_t>& first, std::pmr::vector<std::uint32_t>& listed) {
-    first.assign(std::size_t{vertex_count} + 2, 0); // counted two places on, then filled one place on
-    for (std::uint32_t i = 0; i < items; ++i)
-        for (const std::uint32_t v : corners_of(i)) ++first[v + 2];
-    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    listed.resize(first.back());
-    for (std::uint32_t i = 0; i < items; ++i)
-        for (const std::uint32_t v : corners_of(i)) listed[first[v + 1]++] = i;
-    first.pop_back();
-}
 
 // Adds the facets of tetrahedron `index` whose lowest corner is v.
 void add_facets(const Tet& tet, std::uint32_t index, std::uint32_t v, std::pmr::vector<Facet>& facets) {
@@ -90,46 +69,148 @@ void match(std::span<const Tet> tets, std::pmr::vector<Facet>& facets, Topology&
 
 } // namespace
 
-void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out) {
-    if (tets.empty()) return;
-    if (tets.size() > most_tets)
+void check_tet_count(std::uint64_t tets) {
+    if (tets > most_tets)
         throw Error(VOX_ERROR_LIMIT,
-                    format("the mesh has %zu tets, a grid with VOX_GRID_PENETRATIONS takes at most %u",
-                           tets.size(), most_tets));
+                    format("the mesh has %llu tets, a grid with VOX_GRID_PENETRATIONS takes at most %u",
+                           static_cast<unsigned long long>(tets), most_tets));
+}
+
+void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out) {
     std::pmr::memory_resource* memory = out.across.get_allocator().resource();
     Topology made(memory);
-    std::pmr::vector<std::uint32_t> first_tet(memory), tets_around(memory), met(vertex_count, 0, memory);
+    if (tets.empty()) {
+        out = std::move(made);
+        return;
+    }
+    check_tet_count(tets.size());
+    Lists tets_around(memory);
+    std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
     std::pmr::vector<Facet> facets(memory);
-    list_by_vertex(
-        static_cast<std::uint32_t>(tets.size()), vertex_count,
-        [&](std::uint32_t t) {
-            return std::span<const std::uint32_t>(tets[t].v, names_a_vertex_twice(tets[t]) ? 0 : 4);
-        },
-        first_tet, tets_around);
-    made.first_neighbour.reserve(std::size_t{vertex_count} + 1);
+    tets_around.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
+        return std::span<const std::uint32_t>(tets[t].v, names_a_vertex_twice(tets[t]) ? 0 : 4);
+    });
+    made.neighbours.reserve(vertex_count);
     made.across.assign(tets.size(),
                        {Topology::nothing, Topology::nothing, Topology::nothing, Topology::nothing});
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const std::size_t first = made.neighbours.size();
-        made.first_neighbour.push_back(static_cast<std::uint32_t>(first));
+        made.neighbours.begin_list();
         facets.clear();
-        for (std::uint32_t i = first_tet[v]; i < first_tet[v + 1]; ++i) {
-            const std::uint32_t t = tets_around[i];
+        for (const std::uint32_t t : std::as_const(tets_around)[v]) {
             for (const std::uint32_t w : tets[t].v)
-                if (w != v && std::exchange(met[w], v + 1) != v + 1) made.neighbours.push_back(w);
+                if (w != v && std::exchange(met[w], v + 1) != v + 1) made.neighbours.push(w);
             add_facets(tets[t], t, v, facets);
         }
-        std::sort(made.neighbours.begin() + static_cast<std::ptrdiff_t>(first), made.neighbours.end());
+        const std::span<std::uint32_t> neighbours = made.neighbours[v];
+        std::sort(neighbours.begin(), neighbours.end());
         match(tets, facets, made);
     }
-    made.first_neighbour.push_back(static_cast<std::uint32_t>(made.neighbours.size()));
     made.neighbours.shrink_to_fit();
     made.triangles.shrink_to_fit();
-    list_by_vertex(
+    made.rings.list_by_vertex(
         static_cast<std::uint32_t>(made.triangles.size()), vertex_count,
-        [&](std::uint32_t t) { return std::span<const std::uint32_t>(made.triangles[t].v); }, made.first_ring,
-        made.rings);
+        [&](std::uint32_t t) { return std::span<const std::uint32_t>(made.triangles[t].v); });
     out = std::move(made);
+}
+
+// ---- repair ---------------------------------------------------------------------------------------
+
+namespace {
+
+class Repair {
+public:
+    Repair(std::span<const Tet> tets, const Lists& tets_of, Topology& topology)
+        : tets_(tets), tets_of_(tets_of), topology_(topology), facets_(tets_of.memory()),
+          found_(tets_of.memory()) {}
+
+    void run(std::span<const TetChange> changes) {
+        constexpr std::array<std::uint32_t, 4> nothing{Topology::nothing, Topology::nothing,
+                                                       Topology::nothing, Topology::nothing};
+        topology_.is_repaired = true;
+        topology_.across.resize(tets_.size(), nothing);
+        for (const TetChange& change : changes) topology_.across[change.tet] = nothing;
+        std::pmr::vector<FacetKey> keys(facets_.get_allocator());
+        list_changed_facets(changes, keys);
+        for (const FacetKey& key : keys) drop_triangle(key);
+        for (const FacetKey& key : keys) match_again(key);
+        std::pmr::vector<std::uint32_t> vertices(facets_.get_allocator());
+        list_changed_vertices(changes, vertices);
+        for (const std::uint32_t v : vertices) find_neighbours(v);
+    }
+
+private:
+    // The facet is on the surface no more, if it was; the last triangle takes the place of its triangle.
+    void drop_triangle(const FacetKey& key) {
+        const std::span<const std::uint32_t> ring = topology_.ring_of(key.low);
+        const auto found = std::find_if(ring.begin(), ring.end(),
+                                        [&](std::uint32_t t) { return topology_.key(t) == key; });
+        if (found == ring.end()) return;
+        const std::uint32_t hole = *found;
+        const auto last = static_cast<std::uint32_t>(topology_.triangles.size() - 1);
+        for (const std::uint32_t v : {key.low, key.middle, key.high}) topology_.rings.remove(v, hole);
+        if (hole != last) {
+            const FacetKey moved = topology_.key(last);
+            for (const std::uint32_t v : {moved.low, moved.middle, moved.high})
+                for (std::uint32_t& t : topology_.rings[v])
+                    if (t == last) t = hole;
+            for_tets_at(moved, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
+                std::uint32_t& across = topology_.across[tet][i];
+                if (across == (Topology::surface_bit | last)) across = Topology::surface_bit | hole;
+            });
+            topology_.triangles[hole] = topology_.triangles[last];
+        }
+        topology_.triangles.pop_back();
+    }
+
+    void match_again(const FacetKey& key) {
+        facets_.clear();
+        for_tets_at(key, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
+            topology_.across[tet][i] = Topology::nothing;
+            facets_.push_back({std::uint64_t{key.middle} << 32 | key.high, tets_[tet].v[i], 4 * tet + i});
+        });
+        const auto triangle = static_cast<std::uint32_t>(topology_.triangles.size());
+        match(tets_, facets_, topology_);
+        if (topology_.triangles.size() == triangle) return;
+        for (const std::uint32_t v : {key.low, key.middle, key.high}) {
+            const std::span<const std::uint32_t> ring = topology_.ring_of(v);
+            const auto place = std::find_if(ring.begin(), ring.end(),
+                                            [&](std::uint32_t t) { return topology_.before(triangle, t); });
+            topology_.rings.insert(v, static_cast<std::size_t>(place - ring.begin()), triangle);
+        }
+    }
+
+    void find_neighbours(std::uint32_t vertex) {
+        found_.clear();
+        for (const std::uint32_t t : tets_of_[vertex]) {
+            if (names_a_vertex_twice(tets_[t])) continue;
+            for (const std::uint32_t v : tets_[t].v)
+                if (v != vertex) found_.push_back(v);
+        }
+        std::sort(found_.begin(), found_.end());
+        found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+        topology_.neighbours.assign(vertex, found_);
+    }
+
+    std::span<const Tet> tets_;
+    const Lists& tets_of_;
+    Topology& topology_;
+    std::pmr::vector<Facet> facets_;
+    std::pmr::vector<std::uint32_t> found_;
+};
+
+} // namespace
+
+void add_vertices(std::uint32_t vertex_count, Topology& topology) {
+    if (topology.neighbours.empty()) return; // there are no tetrahedra yet
+    topology.neighbours.resize(vertex_count);
+    topology.rings.resize(vertex_count);
+}
+
+void repair_topology(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+                     Topology& topology) {
+    topology.neighbours.resize(tets_of.size());
+    topology.rings.resize(tets_of.size());
+    Repair(tets, tets_of, topology).run(changes);
 }
 
 } // namespace vox::depth

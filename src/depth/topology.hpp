@@ -1,10 +1,12 @@
-// What the depth stage prepares of a mesh's tetrahedra, once: neighbours of vertices, tetrahedra across
-// facets, and the surface. Positions play no part in it.
+// What the depth stage prepares of a mesh's tetrahedra: neighbours of vertices, tetrahedra across facets, and
+// the surface. Positions play no part in it. Made once, and repaired where the mesh is cut.
 //
 // Tetrahedra that name a vertex twice have no edges and facets of their own, and doubled ones count once.
 #pragma once
 
+#include "../lists.hpp"
 #include "../scene.hpp"
+#include "../tet_changes.hpp"
 
 #include <array>
 #include <cstdint>
@@ -25,8 +27,7 @@ struct Triangle {
 
 struct Topology {
     explicit Topology(std::pmr::memory_resource* memory) noexcept
-        : first_neighbour(memory), neighbours(memory), across(memory), triangles(memory), first_ring(memory),
-          rings(memory) {}
+        : neighbours(memory), across(memory), triangles(memory), rings(memory) {}
 
     // What lies across a facet: a tetrahedron, or on the surface one of `triangles`, or where three or more
     // tetrahedra meet nothing that could be told.
@@ -34,30 +35,47 @@ struct Topology {
     static constexpr std::uint32_t nothing = 0xffffffffu;
 
     // All empty for a mesh without tetrahedra.
-    std::pmr::vector<std::uint32_t> first_neighbour;       // of each vertex in `neighbours`, and the end
-    std::pmr::vector<std::uint32_t> neighbours;            // over edges, ascending
+    Lists neighbours;                                      // of each vertex, over edges, ascending
     std::pmr::vector<std::array<std::uint32_t, 4>> across; // of each tetrahedron's facets
     std::pmr::vector<Triangle> triangles;
-    std::pmr::vector<std::uint32_t> first_ring; // of each vertex in `rings`, and the end
-    std::pmr::vector<std::uint32_t> rings;      // the triangles around it, ascending
+    Lists rings;             // of each vertex the triangles around it, in the order of before()
+    bool is_repaired = false; // else the order of before() is that of `triangles`
 
     std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const noexcept {
-        return list(first_neighbour, neighbours, vertex);
+        if (neighbours.empty()) return {};
+        return neighbours[vertex];
     }
     std::span<const std::uint32_t> ring_of(std::uint32_t vertex) const noexcept {
-        return list(first_ring, rings, vertex);
+        if (rings.empty()) return {};
+        return rings[vertex];
     }
 
-private:
-    static std::span<const std::uint32_t> list(const std::pmr::vector<std::uint32_t>& first,
-                                               const std::pmr::vector<std::uint32_t>& items,
-                                               std::uint32_t i) noexcept {
-        if (first.empty()) return {};
-        return {items.data() + first[i], items.data() + first[i + 1]};
+    // The order in which triangles count, whatever edits the mesh went through: by their vertices, sorted.
+    bool before(std::uint32_t triangle, std::uint32_t other) const noexcept {
+        return is_repaired ? key(triangle) < key(other) : triangle < other;
+    }
+
+    FacetKey key(std::uint32_t triangle) const noexcept {
+        const std::uint32_t* v = triangles[triangle].v;
+        return sorted_facet(v[0], v[1], v[2]).key;
     }
 };
 
+// More tetrahedra have no topology: lists of three corners of four facets have 32-bit ends.
+inline constexpr std::uint32_t most_tets = UINT32_MAX / 12;
+// Throws Error(LIMIT) for that many.
+void check_tet_count(std::uint64_t tets);
+
 // Throws std::bad_alloc (or what the memory throws) and leaves `out` as it was then.
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out);
+
+// More vertices, at the end, that no tetrahedron names. Throws as repair_topology().
+void add_vertices(std::uint32_t vertex_count, Topology& topology);
+
+// Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it; those that are off name a
+// vertex twice. As make_topology() but for the order of triangles. Throws what the memory throws, and is to be
+// made anew then.
+void repair_topology(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+                     Topology& topology);
 
 } // namespace vox::depth

@@ -4,6 +4,7 @@
 // own.
 #include "fast.hpp"
 
+#include "bits.hpp"
 #include "clock.hpp"
 #include "error.hpp"
 #include "filter.hpp"
@@ -15,6 +16,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace vox {
 
@@ -25,10 +27,6 @@ namespace {
 // A piece of a body is so many blocks of vertices, or super-tiles, at most.
 constexpr std::uint32_t piece_blocks = 2048;
 constexpr std::uint32_t piece_supers = 8;
-// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
-// on.
-constexpr std::size_t min_winding_tets = 2000;
-constexpr std::size_t max_surface = 8;
 
 template <class Pieces>
 void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Pieces& pieces) {
@@ -71,18 +69,36 @@ Vec3d choose_origin(std::span<const Body> bodies) {
 } // namespace
 
 void FastMesh::prepare(const Body& body) {
-    FastMesh made(surface.triangles.get_allocator().resource());
-    fast::make_tiles(body.tets, body.vertex_count, body.positions, made);
+    std::pmr::memory_resource* memory = surface.triangles.get_allocator().resource();
+    FastMesh made(memory);
+    fast::make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
     if (body.self_collision) {
         fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
-        // A surface that is most of the body never pays.
-        if (made.surface.triangles.size() * max_surface > body.tets.size() ||
-            body.tets.size() < min_winding_tets)
-            made.surface = fast::Surface(surface.triangles.get_allocator().resource());
+        if (!fast::surface_pays(made.surface.triangles.size(), made.tets.size()))
+            made.surface = fast::Surface(memory);
+        std::erase_if(made.surface.loose,
+                      [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
-    made.rest.positions.resize(std::size_t{body.vertex_count} * 3);
-    made.rest.parts.resize((made.block_count() + piece_blocks - 1) / piece_blocks);
+    made.expect_vertices(body.vertex_count);
+    made.places.first_young_super = made.super_tile_count();
+    made.places.first_young_vertex = body.vertex_count;
     *this = std::move(made);
+}
+
+void FastMesh::expect_vertices(std::uint32_t vertex_count) {
+    rest.positions.resize(std::size_t{vertex_count} * 3);
+    rest.parts.resize((block_count() + piece_blocks - 1) / piece_blocks);
+}
+
+bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of) {
+    return fast::repair(*this, surface, places, body, changes, tets_of);
+}
+
+bool FastMesh::follow_vertices(const Body& body, std::uint32_t count_before) {
+    if (count_before == 0) return false;
+    fast::add_vertices(*this, surface, places, count_before, body.vertex_count);
+    expect_vertices(body.vertex_count);
+    return true;
 }
 
 // Turns findings into hits: the exact part of the narrow phase.
@@ -159,10 +175,10 @@ Fast::Worker::Worker(std::pmr::memory_resource* memory)
 
 Fast::Fast(std::pmr::memory_resource* memory)
     : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
-      tile_known_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
-      piece_moved_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
-      first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
-      large_buffers_(memory), degenerate_(memory) {}
+      tile_known_(memory), reached_regions_(memory), block_sides_(memory), block_pieces_(memory),
+      super_pieces_(memory), piece_boxes_(memory), piece_moved_(memory), pair_buffers_(memory),
+      pairs_(memory), reaches_(memory), by_b_(memory), first_of_b_(memory), first_of_a_(memory),
+      groups_(memory), bins_(memory), workers_(memory), large_buffers_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -271,6 +287,7 @@ void Fast::prepare(Step& step) {
     while (bins_.size() < groups_.size()) bins_.emplace_back(bins_.get_allocator().resource());
     for (fast::Bins& bins : bins_) bins.clear();
     block_boxes_.resize(blocks);
+    block_sides_.resize(blocks);
     super_boxes_.resize(supers);
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
@@ -362,10 +379,16 @@ void Fast::find_reaches(Step& step) {
     std::erase_if(reaches_, [](const Reach& reach) { return fast::is_empty(reach.region); });
     sort_reaches(step);
 
+    reached_regions_.assign(step.bodies.size(), fast::empty_box);
     for (const Reach& reach : reaches_) {
         states_[reach.b].reached = true;
+        fast::add(reached_regions_[reach.b], reach.region);
         tiles += step.prepared[reach.b]->tiles.size();
     }
+    step.for_ranges(block_pieces_.size(), reaches_.empty() ? 0 : block_boxes_.size(), 4 * piece_blocks,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t p = begin; p < end; ++p) find_sides(step, block_pieces_[p]);
+                    });
     step.for_ranges(super_pieces_.size(), reaches_.empty() ? 0 : tile_boxes_.size(), 256,
                     [&](std::size_t begin, std::size_t end, std::uint32_t) {
                         for (std::size_t p = begin; p < end; ++p) know_tiles(step, super_pieces_[p]);
@@ -403,20 +426,43 @@ std::span<const std::uint32_t> Fast::reaching(std::uint32_t b) const noexcept {
     return std::span(by_b_).subspan(first_of_b_[b], first_of_b_[b + 1] - first_of_b_[b]);
 }
 
+// Bodies whose super-tiles matter only where others reach them.
+bool Fast::knows_sides(const Step& step, std::uint32_t body) const noexcept {
+    return states_[body].reached && !states_[body].tiles_known && !step.bodies[body].self_collision;
+}
+
+// Where the blocks of a body lie, seen from the region where others reach it: a byte tells most super-tiles
+// to be out of reach, and is less to read than a box.
+void Fast::find_sides(const Step& step, const Piece& piece) {
+    if (!knows_sides(step, piece.body)) return;
+    const std::size_t first = states_[piece.body].first_block;
+    const Box region = reached_regions_[piece.body];
+    for (std::size_t i = first + piece.first; i < first + piece.last; ++i)
+        block_sides_[i] = static_cast<std::uint8_t>(fast::sides_of(block_boxes_[i], region));
+}
+
 // Boxes that hold super-tiles: of their tiles where all of those are known, else of the blocks their vertices
-// are in.
+// are in; empty where all those blocks lie on one side of what matters.
 void Fast::know_super_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     const FastMesh& mesh = *step.prepared[piece.body];
     const Box* blocks = block_boxes_.data() + state.first_block;
+    const std::uint8_t* sides = block_sides_.data() + state.first_block;
+    const bool knows_sides = this->knows_sides(step, piece.body);
+    const auto out_of_reach = [&](std::span<const std::uint32_t> of) {
+        unsigned common = fast::all_sides;
+        for (std::size_t i = 0; i < of.size() && common; ++i) common &= sides[of[i]];
+        return common != 0;
+    };
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         Box box = fast::empty_box;
         if (state.tiles_known) {
             for (std::uint32_t t = mesh.super_first[s]; t < mesh.super_first[s + 1]; ++t)
                 fast::add(box, tile_boxes_[state.first_tile + t]);
         } else {
-            for (std::uint32_t i = mesh.block_begin[s]; i < mesh.block_begin[s + 1]; ++i)
-                fast::add(box, blocks[mesh.blocks[i]]);
+            const std::span<const std::uint32_t> of = std::as_const(mesh.blocks)[s];
+            if (!knows_sides || !out_of_reach(of))
+                for (const std::uint32_t block : of) fast::add(box, blocks[block]);
         }
         super_boxes_[state.first_super + s] = box;
     }

@@ -285,7 +285,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    TestBoxes(s, count, ~std::uint64_t{0} >> (64u - tile.tet_count));
+    TestBoxes(s, count, tile.all_tets());
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
     const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
     const std::uint32_t* stamps = w.query.stamps;

@@ -6,30 +6,7 @@
 
 namespace vox::fast {
 
-namespace {
-
-// The facets of a positive tet, counter-clockwise from outside.
-constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-struct Facet {
-    std::uint32_t low, middle, high; // the vertices, sorted
-    bool even;                       // sorting took an even permutation
-};
-
-Facet sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    bool even = true;
-    const auto order = [&even](std::uint32_t& x, std::uint32_t& y) {
-        if (x <= y) return;
-        std::swap(x, y);
-        even = !even;
-    };
-    order(a, b);
-    order(b, c);
-    order(a, b);
-    return {a, b, c, even};
-}
-
-bool is_negative(const Tet& tet, Positions positions) {
+bool is_negative(const Tet& tet, const Positions& positions) noexcept {
     const Vec3d a = positions.exact(tet.v[0]);
     double e[3][3];
     for (int i = 0; i < 3; ++i) {
@@ -44,11 +21,16 @@ bool is_negative(const Tet& tet, Positions positions) {
            0;
 }
 
+std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept {
+    const auto& [low, middle, high] = facet.key;
+    if (facet.even) return {low, middle, high};
+    return {low, high, middle};
+}
+
+namespace {
+
 // Facets without a partner in their tile.
-struct Open {
-    std::uint32_t low, middle, high;
-    bool even;
-};
+using Open = SortedFacet;
 
 // Adds the facets of tile `index` that have no partner in it to `open`; false when some facet has two.
 bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& tiles, std::size_t index,
@@ -62,10 +44,7 @@ bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& 
     for (std::uint32_t t = 0; t < tile.tet_count; ++t) {
         std::uint32_t local[4];
         for (std::uint32_t c = 0; c < 4; ++c) local[c] = corners[c * tile_size + t];
-        bool repeated = false;
-        for (int c = 0; c < 4; ++c)
-            for (int d = 0; d < c; ++d) repeated |= local[c] == local[d];
-        if (repeated) {
+        if (names_a_vertex_twice({{local[0], local[1], local[2], local[3]}})) {
             ignored |= std::uint64_t{1} << t;
             continue;
         }
@@ -73,9 +52,9 @@ bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& 
         if (negative) mirrored |= std::uint64_t{1} << t;
         for (std::uint32_t c = 0; c < 4; ++c) used[vertices[local[c]]] = 1;
         for (std::uint32_t f = 0; f < 4; ++f) {
-            const Facet facet = sorted(local[facets[f][0]], local[facets[f][1]], local[facets[f][2]]);
-            keys[count++] =
-                facet.low << 13 | facet.middle << 7 | facet.high << 1 | std::uint32_t{facet.even != negative};
+            const auto [key, even] =
+                sorted_facet(local[facets[f][0]], local[facets[f][1]], local[facets[f][2]]);
+            keys[count++] = key.low << 13 | key.middle << 7 | key.high << 1 | std::uint32_t{even != negative};
         }
     }
     made.mirrored.push_back(mirrored);
@@ -88,9 +67,9 @@ bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& 
             ++i;
             continue;
         }
-        const Facet facet =
-            sorted(vertices[keys[i] >> 13], vertices[keys[i] >> 7 & 63], vertices[keys[i] >> 1 & 63]);
-        open.push_back({facet.low, facet.middle, facet.high, facet.even == (keys[i] & 1)});
+        const auto [key, even] =
+            sorted_facet(vertices[keys[i] >> 13], vertices[keys[i] >> 7 & 63], vertices[keys[i] >> 1 & 63]);
+        open.push_back({key, even == (keys[i] & 1)});
     }
     return true;
 }
@@ -117,16 +96,16 @@ void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positio
     // By the lowest vertex: counted, summed, placed; then by the others.
     std::pmr::vector<std::uint32_t> begin(std::size_t{vertex_count} + 1, 0, memory),
         placed(open.size(), memory);
-    for (const Open& facet : open) ++begin[facet.low + 1];
+    for (const Open& facet : open) ++begin[facet.key.low + 1];
     for (std::uint32_t v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    for (std::uint32_t i = 0; i < open.size(); ++i) placed[begin[open[i].low]++] = i;
+    for (std::uint32_t i = 0; i < open.size(); ++i) placed[begin[open[i].key.low]++] = i;
     const auto before = [&](std::uint32_t x, std::uint32_t y) {
-        const Open &f = open[x], &g = open[y];
+        const FacetKey &f = open[x].key, &g = open[y].key;
         return f.middle != g.middle ? f.middle < g.middle : f.high < g.high;
     };
     for (std::size_t first = 0; first < placed.size();) {
         std::size_t last = first;
-        while (last < placed.size() && open[placed[last]].low == open[placed[first]].low) ++last;
+        while (last < placed.size() && open[placed[last]].key.low == open[placed[first]].key.low) ++last;
         std::sort(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), before);
         for (std::size_t i = first; i < last;) {
             std::size_t end = i + 1;
@@ -136,12 +115,7 @@ void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positio
                 out = Surface(memory);
                 return;
             }
-            if (end - i == 1) {
-                if (facet.even)
-                    made.triangles.push_back({facet.low, facet.middle, facet.high});
-                else
-                    made.triangles.push_back({facet.low, facet.high, facet.middle});
-            }
+            if (end - i == 1) made.triangles.push_back(triangle_of(facet));
             i = end;
         }
         first = last;

@@ -1,6 +1,7 @@
-// The boundary of a mesh, prepared once for winding.hpp: the facets that no two tetrahedra share.
+// The boundary of a mesh, prepared for winding.hpp: the facets that no two tetrahedra share.
 #pragma once
 
+#include "../tet_changes.hpp"
 #include "tiles.hpp"
 
 #include <array>
@@ -25,8 +26,23 @@ struct Surface {
     // For each tile, tets to be taken with the last two corners swapped (negative when they were prepared),
     // and tets that name a corner twice and never hold anything.
     std::pmr::vector<std::uint64_t> mirrored, ignored;
-    std::pmr::vector<std::uint32_t> loose; // vertices of no tet but ignored ones
+    std::pmr::vector<std::uint32_t> loose; // vertices of no tet but ignored ones, ascending
 };
+
+// The facets of a positive tet, counter-clockwise from outside.
+inline constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle, on:
+// a surface that is most of the body never pays.
+constexpr bool surface_pays(std::size_t triangles, std::size_t tets) noexcept {
+    return tets >= 2000 && triangles * 8 <= tets;
+}
+
+// Whether a tet is prepared as mirrored.
+bool is_negative(const Tet& tet, const Positions& positions) noexcept;
+
+// Counter-clockwise from outside, when `even` means that low, middle, high are.
+std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept;
 
 // Throws std::bad_alloc and leaves `out` as it was then.
 void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,

@@ -3,6 +3,7 @@
 // come out nearly full.
 #include "tiles.hpp"
 
+#include "../bits.hpp"
 #include "box.hpp"
 
 #include <algorithm>
@@ -152,26 +153,28 @@ void list_blocks(std::uint32_t vertex_count, Tiles& out) {
     std::pmr::vector<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
     for (std::uint32_t b = 0; b < out.block_count(); ++b)
         std::fill(block_of.begin() + out.block_first[b], block_of.begin() + out.block_first[b + 1], b);
-    out.block_begin.assign(1, 0);
     const std::uint32_t super_tiles = out.super_tile_count();
+    out.blocks.reserve(super_tiles);
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        out.blocks.begin_list();
         for (std::uint32_t t = out.super_first[s]; t < out.super_first[s + 1]; ++t) {
             const Tile& tile = out.tiles[t];
             for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
                 const std::uint32_t block = block_of[out.vertices[tile.first_vertex + i]];
                 if (seen[block] == s + 1) continue;
                 seen[block] = s + 1;
-                out.blocks.push_back(block);
+                out.blocks.push(block);
             }
         }
-        std::sort(out.blocks.begin() + out.block_begin.back(), out.blocks.end());
-        out.block_begin.push_back(static_cast<std::uint32_t>(out.blocks.size()));
+        const std::span<std::uint32_t> blocks = out.blocks[s];
+        std::sort(blocks.begin(), blocks.end());
     }
 }
 
 } // namespace
 
-void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out) {
+void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
+                std::span<const std::uint64_t> off) {
     std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
     Tiles made(memory);
     if (vertex_count == 0) { // and so no tets: nothing to allocate for
@@ -180,8 +183,10 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
     }
     made.super_first.push_back(0);
     if (!tets.empty()) {
-        std::pmr::vector<Item> items(tets.size(), memory);
+        std::pmr::vector<Item> items(memory);
+        items.reserve(tets.size());
         for (std::size_t t = 0; t < tets.size(); ++t) {
+            if (has_bit(off, t)) continue;
             float sum[3] = {0, 0, 0};
             for (const std::uint32_t v : tets[t].v) {
                 const Vec3f p = seen_from_first(positions, v);
@@ -189,16 +194,18 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
                 sum[1] += p.y;
                 sum[2] += p.z;
             }
-            for (int a = 0; a < 3; ++a) items[t].centroid[a] = std::isfinite(sum[a]) ? sum[a] : 0.0f;
-            items[t].tet = static_cast<std::uint32_t>(t);
+            Item& item = items.emplace_back();
+            for (int a = 0; a < 3; ++a) item.centroid[a] = std::isfinite(sum[a]) ? sum[a] : 0.0f;
+            item.tet = static_cast<std::uint32_t>(t);
         }
-        const std::size_t tiles = tets.size() / 56 + 2;
+        const std::size_t tiles = items.size() / 56 + 2;
         made.tiles.reserve(tiles);
         made.corners.reserve(tiles * 4 * tile_size);
-        made.tets.reserve(tets.size());
+        made.tets.reserve(items.size());
         made.vertices.reserve(tiles * 36);
         made.own.reserve(tiles * 36);
-        Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(tets.size()));
+        if (!items.empty())
+            Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(items.size()));
     }
     cut_blocks(vertex_count, positions, made);
     list_blocks(vertex_count, made);

@@ -1,8 +1,9 @@
-// What the fast engine prepares of a mesh once: its tetrahedra in tiles. A tile is at most 64 neighbouring
+// What the fast engine prepares of a mesh: its tetrahedra in tiles. A tile is at most 64 neighbouring
 // tetrahedra over at most 64 vertices, so that a corner is an index of 8 bits into the tile's own vertices,
 // and so that a set of tetrahedra of a tile is one 64-bit mask.
 #pragma once
 
+#include "../lists.hpp"
 #include "../scene.hpp"
 
 #include <cstdint>
@@ -19,15 +20,20 @@ inline constexpr std::uint32_t block_size = 8;       // most vertices of a block
 struct Tile {
     std::uint32_t first_tet;    // in Tiles::tets
     std::uint32_t first_vertex; // in Tiles::vertices and Tiles::own; a multiple of four
-    std::uint8_t tet_count;     // 1 to 64
+    std::uint8_t tet_count;     // 1 to 64; 0 where all were switched off
     std::uint8_t vertex_count;  // 1 to 64; the list is padded with its last vertex to a multiple of four
     bool holds_last_vertex;     // of the mesh: 16 bytes from its position on reach past the caller's array
+
+    // A bit for each tet.
+    std::uint64_t all_tets() const noexcept {
+        return tet_count == 0 ? 0 : ~std::uint64_t{0} >> (64u - tet_count);
+    }
 };
 
 struct Tiles {
     explicit Tiles(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_first(memory),
-          super_first(memory), block_begin(memory), blocks(memory) {}
+          super_first(memory), blocks(memory) {}
 
     std::pmr::vector<Tile> tiles;
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
@@ -37,11 +43,9 @@ struct Tiles {
     // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     std::pmr::vector<std::uint32_t> block_first;
-    // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree;
-    // blocks[block_begin[s] .. block_begin[s + 1]) hold its vertices.
+    // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree.
     std::pmr::vector<std::uint32_t> super_first;
-    std::pmr::vector<std::uint32_t> block_begin;
-    std::pmr::vector<std::uint32_t> blocks;
+    Lists blocks; // of each super-tile, ascending: those that hold its vertices
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
@@ -54,7 +58,9 @@ private:
 };
 
 // Splits `tets` by a k-d tree over their centroids. Positions only decide how compact the tiles are; they may
-// be anything, and may move later. Throws std::bad_alloc and leaves `out` empty then.
-void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out);
+// be anything, and may move later. Tetrahedra that are `off` (bits) are in no tile. Throws std::bad_alloc and
+// leaves `out` empty then.
+void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
+                std::span<const std::uint64_t> off = {});
 
 } // namespace vox::fast

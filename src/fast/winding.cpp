@@ -95,7 +95,7 @@ void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRIC
         }
         const std::uint64_t mirrored = surface.mirrored.data()[t];
         bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & ~surface.ignored.data()[t] &
-                 (~std::uint64_t{0} >> (64u - tile.tet_count));
+                 tile.all_tets();
     }
 }
 

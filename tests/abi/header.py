@@ -16,7 +16,7 @@ class Declaration:
     result: str = ""  # of a function or callback
     parameters: list = field(default_factory=list)  # (type, name)
     fields: list = field(default_factory=list)  # (type, name), of a struct; names alone, of an enum
-    comments_inside: bool = False
+    inside: str = ""  # the comments of its fields or enumerators
     inherited: str = ""  # comments of those before it, where its own says "The same ..."
 
 
@@ -25,7 +25,7 @@ class Header:
     conventions: str  # the comment that the file begins with
     sections: dict  # name: the comments that stand by themselves in it
     declarations: list
-    constants: list  # names of numbers that are #defined
+    constants: dict  # numbers that are #defined, by name: the comment above or beside
 
     def of_kind(self, *kinds):
         return [d for d in self.declarations if d.kind in kinds]
@@ -37,6 +37,10 @@ class Header:
 def plain(text):
     """Without comments, and with single blanks."""
     return " ".join(re.sub(r"/\*.*?\*/", " ", text, flags=re.S).split())
+
+
+def comments_in(text):
+    return " ".join(words_of(c) for c in re.findall(r"/\*.*?\*/", text, flags=re.S))
 
 
 def words_of(comment):
@@ -100,7 +104,7 @@ def statements(text):
 def parse(text):
     # Line counts stay right: blocks for C++ become blank lines.
     text = re.sub(r"#ifdef __cplusplus.*?#endif", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
-    header = Header(text[: text.index("*/") + 2], {}, [], [])
+    header = Header(text[: text.index("*/") + 2], {}, [], {})
     section = ""
     for statement, above, line in statements(text):
         if not statement:
@@ -114,7 +118,7 @@ def parse(text):
         code = plain(statement)
         constant = re.match(r"#define (VOX_\w+) \(?-?[0-9.x]+\w*\)?", code)
         if constant and not constant[1].startswith("VOX_VERSION"):
-            header.constants.append(constant[1])
+            header.constants[constant[1]] = (words_of(above) if above else "") + comments_in(statement)
         if code.startswith("#"):
             continue
         comment = words_of(above) if above else ""
@@ -144,7 +148,7 @@ def parse(text):
             raise ValueError(f"line {line}: cannot read '{code[:80]}'")
         if comment.startswith("The same") and header.declarations:
             new.inherited = header.declarations[-1].comment + header.declarations[-1].inherited
-        new.comments_inside = "/*" in statement
+        new.inside = comments_in(statement)
         header.declarations.append(new)
     return header
 

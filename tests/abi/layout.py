@@ -3,6 +3,7 @@ enumerators, limits), one a line, compared with the checked-in NAME.txt of each 
 usage: layout.py COMPILER [--renew]"""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -71,19 +72,35 @@ def differences(expected, found):
                     and now[key] != was[key] and f"{key} {was[key]} -> {number}" not in broken]
 
 
+def breaks_promises(broken):
+    """Experimental functions promise nothing."""
+    return any(not line.startswith("experimental ") for line in broken)
+
+
+def abi_version_was_raised():
+    with open(os.path.join(HERE, "vox.txt"), encoding="ascii") as file:
+        was = re.search(r"^constant VOX_ABI_VERSION (\d+)$", file.read(), flags=re.M)
+    with open(os.path.join(INCLUDE, "vox", "vox.h"), encoding="utf-8") as file:
+        now = re.search(r"^#define VOX_ABI_VERSION (\d+)$", file.read(), flags=re.M)
+    return was is not None and int(now[1]) > int(was[1])
+
+
 def main():
     compiler, renew = sys.argv[1], "--renew" in sys.argv[2:]
-    differ = False
+    differ, raised = False, abi_version_was_raised()
     for name in HEADERS:
         path = os.path.join(HERE, name + ".txt")
         found = layout(name, compiler)
-        if renew:
-            with open(path, "w", encoding="ascii") as file:
-                file.write(found)
-            continue
         with open(path, encoding="ascii") as file:
             expected = file.read()
         broken, added = differences(expected.splitlines(), found.splitlines())
+        if renew:
+            if breaks_promises(broken) and not raised:
+                print(f"vox/{name}.h breaks programs; raise VOX_ABI_VERSION if it has to be:\n  " + "\n  ".join(broken))
+                return 1
+            with open(path, "w", encoding="ascii") as file:
+                file.write(found)
+            continue
         differ = differ or bool(broken or added)
         print(f"vox/{name}.h: {len(found.splitlines())} lines, {len(broken)} break programs, {len(added)} are new")
         for line in broken + added:

@@ -1,5 +1,6 @@
 """What the public headers promise in their comments, and the rules of their C: each function says, or its header's
-conventions say, who owns what, how long it lives, on which threads it may run and how it fails."""
+conventions say, who owns what, how long it lives, on which threads it may run and how it fails. What comments and pages name
+exists."""
 
 import os
 import re
@@ -7,7 +8,8 @@ import unittest
 
 import header
 
-INCLUDE = os.path.join(os.path.dirname(__file__), "..", "..", "include", "vox")
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+INCLUDE = os.path.join(ROOT, "include", "vox")
 HEADERS = ["vox.h", "vox_io.h", "vox_sim.h"]
 
 # Everything that a foreign-function interface can carry.
@@ -16,11 +18,16 @@ NUMBERS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "dou
 # What the conventions of vox.h must tell, for all the headers: what functions need not repeat.
 CONVENTIONS = {
     "Errors": ["vox_result", "vox_last_error", "INVALID_ARGUMENT for a null pointer", "INVALID_HANDLE"],
-    "Structs": ["struct_size", "vox_X_init"],
+    "Structs": ["struct_size", "vox_X_init", "set struct_size before", "INVALID_ARGUMENT"],
     "Ownership": ["copies", "borrowed", "live"],
-    "Threads": ["One thread at a time", "any number of threads may read", "per thread"],
+    "Threads": ["One thread at a time", "any number of threads may read", "takes a const grid reads it, any other changes it",
+                "Functions without a grid run on any thread", "per thread"],
     "Units": ["caller's own unit"],
 }
+
+# Functions with such a verb change what they are called for; no other does.
+CHANGES = re.compile(r"_(append|bind|clear|destroy|experiment_measure|insert|map|mark|prepare|remove|replace|reserve|set|step)"
+                     r"(_|$)")
 
 
 def base(type_text):
@@ -37,15 +44,27 @@ class Rules:
 
     def __init__(self, text, others=()):
         self.header = header.parse(text)
-        self.types = {d.name: d for h in (self.header, *others) for d in h.declarations
+        headers = (self.header, *others)
+        self.types = {d.name: d for h in headers for d in h.declarations
                       if d.kind in ("struct", "enum", "opaque", "callback", "alias")}
+        self.names = {name for h in headers for name in names_in(h)}
+        # INVALID_ARGUMENT, SURFACE: enumerators and constants without what they begin with.
+        self.ends = {name.split("_", n)[-1] for name in self.names if name.startswith("VOX_") for n in range(1, 6)}
+        self.errors = {name[len("VOX_ERROR_"):] for name in self.names if name.startswith("VOX_ERROR_")}
         self.faults = []
 
     def fault(self, declaration, words):
         self.faults.append(f"line {declaration.line}: {declaration.name}: {words}")
 
     def check(self):
+        for name, comment in self.header.constants.items():
+            if not comment:
+                self.faults.append(f"{name}: no comment")
+        for section, comment in [("conventions", header.words_of(self.header.conventions)), *self.header.sections.items()]:
+            self.faults += [f"{section}: {words}" for words in self.unknown_names(comment)]
         for declaration in self.header.declarations:
+            for words in self.unknown_names(declaration.comment + " " + declaration.inside):
+                self.fault(declaration, words)
             if declaration.kind in ("function", "callback"):
                 self.check_types(declaration)
             if declaration.kind == "function":
@@ -54,12 +73,27 @@ class Rules:
                 self.check_struct(declaration)
             elif declaration.kind == "enum" and not declaration.fields[-1].endswith("FORCE_32_BITS"):
                 self.fault(declaration, "its last enumerator does not force 32 bits")
-            elif declaration.kind == "callback" and not re.search(r"[Cc]all|thread|Receives", declaration.comment):
-                self.fault(declaration, "who calls it, and on which thread?")
+            elif declaration.kind == "callback" and not re.search(r"thread|at the same time", declaration.comment):
+                self.fault(declaration, "on which thread is it called?")
             if declaration.kind in ("struct", "enum", "opaque", "alias", "callback") and not declaration.comment:
-                if not declaration.comments_inside:
+                if not declaration.inside:
                     self.fault(declaration, "no comment")
         return self.faults
+
+    def unknown_names(self, comment):
+        """What a comment names and no header declares; codes that are none, after the word Errors."""
+        for name in re.findall(r"\b(?:vox|VOX)_\w+", comment):
+            # `vox_` and a library's own name, and the patterns of the conventions, are no names.
+            if name not in self.names and name not in ("vox_io", "vox_sim", "vox_X_init", "vox_default_X"):
+                yield f"there is no {name}"
+        for name, field in re.findall(r"\b(vox_\w+)\.([a-z]\w*)", comment):
+            struct = self.types.get(name)
+            if struct and struct.kind == "struct" and field not in (n for _, n in struct.fields):
+                yield f"{name} has no {field}"
+        for errors in re.findall(r"Errors(.*)", comment):
+            for code in re.findall(r"\b[A-Z][A-Z_]{4,}\b", errors):
+                if not code.startswith("VOX_") and code not in self.ends:
+                    yield f"there is no error {code}"
 
     # ---- comments ----
 
@@ -70,10 +104,19 @@ class Rules:
             return
         if not re.search(r"[.)]$", comment):
             self.fault(f, "its comment does not end as a sentence")
+        if f.parameters:
+            type_text = f.parameters[0][0]
+            object_type = self.types.get(base(type_text))
+            if object_type and object_type.kind == "opaque" and pointers(type_text) == 1:
+                if bool(CHANGES.search(f.name)) == type_text.startswith("const"):
+                    self.fault(f, f"takes {type_text}, which says that it {'reads' if 'const' in type_text else 'changes'}")
         if f.result == "vox_result":
             told = comment + f.inherited + self.header.sections.get(f.section, "")
-            if self.may_fail_in_its_own_way(f) and not re.search(r"\berrors?\b|cannot fail", told, flags=re.I):
-                self.fault(f, "which errors?")
+            if self.may_fail_in_its_own_way(f):
+                if not re.search(r"\berrors?\b|cannot fail", told, flags=re.I):
+                    self.fault(f, "which errors?")
+                elif not any(error in told for error in self.errors) and not re.search(r"vox_\w+|cannot fail", told):
+                    self.fault(f, "which errors, by name?")
         elif not re.search(r"[Cc]annot fail|[Nn]ever null|Null does nothing|gives 0|returns `result`", comment):
             self.fault(f, "it gives no vox_result, and does not say that it cannot fail")
         if self.hands_out_memory(f) and not self.says(f, r"\blives?\b|\bvalid\b|static text|\buntil\b"):
@@ -136,24 +179,44 @@ class Rules:
                 self.fault(s, "a desc that cannot grow")
             if s.name + "_init" not in {d.name for d in self.header.declarations}:
                 self.fault(s, f"there is no {s.name}_init")
+        if any("(*)" in t for t, _ in s.fields) and "thread" not in s.comment + s.inside:
+            self.fault(s, "on which thread are its functions called?")
         for type_text, name in s.fields:
             kind = self.types.get(base(type_text))
             if "(*)" not in type_text and not kind and base(type_text) not in NUMBERS:
                 self.fault(s, f"{name} has type {type_text}")
 
 
-def text_of(name):
-    with open(os.path.join(INCLUDE, name), encoding="utf-8") as file:
+def names_in(parsed):
+    """Whatever a comment may name."""
+    for d in parsed.declarations:
+        yield d.name
+        if d.kind == "enum":
+            yield from d.fields
+    yield from parsed.constants
+    yield from ("VOX_API", "VOX_EXPERIMENTAL", "VOX_VERSION_MAJOR", "VOX_VERSION_MINOR", "VOX_VERSION_PATCH")
+
+
+def text_of(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
         return file.read()
 
 
-CORE = header.parse(text_of("vox.h"))
+TEXTS = {name: text_of("include", "vox", name) for name in HEADERS}
+CORE = header.parse(TEXTS["vox.h"])
+ALL = [header.parse(text) for text in TEXTS.values()]
+NAMES = {name for parsed in ALL for name in names_in(parsed)}
+
+
+def number_of(constant):
+    text = "".join(TEXTS.values())
+    return int(re.search(rf"#define {constant} \(?(-?\w+?)u?\)?(\s|$)", text)[1], 0)
 
 
 class Headers(unittest.TestCase):
     def test_every_rule_holds(self):
         for name in HEADERS:
-            faults = Rules(text_of(name), [CORE]).check()
+            faults = Rules(TEXTS[name], [CORE]).check()
             self.assertEqual(faults, [], f"{name}:\n" + "\n".join(faults))
 
     def test_conventions(self):
@@ -164,13 +227,63 @@ class Headers(unittest.TestCase):
             for phrase in phrases:
                 self.assertIn(phrase, words, topic)
         for name in HEADERS[1:]:
-            self.assertRegex(header.words_of(header.parse(text_of(name)).conventions), r"onventions .*vox\.h")
+            self.assertRegex(header.words_of(header.parse(TEXTS[name]).conventions), r"onventions .*vox\.h")
+            self.assertRegex(header.parse(TEXTS[name]).conventions, r"\n \*\s+Threads[ :]")
 
     def test_every_section_has_an_example(self):
-        folder = os.path.join(os.path.dirname(__file__), "..", "..", "examples")
         for section in CORE.sections:
             name = re.sub(r"\W+", "_", section) + ".c"
-            self.assertTrue(os.path.exists(os.path.join(folder, name)), f"examples/{name}")
+            self.assertTrue(os.path.exists(os.path.join(ROOT, "examples", name)), f"examples/{name}")
+
+
+class Pages(unittest.TestCase):
+    """docs/limits.md and docs/abi.md say what is so."""
+
+    def test_names_exist(self):
+        for page in ("limits.md", "abi.md"):
+            for name in re.findall(r"\b(?:vox|VOX)_\w+", text_of("docs", page)):
+                self.assertTrue(name in NAMES or name in ("vox_io", "vox_sim"), f"docs/{page}: {name}")
+
+    def test_every_limit_is_listed_with_its_number(self):
+        page = text_of("docs", "limits.md")
+        for parsed in ALL:
+            for name in parsed.constants:
+                if re.search(r"_MAX_|_CAPACITY$", name):
+                    told = re.search(rf"`{name}` = ([0-9^ -]+?) *\|", page)
+                    self.assertIsNotNone(told, f"docs/limits.md: {name}")
+                    base_number, power, less = re.fullmatch(r"(\d+)(?:\^(\d+))?(?: - (\d+))?", told[1]).groups()
+                    self.assertEqual(int(base_number) ** int(power or 1) - int(less or 0), number_of(name), name)
+
+    def test_every_limit_has_its_test(self):
+        rows = [row for row in text_of("docs", "limits.md").splitlines() if row.startswith("| ")][1:]
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            tests = re.findall(r"`(tests/[\w/.]+)`: (\w+)", row)
+            self.assertTrue(tests, row)
+            for path, name in tests:
+                self.assertIn(f"START_TEST({name})", text_of(*path.split("/")), path)
+
+    def test_experimental_functions_are_listed(self):
+        listed = re.search(r"\| experimental \|.*?\n\n", text_of("docs", "abi.md"), flags=re.S)[0]
+        experimental = {d.name for parsed in ALL for d in parsed.of_kind("function") if not d.stable}
+        self.assertEqual(set(re.findall(r"`(vox_\w+)`", listed)), experimental)
+
+    def test_plan(self):
+        plan = text_of("docs", "abi.md").split("## What was planned")[1]
+        functions = {d.name for d in CORE.of_kind("function")}
+        rows = [row.split("|") for row in plan.splitlines() if row.startswith("| `")]
+        self.assertGreater(len(rows), 15)
+        for _, planned, became, why, _ in rows:
+            if became.strip() == "as planned":
+                for name in re.findall(r"`(\w+)`", planned):
+                    self.assertIn(name, functions)
+            else:
+                self.assertTrue(why.strip(), planned)
+
+    def test_version(self):
+        self.assertIn(f"`VOX_ABI_VERSION` is {number_of('VOX_ABI_VERSION')}.", text_of("docs", "abi.md"))
+        for name in ("libvox", "libvox_io", "libvox_sim"):
+            self.assertIn(f"`{name}.so.{number_of('VOX_ABI_VERSION')}`", text_of("docs", "abi.md"))
 
 
 class Faults(unittest.TestCase):
@@ -178,8 +291,16 @@ class Faults(unittest.TestCase):
 
     SOUND = """/* Conventions: those of vox.h. */
 
+/* A number. */
+#define VOX_MAX_THINGS 3u
 /* A thing. */
 typedef struct vox_thing vox_thing;
+/* Its listener. */
+typedef struct vox_thing_ear {
+    void (*hear)(void* user); /* on the thread that calls */
+} vox_thing_ear;
+/* Called on the thread that asks. */
+typedef double vox_thing_function(void* user);
 /* How to make it. */
 typedef struct vox_thing_desc {
     uint32_t struct_size;
@@ -197,6 +318,8 @@ VOX_API vox_result vox_thing_create(const vox_thing_desc* desc, vox_thing** out_
 VOX_API vox_result vox_thing_get(const vox_thing* thing, vox_thing_view* out_view);
 /* Its name. Never null; static text. */
 VOX_API const char* vox_thing_name(const vox_thing* thing);
+/* Another number; see vox_thing_get. Errors: INVALID_ARGUMENT above VOX_MAX_THINGS. */
+VOX_API vox_result vox_thing_set_number(vox_thing* thing, uint32_t number);
 """
 
     def faults(self, old="", new=""):
@@ -223,6 +346,19 @@ VOX_API const char* vox_thing_name(const vox_thing* thing);
             ("VOX_API vox_result vox_thing_desc_init(vox_thing_desc* desc, uint32_t struct_size);",
              "VOX_API vox_result vox_thing_wipe(vox_thing_desc* out);", "there is no vox_thing_desc_init"),
             ("/* A thing. */\n", "", "vox_thing: no comment"),
+            ("/* A number. */\n", "", "VOX_MAX_THINGS: no comment"),
+            ("see vox_thing_get", "see vox_thing_gets", "vox_thing_set_number: there is no vox_thing_gets"),
+            ("see vox_thing_get", "see vox_thing_desc.flag", "vox_thing_set_number: vox_thing_desc has no flag"),
+            ("above VOX_MAX_THINGS", "above VOX_MAX_THING", "vox_thing_set_number: there is no VOX_MAX_THING"),
+            ("INVALID_ARGUMENT above", "INVALID_ARGUMENTS above", "there is no error INVALID_ARGUMENTS"),
+            ("see vox_thing_get. Errors: INVALID_ARGUMENT above VOX_MAX_THINGS", "errors there are",
+             "vox_thing_set_number: which errors, by name?"),
+            ("vox_result vox_thing_set_number(vox_thing*", "vox_result vox_thing_set_number(const vox_thing*",
+             "vox_thing_set_number: takes const vox_thing*, which says that it reads"),
+            ("const char* vox_thing_name(const vox_thing*", "const char* vox_thing_name(vox_thing*",
+             "vox_thing_name: takes vox_thing*, which says that it changes"),
+            ("on the thread that calls", "now and then", "vox_thing_ear: on which thread"),
+            ("Called on the thread that asks", "A function", "vox_thing_function: on which thread"),
         ]:
             with self.subTest(old=old, new=new):
                 self.assertIn(words, self.faults(old, new))

@@ -33,17 +33,16 @@ void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) 
     }
     ck_assert_uint_eq(tiles.super_first.front(), 0);
     ck_assert_uint_eq(tiles.super_first.back(), tiles.tiles.size());
-    ck_assert_uint_eq(tiles.block_begin.back(), tiles.blocks.size());
+    ck_assert_uint_eq(tiles.super_tile_count(), tiles.blocks.size());
     for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
         ck_assert_uint_lt(tiles.super_first[s], tiles.super_first[s + 1]);
         std::set<std::uint32_t> blocks;
         for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
             for (std::uint32_t i = 0; i < tiles.tiles[t].vertex_count; ++i)
                 blocks.insert(block_of[tiles.vertices[tiles.tiles[t].first_vertex + i]]);
-        const auto begin = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s]);
-        const auto end = tiles.blocks.begin() + std::ptrdiff_t(tiles.block_begin[s + 1]);
-        ck_assert_msg(std::equal(begin, end, blocks.begin(), blocks.end()), "%s: blocks of super-tile %u",
-                      name, s);
+        const std::span<const std::uint32_t> listed = tiles.blocks[s];
+        ck_assert_msg(std::equal(listed.begin(), listed.end(), blocks.begin(), blocks.end()),
+                      "%s: blocks of super-tile %u", name, s);
     }
 }
 
@@ -235,6 +234,41 @@ START_TEST(pairs_are_all_that_overlap) {
                       expected.size());
     }
     ck_assert_uint_gt(touching, 1000);
+}
+END_TEST
+
+// ---- sides ----------------------------------------------------------------------------------------
+
+// Boxes have a side of a region in common when, and only when, the box around them does not reach it.
+START_TEST(common_sides_are_those_of_the_box_around) {
+    Random r{4};
+    std::size_t out = 0, touching = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const auto box = [&] { // of whole numbers, so that many touch
+            Box made = fast::empty_box;
+            for (int a = 0; a < 3; ++a) {
+                made.lo[a] = float(r.below(9));
+                made.hi[a] = made.lo[a] + float(r.below(3));
+            }
+            made.lo[3] = made.hi[3] = std::numeric_limits<float>::quiet_NaN(); // the fourth means nothing
+            return made;
+        };
+        const Box region = box();
+        Box around = fast::empty_box;
+        unsigned common = fast::all_sides;
+        for (std::uint32_t i = 0; i < 1 + r.below(5); ++i) {
+            const Box one = box();
+            const unsigned sides = fast::sides_of(one, region);
+            ck_assert_int_eq(sides == 0, fast::overlap(one, region));
+            common &= sides;
+            fast::add(around, one);
+        }
+        ck_assert_int_eq(common == 0, fast::overlap(around, region));
+        out += common != 0;
+        touching += common == 0 && around.hi[0] == region.lo[0];
+    }
+    ck_assert_uint_gt(out, 1000);
+    ck_assert_uint_gt(touching, 100);
 }
 END_TEST
 
@@ -609,6 +643,7 @@ int main() {
     tcase_add_test(tests, stream_finds_the_boxes);
     tcase_add_test(tests, stream_sees_what_is_not_finite);
     tcase_add_test(tests, pairs_are_all_that_overlap);
+    tcase_add_test(tests, common_sides_are_those_of_the_box_around);
     tcase_add_test(tests, window_collects_and_bins);
     tcase_add_test(tests, lattice_is_monotone);
     tcase_add_test(tests, lattice_covers_the_bulk);

@@ -7,8 +7,8 @@ actual=$(mktemp)
 trap 'rm -f "$actual"' EXIT
 "$@" >"$actual"
 if ! cmp -s "$expected" "$actual"; then
-    echo "different contacts: $*" >&2
+    echo "different hashes: $*" >&2
     diff "$expected" "$actual" >&2 || true
     exit 1
 fi
-echo "the same contacts: $*"
+echo "the same hashes: $*"

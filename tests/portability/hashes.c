@@ -1,60 +1,264 @@
-/* Steps built-in scenes with both engines and prints the hash of the contacts of every frame: the same text
- * on every machine and instruction set. `./dev portability` compares them. */
+/* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts
+ * penetrations, pairs and events, readings, answers of queries. The text is the same on every machine, with
+ * every compiler and instruction set, engine, number of workers and format of positions: matrix.py, `./dev
+ * hashes`, `./dev portability`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
+ * 0..3] [--cell-size FACTOR] */
 #include "scenes.h"
+#include "simd_level.h"
 
 #include <inttypes.h>
 
-static int run(scene* s, const char* name, double factor) {
-    static const vox_engine engines[2] = {VOX_ENGINE_FAST, VOX_ENGINE_REFERENCE};
+typedef struct settings {
+    vox_engine engine;
+    uint32_t workers;
+    int doubles;      /* positions given as doubles, of the same values */
+    int moved;        /* by a transform to where they are */
+    double cell_size; /* in edges of a tetrahedron; 0: the library's choice */
+} settings;
+
+/* ---- hashes ---- */
+
+static void add_number(uint64_t* hash, uint64_t value) {
+    *hash = (*hash ^ value) * 0x9fb21c651e98df25u;
+    *hash ^= *hash >> 29;
+}
+
+static void add_double(uint64_t* hash, double value) {
+    uint64_t bits;
+    value += 0; /* one zero */
+    memcpy(&bits, &value, sizeof bits);
+    add_number(hash, bits);
+}
+
+static void add_doubles(uint64_t* hash, const double values[3]) {
+    for (int i = 0; i < 3; ++i) add_double(hash, values[i]);
+}
+
+static void add_floats(uint64_t* hash, const float* values, int count) {
+    for (int i = 0; i < count; ++i) add_double(hash, (double)values[i]);
+}
+
+static int hash_penetrations(const vox_grid* grid, uint64_t* hash) {
+    vox_penetration_view view;
+    if (vox_grid_penetrations(grid, &view) != VOX_OK) return 0;
+    add_number(hash, view.count);
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_penetration* p = &view.data[i];
+        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, (uint64_t)p->state), add_number(hash, p->contact);
+        add_floats(hash, &p->depth, 1), add_floats(hash, p->direction, 3);
+    }
+    return 1;
+}
+
+static int hash_events(const vox_grid* grid, uint64_t* hash) {
+    vox_pair_view pairs;
+    vox_touch_view touches;
+    vox_contact_event_view events;
+    if (vox_grid_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK ||
+        vox_grid_contact_events(grid, &events) != VOX_OK)
+        return 0;
+    add_number(hash, pairs.count), add_number(hash, touches.count), add_number(hash, events.count);
+    for (uint64_t i = 0; i < pairs.count; ++i) {
+        const vox_pair* p = &pairs.data[i];
+        add_number(hash, p->mesh_a), add_number(hash, p->mesh_b), add_number(hash, p->user_data_a);
+        for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
+    }
+    for (uint64_t i = 0; i < touches.count; ++i) {
+        const vox_touch_event* e = &touches.data[i];
+        add_number(hash, e->mesh_a), add_number(hash, e->mesh_b), add_number(hash, (uint64_t)e->kind);
+    }
+    for (uint64_t i = 0; i < events.count; ++i) {
+        const vox_contact_event* e = &events.data[i];
+        add_number(hash, e->mesh_a), add_number(hash, e->vertex), add_number(hash, e->mesh_b);
+        add_number(hash, (uint64_t)e->kind);
+    }
+    return 1;
+}
+
+static int hash_readings(vox_grid* grid, uint64_t* hash) {
+    vox_reading_view view;
+    if (vox_grid_prepare_readings(grid) != VOX_OK || vox_grid_readings(grid, &view) != VOX_OK) return 0;
+    add_number(hash, view.count);
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_reading* r = &view.data[i];
+        add_number(hash, r->contact), add_number(hash, r->known), add_number(hash, r->user_data_b);
+        add_doubles(hash, r->position), add_doubles(hash, r->surface_position);
+        add_doubles(hash, r->barycentric), add_doubles(hash, r->normal), add_double(hash, r->distance);
+        for (int c = 0; c < 3; ++c) add_number(hash, r->triangle[c]);
+    }
+    return 1;
+}
+
+/* Of a few points, boxes and segments around the first body's vertices. */
+static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
+    static vox_point_hit points[4096];
+    static vox_tet_hit tets[4096];
+    const body* b = &s->bodies[0];
+    if (vox_grid_prepare_queries(grid) != VOX_OK) return 0;
+    for (uint32_t v = 0; v < b->vertex_count; v += 1 + b->vertex_count / 23) {
+        const float *at = b->positions + 3 * v, *to = b->positions + 3 * (b->vertex_count - 1 - v);
+        const double p[3] = {(double)at[0], (double)at[1], (double)at[2]};
+        const double q[3] = {(double)to[0], (double)to[1], (double)to[2]};
+        double least[3], most[3];
+        for (int i = 0; i < 3; ++i) {
+            least[i] = p[i] < q[i] ? p[i] : q[i];
+            most[i] = p[i] < q[i] ? q[i] : p[i];
+        }
+        vox_surface_hit closest;
+        vox_ray_hit ray;
+        uint64_t count = 0, tet_count = 0;
+        if (vox_grid_query_point(grid, p, UINT64_MAX, points, 4096, &count) != VOX_OK ||
+            vox_grid_query_box(grid, least, most, UINT64_MAX, tets, 4096, &tet_count) != VOX_OK ||
+            vox_grid_query_closest(grid, p, 1e300, UINT64_MAX, &closest) != VOX_OK ||
+            vox_grid_query_ray(grid, p, q, UINT64_MAX, &ray) != VOX_OK)
+            return 0;
+        add_number(hash, count), add_number(hash, tet_count);
+        for (uint64_t i = 0; i < count && i < 4096; ++i) {
+            add_number(hash, points[i].mesh), add_number(hash, points[i].tet);
+            add_floats(hash, points[i].barycentric, 4);
+        }
+        for (uint64_t i = 0; i < tet_count && i < 4096; ++i)
+            add_number(hash, tets[i].mesh), add_number(hash, tets[i].tet);
+        add_number(hash, closest.mesh), add_number(hash, closest.tet), add_number(hash, closest.facet);
+        add_doubles(hash, closest.barycentric), add_doubles(hash, closest.position),
+            add_double(hash, closest.distance);
+        add_number(hash, ray.mesh), add_number(hash, ray.tet), add_number(hash, ray.surface_mesh);
+        add_number(hash, ray.surface_tet), add_number(hash, ray.surface_facet),
+            add_number(hash, (uint64_t)ray.surface_side);
+        add_double(hash, ray.t), add_double(hash, ray.surface_t), add_doubles(hash, ray.surface_barycentric);
+    }
+    return 1;
+}
+
+/* ---- scenes ---- */
+
+static double* as_doubles[MOST_BODIES];
+
+static void write_doubles(const scene* s) {
+    for (uint32_t b = 0; b < s->count; ++b)
+        for (uint32_t i = 0; i < 3 * s->bodies[b].vertex_count; ++i)
+            as_doubles[b][i] = (double)s->bodies[b].positions[i];
+}
+
+/* As the settings want it: doubles in place of floats, a transform, rings. */
+static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_grid* grid) {
+    static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     int ok = 1;
+    for (uint32_t b = 0; ok && b < s->count; ++b) {
+        const vox_mesh mesh =
+            (b << 12) + 1; /* the id of a fresh grid's meshes: the slot, and the first generation */
+        if (how->doubles)
+            ok = vox_mesh_bind_positions(grid, mesh, as_doubles[b], VOX_FORMAT_DOUBLE3, 0) == VOX_OK;
+        if (how->moved) ok = ok && vox_mesh_set_transform(grid, mesh, here) == VOX_OK;
+        if (rings > 0) {
+            vox_filter filter = vox_default_filter();
+            filter.self_collision = 1;
+            filter.self_rings = rings;
+            ok = ok && vox_mesh_set_filter(grid, mesh, &filter) == VOX_OK;
+        }
+    }
+    return ok;
+}
+
+static int run(scene* s, const char* name, double factor, uint32_t rings, const settings* how) {
+    enum { frames = 4 }; /* the last one at rest */
+    vox_grid* grid = NULL;
+    vox_grid_desc desc = vox_default_grid_desc();
+    int ok;
     s->name = name;
     if (factor != 1) scale_scene(s, factor);
     pose_scene(s, 0);
-    for (int e = 0; ok && e < 2; ++e) {
-        vox_grid* grid = NULL;
-        vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = engines[e];
-        ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid);
-        for (int frame = 0; ok && frame < 3; ++frame) {
-            vox_contact_view view;
-            uint64_t hash;
-            pose_scene(s, frame);
-            ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK &&
-                 vox_grid_hash(grid, &hash) == VOX_OK;
-            if (ok)
-                printf("%s, frame %d, %s: %" PRIu64 " contacts, %016" PRIx64 "\n", name, frame,
-                       e == 0 ? "fast" : "reference", view.count, hash);
-        }
-        if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
-        vox_grid_destroy(grid);
+    for (uint32_t b = 0; b < s->count; ++b)
+        as_doubles[b] = (double*)malloc(3 * sizeof(double) * s->bodies[b].vertex_count);
+    write_doubles(s);
+    desc.engine = how->engine;
+    desc.worker_count = how->workers;
+    desc.cell_size = how->cell_size * factor;
+    desc.flags |= VOX_GRID_CONTACT_EVENTS;
+    ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid) && fit_meshes(s, how, rings, grid);
+    for (int frame = 0; ok && frame < frames; ++frame) {
+        vox_contact_view view;
+        uint64_t hash, parts[4] = {1, 2, 3, 4};
+        pose_scene(s, frame < 3 ? frame : 2);
+        write_doubles(s);
+        ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK &&
+             vox_grid_hash(grid, &hash) == VOX_OK && hash_penetrations(grid, &parts[0]) &&
+             hash_events(grid, &parts[1]) && hash_readings(grid, &parts[2]) &&
+             hash_queries(grid, s, &parts[3]);
+        if (ok)
+            printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
+                   ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
+                   name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
     }
+    if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
+    vox_grid_destroy(grid);
+    for (uint32_t b = 0; b < s->count; ++b) free(as_doubles[b]);
     free_scene(s);
     return ok;
 }
 
-int main(void) {
+/* Errors cross the border the same way everywhere. */
+static int refuse(scene* s, const settings* how) {
+    vox_grid* grid = NULL;
+    vox_grid_desc desc = vox_default_grid_desc();
+    vox_result result = VOX_OK;
+    make_pair(s, 3);
+    pose_scene(s, 0);
+    s->bodies[1].positions[7] = (float)(1e300 * 1e300);
+    desc.engine = how->engine;
+    const int ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid);
+    if (ok) result = vox_grid_step(grid);
+    printf("not finite: %s\n", vox_result_string(result));
+    vox_grid_destroy(grid);
+    free_scene(s);
+    return ok;
+}
+
+static int usage(void) {
+    fprintf(stderr,
+            "usage: hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level 0..3] "
+            "[--cell-size FACTOR]\n");
+    return 2;
+}
+
+int main(int argc, char** argv) {
     static scene s;
+    settings how = {VOX_ENGINE_FAST, 1, 0, 0, 0};
     int ok = 1;
-    make_pair(&s, 9), ok &= run(&s, "pair", 1);
-    make_self(&s, 9), ok &= run(&s, "self", 1);
-    make_ring(&s, 16), ok &= run(&s, "ring", 1);
-    make_many(&s, 3, 4), ok &= run(&s, "many", 1);
-    make_soup(&s, 120, 400), ok &= run(&s, "soup", 1);
-    make_pair(&s, 6), ok &= run(&s, "tiny", 1e-36);  /* areas and volumes are too small for a float */
-    make_pair(&s, 6), ok &= run(&s, "least", 1e-41); /* and so are normal coordinates */
-    make_pair(&s, 6), ok &= run(&s, "huge", 1e30);   /* or too large */
-    make_ring(&s, 10), ok &= run(&s, "huge ring", 1e20);
-    /* Errors cross the border the same way everywhere. */
-    {
-        vox_grid* grid = NULL;
-        make_pair(&s, 3);
-        pose_scene(&s, 0);
-        s.bodies[1].positions[7] = (float)(1e300 * 1e300);
-        ok &= vox_grid_create(NULL, &grid) == VOX_OK && insert_scene(&s, grid);
-        const vox_result result = ok ? vox_grid_step(grid) : VOX_OK;
-        printf("not finite: %s\n", vox_result_string(result));
-        vox_grid_destroy(grid);
-        free_scene(&s);
+    for (int i = 1; i < argc; ++i) {
+        const char* value = i + 1 < argc ? argv[i + 1] : "";
+        if (strcmp(argv[i], "--doubles") == 0) {
+            how.doubles = 1;
+        } else if (strcmp(argv[i], "--moved") == 0) {
+            how.moved = 1;
+        } else if (strcmp(argv[i], "--engine") == 0 &&
+                   (strcmp(value, "fast") == 0 || strcmp(value, "reference") == 0)) {
+            how.engine = value[0] == 'f' ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+            ++i;
+        } else if (strcmp(argv[i], "--workers") == 0 && atoi(value) > 0) {
+            how.workers = (uint32_t)atoi(value);
+            ++i;
+        } else if (strcmp(argv[i], "--cell-size") == 0 && atof(value) > 0) {
+            how.cell_size = atof(value);
+            ++i;
+        } else if (strcmp(argv[i], "--level") == 0 && value[0] >= '0' && value[0] <= '3') {
+            fprintf(stderr, "%s\n", force_simd_level(value[0] - '0'));
+            ++i;
+        } else {
+            return usage();
+        }
     }
+    make_pair(&s, 7), ok &= run(&s, "pair", 1, 0, &how);
+    make_self(&s, 7), ok &= run(&s, "self", 1, 0, &how);
+    make_ring(&s, 12), ok &= run(&s, "ring", 1, 0, &how);
+    make_ring(&s, 12), ok &= run(&s, "ring, filtered", 1, 2, &how);
+    make_many(&s, 3, 3), ok &= run(&s, "many", 1, 0, &how);
+    make_soup(&s, 80, 200), ok &= run(&s, "soup", 1, 0, &how);
+    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, &how); /* areas and volumes are too small for a float */
+    make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, &how); /* and so are normal coordinates */
+    make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, &how);   /* or too large */
+    make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, &how);
+    ok &= refuse(&s, &how);
     return ok ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -305,6 +305,7 @@ START_TEST(refuses_bad_bodies) {
     REFUSED(vertex_count, 1ull << 40, VOX_ERROR_LIMIT, "1099511627776 vertices");
     REFUSED(flags, 4, VOX_ERROR_INVALID_ARGUMENT, "flags are 0x4");
     REFUSED(density, 0, VOX_ERROR_INVALID_ARGUMENT, "density is 0");
+    REFUSED(density, 1e61, VOX_ERROR_INVALID_ARGUMENT, "at most 1e60");
     REFUSED(density, NAN, VOX_ERROR_INVALID_ARGUMENT, "density is nan");
     REFUSED(youngs_modulus, -1, VOX_ERROR_INVALID_ARGUMENT, "youngs_modulus is -1");
     REFUSED(bulk_modulus, INFINITY, VOX_ERROR_INVALID_ARGUMENT, "bulk_modulus is inf");

@@ -1,0 +1,111 @@
+// The C border of cutting and growing.
+
+#include "border.hpp"
+#include "grid.hpp"
+#include "mesh_check.hpp"
+#include "structs.hpp"
+
+#include <cinttypes>
+
+using namespace vox;
+
+namespace {
+
+vox_vertices_desc vertices_defaults() {
+    vox_vertices_desc desc{};
+    desc.struct_size = sizeof desc;
+    return desc;
+}
+
+// `count` elements of `each` numbers; no more than there can be indices.
+std::span<const std::uint32_t> read_numbers(const std::uint32_t* numbers, std::uint64_t count,
+                                            std::size_t each, const char* name) {
+    if (count > 0) require(numbers, name);
+    if (count > VOX_MAX_TETS)
+        throw Error(VOX_ERROR_LIMIT, format("count is %" PRIu64 ", the limit is %u", count, VOX_MAX_TETS));
+    if (reinterpret_cast<std::uintptr_t>(numbers) % alignof(std::uint32_t) != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%s is not aligned to %zu bytes", name, alignof(std::uint32_t)));
+    return {numbers, static_cast<std::size_t>(count) * each};
+}
+
+std::span<const Tet> read_corners(const std::uint32_t* corners, std::uint64_t count) {
+    (void)read_numbers(corners, count, 4, "corners");
+    return {reinterpret_cast<const Tet*>(corners), static_cast<std::size_t>(count)};
+}
+
+} // namespace
+
+vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh); // throws for an id that names no mesh
+        const vox_mesh_desc settings = read_struct(desc, vox_default_mesh_desc(), "desc");
+        grid->set_topology(mesh, settings, check_mesh(settings, "", NullPositions::allowed));
+    });
+}
+
+vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                     uint32_t enabled) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        if (enabled > 1)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("enabled is %u, expected 0 or 1", enabled));
+        grid->set_tets_enabled(mesh, read_numbers(tets, count, 1, "tets"), enabled != 0);
+    });
+}
+
+vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                                 const uint32_t* corners) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        grid->replace_tets(mesh, read_numbers(tets, count, 1, "tets"), read_corners(corners, count));
+    });
+}
+
+vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
+                                uint32_t* out_first) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        require(out_first, "out_first");
+        *out_first = grid->append_tets(mesh, read_corners(corners, count));
+    });
+}
+
+vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        grid->remove_tets(mesh, read_numbers(tets, count, 1, "tets"));
+    });
+}
+
+vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, vertices_defaults(), "desc"); });
+}
+
+vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
+                                    uint32_t* out_first) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        require(out_first, "out_first");
+        const vox_vertices_desc vertices = read_struct(desc, vertices_defaults(), "desc");
+        if (vertices.reserved != 0)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));
+        if (vertices.copies_of) (void)read_numbers(vertices.copies_of, vertices.count, 1, "copies_of");
+        *out_first = grid->append_vertices(mesh, vertices);
+    });
+}
+
+vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count) {
+    return border([&] {
+        require(grid, "grid");
+        (void)grid->mesh(mesh);
+        grid->remove_vertices(mesh, read_numbers(vertices, count, 1, "vertices"));
+    });
+}

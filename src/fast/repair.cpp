@@ -1,0 +1,299 @@
+// The surface is the boundary of the chain of all tets: a facet is in it as often as tets on one side
+// outnumber those on the other (winding.cpp asks for no more than that). So a facet is looked at again when a
+// tet that has it changes, and counted over the tets around it.
+#include "repair.hpp"
+
+#include <algorithm>
+
+namespace vox::fast {
+
+namespace {
+
+constexpr std::uint64_t bit(std::uint32_t i) { return std::uint64_t{1} << i; }
+
+class Repair {
+public:
+    Repair(Tiles& tiles, Surface& surface, Places& places, const Body& body, const Lists& tets_of)
+        : tiles_(tiles), surface_(surface), places_(places), body_(body), tets_of_(tets_of) {}
+
+    void run(std::span<const TetChange> changes) {
+        if (places_.room.empty()) find_places();
+        places_.of_tet.resize(std::max(places_.of_tet.size(), body_.tets.size()), Places::none);
+        places_.changes += changes.size();
+        for (const TetChange& change : changes) {
+            if (change.was_on) take_out(change.tet);
+            if (change.is_on) put_in(change.tet, change.after);
+        }
+        if (!surface_.is_closed) return;
+        std::pmr::memory_resource* memory = places_.triangles.memory();
+        std::pmr::vector<FacetKey> keys(memory);
+        list_changed_facets(changes, keys);
+        for (const FacetKey& key : keys) count_facet(key);
+        std::pmr::vector<std::uint32_t> vertices(memory);
+        list_changed_vertices(changes, vertices);
+        for (const std::uint32_t v : vertices) mind_loose(v);
+        if (!surface_pays(surface_.triangles.size(), body_.tets.size() - body_.off_count))
+            surface_ = Surface(memory);
+    }
+
+private:
+    std::uint8_t* corners_of(std::uint32_t tile) {
+        return tiles_.corners.data() + std::size_t{tile} * 4 * tile_size;
+    }
+
+    void find_places() {
+        places_.of_tet.assign(body_.tets.size(), Places::none);
+        places_.room.reserve(tiles_.tiles.size() + 16);
+        for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
+            const Tile& tile = tiles_.tiles[t];
+            for (std::uint32_t i = 0; i < tile.tet_count; ++i)
+                places_.of_tet[tiles_.tets[tile.first_tet + i]] = t * tile_size + i;
+            places_.room.push_back({tile.tet_count, static_cast<std::uint8_t>((tile.vertex_count + 3) & ~3)});
+        }
+        if (!surface_.is_closed) return;
+        const std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        places_.triangles.list_by_vertex(static_cast<std::uint32_t>(triangles.size()), body_.vertex_count,
+                                         [&](std::uint32_t t) { return std::span(triangles[t]).first(1); });
+    }
+
+    void take_out(std::uint32_t tet) noexcept {
+        const std::uint32_t t = places_.of_tet[tet] / tile_size, place = places_.of_tet[tet] % tile_size;
+        Tile& tile = tiles_.tiles[t];
+        std::uint8_t* corners = corners_of(t);
+        std::uint64_t* own = tiles_.own.data() + tile.first_vertex;
+        std::uint32_t* tets = tiles_.tets.data() + tile.first_tet;
+        const std::uint32_t last = --tile.tet_count;
+        for (std::uint32_t c = 0; c < 4; ++c) own[corners[c * tile_size + place]] &= ~bit(place);
+        places_.of_tet[tet] = Places::none;
+        if (place != last) {
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint8_t local = corners[c * tile_size + last];
+                own[local] = (own[local] & ~bit(last)) | bit(place);
+                corners[c * tile_size + place] = local;
+            }
+            tets[place] = tets[last];
+            places_.of_tet[tets[place]] = t * tile_size + place;
+        }
+        if (!surface_.is_closed) return;
+        for (std::uint64_t* set : {&surface_.mirrored[t], &surface_.ignored[t]})
+            *set = ((*set & ~bit(place)) | (*set >> last & 1) << place) & tile.all_tets();
+    }
+
+    void put_in(std::uint32_t tet, const Tet& corners) {
+        const std::uint32_t t = choose_tile(corners);
+        make_room(t, missing_in(tiles_.tiles[t], corners));
+        Tile& tile = tiles_.tiles[t];
+        const std::uint32_t place = tile.tet_count++;
+        for (std::uint32_t c = 0; c < 4; ++c) {
+            const std::uint32_t local = local_index(t, corners.v[c]);
+            corners_of(t)[c * tile_size + place] = static_cast<std::uint8_t>(local);
+            tiles_.own[tile.first_vertex + local] |= bit(place);
+        }
+        for (std::uint32_t i = tile.vertex_count; i % 4; ++i) // the list is padded with its last vertex
+            tiles_.vertices[tile.first_vertex + i] =
+                tiles_.vertices[tile.first_vertex + tile.vertex_count - 1];
+        tiles_.tets[tile.first_tet + place] = tet;
+        places_.of_tet[tet] = t * tile_size + place;
+        if (!surface_.is_closed) return;
+        if (names_a_vertex_twice(corners))
+            surface_.ignored[t] |= bit(place);
+        else if (is_negative(corners, body_.positions))
+            surface_.mirrored[t] |= bit(place);
+    }
+
+    std::uint32_t missing_in(const Tile& tile, const Tet& corners) const noexcept {
+        const auto first = tiles_.vertices.begin() + tile.first_vertex, last = first + tile.vertex_count;
+        std::uint32_t missing = 0;
+        for_corners(corners, [&](std::uint32_t v) { missing += std::find(first, last, v) == last; });
+        return missing;
+    }
+
+    // Of the tiles of tets that share a vertex, the first few of those around each, the one that has room and
+    // the most of the corners.
+    std::uint32_t choose_tile(const Tet& corners) {
+        constexpr std::size_t most_tets = 16, most_tiles = 8;
+        std::uint32_t seen[most_tiles], best = Places::none, fewest_missing = 4;
+        std::size_t count = 0;
+        const auto look_at = [&](std::uint32_t t) {
+            if (count == most_tiles || std::find(seen, seen + count, t) != seen + count) return;
+            seen[count++] = t;
+            const Tile& tile = tiles_.tiles[t];
+            if (tile.tet_count == tile_size) return;
+            const std::uint32_t missing = missing_in(tile, corners);
+            if (missing >= fewest_missing || tile.vertex_count + missing > tile_size) return;
+            fewest_missing = missing;
+            best = t;
+        };
+        for (const std::uint32_t v : corners.v) {
+            const std::span<const std::uint32_t> around = tets_of_[v];
+            for (std::size_t i = 0; i < std::min(around.size(), most_tets); ++i)
+                if (places_.of_tet[around[i]] != Places::none) look_at(places_.of_tet[around[i]] / tile_size);
+        }
+        if (best != Places::none) return best;
+        // A few tets that lie apart share a tile.
+        constexpr std::uint32_t few_tets = 8;
+        const auto last = static_cast<std::uint32_t>(tiles_.tiles.size() - 1);
+        if (tiles_.super_tile_count() > places_.first_young_super &&
+            tiles_.tiles[last].tet_count < few_tets && tiles_.tiles[last].vertex_count + 4u <= tile_size)
+            return last;
+        return new_tile();
+    }
+
+    std::uint32_t new_tile() {
+        const auto t = static_cast<std::uint32_t>(tiles_.tiles.size());
+        Tile tile{};
+        tile.first_tet = static_cast<std::uint32_t>(tiles_.tets.size());
+        tile.first_vertex = static_cast<std::uint32_t>(tiles_.vertices.size());
+        tiles_.tets.resize(tiles_.tets.size() + tile_size);
+        tiles_.vertices.resize(tiles_.vertices.size() + tile_size);
+        tiles_.own.resize(tiles_.vertices.size());
+        tiles_.corners.resize(tiles_.corners.size() + 4 * tile_size, 0);
+        tiles_.tiles.push_back(tile);
+        places_.room.push_back({tile_size, tile_size});
+        if (surface_.is_closed) {
+            surface_.mirrored.push_back(0);
+            surface_.ignored.push_back(0);
+        }
+        std::pmr::vector<std::uint32_t>& super_first = tiles_.super_first;
+        const std::uint32_t supers = tiles_.super_tile_count();
+        if (supers > places_.first_young_super && t - super_first[supers - 1] < super_tile_size)
+            super_first.back() = t + 1;
+        else
+            super_first.push_back(t + 1);
+        tiles_.blocks.resize(tiles_.super_tile_count());
+        return t;
+    }
+
+    // For one more tet and so many more vertices: where a tile has none, its lists move to the end, once.
+    void make_room(std::uint32_t t, std::uint32_t vertices) {
+        Tile& tile = tiles_.tiles[t];
+        Places::Room& room = places_.room[t];
+        const auto move_to_end = [](auto& list, std::uint32_t first, std::uint32_t count) {
+            const std::size_t end = list.size();
+            list.resize(end + tile_size);
+            std::copy_n(list.begin() + first, count, list.begin() + static_cast<std::ptrdiff_t>(end));
+            return static_cast<std::uint32_t>(end);
+        };
+        if (tile.tet_count == room.tets) {
+            tile.first_tet = move_to_end(tiles_.tets, tile.first_tet, tile.tet_count);
+            room.tets = tile_size;
+        }
+        if (tile.vertex_count + vertices > room.vertices) {
+            (void)move_to_end(tiles_.own, tile.first_vertex, tile.vertex_count);
+            tile.first_vertex = move_to_end(tiles_.vertices, tile.first_vertex, tile.vertex_count);
+            room.vertices = tile_size;
+        }
+    }
+
+    // Of a vertex that may be new to the tile, which has room for it.
+    std::uint32_t local_index(std::uint32_t t, std::uint32_t vertex) {
+        Tile& tile = tiles_.tiles[t];
+        const auto first = tiles_.vertices.begin() + tile.first_vertex, last = first + tile.vertex_count;
+        const auto found = std::find(first, last, vertex);
+        if (found != last) return static_cast<std::uint32_t>(found - first);
+        *last = vertex;
+        tiles_.own[tile.first_vertex + tile.vertex_count] = 0;
+        tile.holds_last_vertex |= vertex == body_.vertex_count - 1;
+        const std::pmr::vector<std::uint32_t>&blocks = tiles_.block_first, &supers = tiles_.super_first;
+        const auto block = static_cast<std::uint32_t>(std::upper_bound(blocks.begin(), blocks.end(), vertex) -
+                                                      blocks.begin() - 1);
+        const auto super =
+            static_cast<std::size_t>(std::upper_bound(supers.begin(), supers.end(), t) - supers.begin() - 1);
+        const std::span<const std::uint32_t> listed = tiles_.blocks[super];
+        const auto place = std::lower_bound(listed.begin(), listed.end(), block);
+        if (place == listed.end() || *place != block)
+            tiles_.blocks.insert(super, static_cast<std::size_t>(place - listed.begin()), block);
+        return tile.vertex_count++;
+    }
+
+    // ---- the surface ----
+
+    void count_facet(const FacetKey& key) {
+        int net = 0;
+        for_tets_at(key, body_.tets, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
+            const std::uint32_t* v = body_.tets[tet].v;
+            const bool even = sorted_facet(v[facets[i][0]], v[facets[i][1]], v[facets[i][2]]).even;
+            const std::uint32_t place = places_.of_tet[tet];
+            const bool mirrored = surface_.mirrored[place / tile_size] >> place % tile_size & 1;
+            net += even != mirrored ? 1 : -1;
+        });
+        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        const std::span<const std::uint32_t> at_low = places_.triangles[key.low];
+        const auto found = std::find_if(at_low.begin(), at_low.end(), [&](std::uint32_t t) {
+            return sorted_facet(triangles[t][0], triangles[t][1], triangles[t][2]).key == key;
+        });
+        if (net == 0) {
+            if (found != at_low.end()) drop_triangle(key.low, *found);
+        } else if (found != at_low.end()) {
+            triangles[*found] = triangle_of({key, net > 0});
+        } else {
+            places_.triangles.add(key.low, static_cast<std::uint32_t>(triangles.size()));
+            triangles.push_back(triangle_of({key, net > 0}));
+        }
+    }
+
+    // The last one takes its place.
+    void drop_triangle(std::uint32_t low, std::uint32_t hole) noexcept {
+        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        const auto last = static_cast<std::uint32_t>(triangles.size() - 1);
+        places_.triangles.remove(low, hole);
+        if (hole != last) {
+            const std::uint32_t moved = *std::min_element(triangles[last].begin(), triangles[last].end());
+            for (std::uint32_t& t : places_.triangles[moved])
+                if (t == last) t = hole;
+            triangles[hole] = triangles[last];
+        }
+        triangles.pop_back();
+    }
+
+    void mind_loose(std::uint32_t vertex) {
+        const std::span<const std::uint32_t> around = tets_of_[vertex];
+        const bool is_loose = std::all_of(around.begin(), around.end(), [&](std::uint32_t tet) {
+            return names_a_vertex_twice(body_.tets[tet]);
+        });
+        std::pmr::vector<std::uint32_t>& loose = surface_.loose;
+        const auto place = std::lower_bound(loose.begin(), loose.end(), vertex);
+        const bool was_loose = place != loose.end() && *place == vertex;
+        if (is_loose && !was_loose) loose.insert(place, vertex);
+        if (!is_loose && was_loose) loose.erase(place);
+    }
+
+    Tiles& tiles_;
+    Surface& surface_;
+    Places& places_;
+    const Body& body_;
+    const Lists& tets_of_;
+};
+
+} // namespace
+
+bool repair(Tiles& tiles, Surface& surface, Places& places, const Body& body,
+            std::span<const TetChange> changes, const Lists& tets_of) {
+    // The share of the tets that may change before tiles are made anew, which takes about as long as their
+    // repair did by then.
+    if (places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;
+    Repair(tiles, surface, places, body, tets_of).run(changes);
+    return true;
+}
+
+void add_vertices(Tiles& tiles, Surface& surface, Places& places, std::uint32_t count_before,
+                  std::uint32_t count_after) {
+    std::pmr::vector<std::uint32_t>& first = tiles.block_first;
+    for (std::uint32_t v = count_before; v < count_after; ++v) {
+        const std::uint32_t begin = first[first.size() - 2];
+        if (begin >= places.first_young_vertex && v - begin < block_size)
+            first.back() = v + 1;
+        else
+            first.push_back(v + 1);
+    }
+    if (!surface.is_closed) return;
+    for (std::uint32_t v = count_before; v < count_after; ++v) surface.loose.push_back(v);
+    if (!places.triangles.empty()) places.triangles.resize(count_after);
+}
+
+void forget_loose(Surface& surface, std::uint32_t vertex) noexcept {
+    const auto place = std::lower_bound(surface.loose.begin(), surface.loose.end(), vertex);
+    if (place != surface.loose.end() && *place == vertex) surface.loose.erase(place);
+}
+
+} // namespace vox::fast

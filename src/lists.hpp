@@ -1,0 +1,81 @@
+// Lists of numbers, one for each of 0, 1, 2, ..., one after the other in one array (compressed rows), which
+// may change: a list that outgrows its room moves to the end of the array and gets twice as much; when half
+// of the array is left behind, all lists move together again. So a change costs what its list is long,
+// amortised.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class Lists {
+public:
+    explicit Lists(std::pmr::memory_resource* memory) noexcept : rows_(memory), items_(memory) {}
+
+    std::pmr::memory_resource* memory() const noexcept { return rows_.get_allocator().resource(); }
+    bool empty() const noexcept { return rows_.empty(); }
+    std::size_t size() const noexcept { return rows_.size(); }
+    std::span<const std::uint32_t> operator[](std::size_t list) const noexcept {
+        return {items_.data() + rows_[list].first, rows_[list].count};
+    }
+    std::span<std::uint32_t> operator[](std::size_t list) noexcept {
+        return {items_.data() + rows_[list].first, rows_[list].count};
+    }
+
+    // Building: a list is begun, then filled; those before it are not touched any more.
+    void reserve(std::size_t lists) { rows_.reserve(lists); }
+    void begin_list() { rows_.push_back({items_.size(), 0, 0}); }
+    void push(std::uint32_t value) {
+        items_.push_back(value);
+        rows_.back().room = ++rows_.back().count;
+    }
+    void shrink_to_fit() { items_.shrink_to_fit(); }
+
+    // For each vertex the items that have it as a corner, ascending: counted, summed, placed.
+    // corners_of(item) is a range, which may be empty, without doubles.
+    template <class CornersOf>
+    void list_by_vertex(std::uint32_t items, std::uint32_t vertex_count, CornersOf&& corners_of) {
+        rows_.assign(vertex_count, Row{});
+        left_behind_ = 0;
+        for (std::uint32_t i = 0; i < items; ++i)
+            for (const std::uint32_t v : corners_of(i)) ++rows_[v].room;
+        std::uint64_t sum = 0;
+        for (Row& row : rows_) {
+            row.first = sum;
+            sum += row.room;
+        }
+        items_.resize(static_cast<std::size_t>(sum));
+        for (std::uint32_t i = 0; i < items; ++i)
+            for (const std::uint32_t v : corners_of(i)) items_[rows_[v].first + rows_[v].count++] = i;
+    }
+
+    // Changes. Those that may throw what the memory throws leave all as it was then.
+    // More lists, which are empty.
+    void resize(std::size_t lists) { rows_.resize(lists); }
+    // Before the item at `place`.
+    void insert(std::size_t list, std::size_t place, std::uint32_t value);
+    void add(std::size_t list, std::uint32_t value) { insert(list, rows_[list].count, value); }
+    void assign(std::size_t list, std::span<const std::uint32_t> values);
+    // The first one of that value, if there is one; the others keep their order.
+    void remove(std::size_t list, std::uint32_t value) noexcept;
+
+private:
+    struct Row {
+        std::uint64_t first = 0;
+        std::uint32_t count = 0, room = 0;
+    };
+
+    void make_room(std::size_t list, std::uint32_t count);
+    void move_together(std::size_t list, std::uint32_t room);
+
+    std::pmr::vector<Row> rows_;
+    std::pmr::vector<std::uint32_t> items_;
+    std::size_t left_behind_ = 0; // of items_, not in the room of any list
+};
+
+} // namespace vox

@@ -1,0 +1,366 @@
+// Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
+// prepared of the mesh, in proportion to the edit.
+#include "mesh.hpp"
+
+#include "error.hpp"
+#include "mesh_check.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+// Room for `count` elements, at least doubled when it grows, so that n edits copy O(n) elements.
+template <class T>
+void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
+    if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
+}
+
+Tet hidden(const Tet& tet) { return {{tet.v[0], tet.v[0], tet.v[0], tet.v[0]}}; }
+
+} // namespace
+
+// ---- tetrahedra -----------------------------------------------------------------------------------
+
+void Mesh::check_tets(std::span<const std::uint32_t> tets) const {
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        if (tets[i] >= tets_.size())
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("tets[%zu] is %" PRIu32 ", the mesh has %zu tets", i, tets[i], tets_.size()));
+        if (removed_[tets[i]])
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("tets[%zu] is %" PRIu32 ", which was removed", i, tets[i]));
+    }
+}
+
+void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
+    for (const std::uint32_t vertex : corners.v) {
+        if (vertex >= vertex_count_)
+            throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " names vertex %" PRIu32 " of %" PRIu32,
+                                                       tet, vertex, vertex_count_));
+        if (removed_vertices_[vertex])
+            throw Error(VOX_ERROR_INVALID_MESH,
+                        format("tet %" PRIu32 " names vertex %" PRIu32 ", which was removed", tet, vertex));
+    }
+}
+
+// So that switch_off() cannot fail.
+void Mesh::reserve_off() {
+    off_.reserve(tets_.size());
+    if (given_.empty()) given_.assign(tets_.begin(), tets_.end());
+}
+
+void Mesh::switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept {
+    if (off_[tet]) return;
+    changes.push_back({tet, true, false, tets_[tet], {}});
+    tets_[tet] = hidden(tets_[tet]);
+    off_.add(tet);
+}
+
+void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
+    check_tets(tets);
+    if (enabled)
+        for (const std::uint32_t tet : tets) check_corners(tet, given(tet));
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(tets.size());
+    if (!enabled && !tets.empty()) reserve_off();
+
+    for (const std::uint32_t tet : tets) {
+        if (!enabled) switch_off(tet, changes);
+        if (!enabled || !off_[tet]) continue;
+        tets_[tet] = given_[tet];
+        off_.remove(tet);
+        changes.push_back({tet, false, true, {}, tets_[tet]});
+    }
+    follow(changes);
+}
+
+void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
+    check_tets(tets);
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(tets.size());
+    if (tets.empty()) return;
+    reserve_off();
+    removed_.reserve(tets_.size());
+
+    for (const std::uint32_t tet : tets) {
+        switch_off(tet, changes);
+        removed_.add(tet);
+    }
+    follow(changes);
+}
+
+void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
+    check_tets(tets);
+    for (std::size_t i = 0; i < tets.size(); ++i) check_corners(tets[i], corners[i]);
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(tets.size());
+
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        const std::uint32_t tet = tets[i];
+        if (!given_.empty()) given_[tet] = corners[i];
+        if (!off_[tet]) changes.push_back({tet, true, true, tets_[tet], corners[i]});
+        tets_[tet] = off_[tet] ? hidden(corners[i]) : corners[i];
+    }
+    follow(changes);
+}
+
+std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
+    const auto first = static_cast<std::uint32_t>(tets_.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        check_corners(first + static_cast<std::uint32_t>(i), corners[i]);
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(corners.size());
+    const std::size_t count = tets_.size() + corners.size();
+    grow_capacity(tets_, count);
+    if (!given_.empty()) grow_capacity(given_, count);
+
+    if (!given_.empty()) given_.insert(given_.end(), corners.begin(), corners.end());
+    for (const Tet& tet : corners) {
+        changes.push_back({static_cast<std::uint32_t>(tets_.size()), false, true, {}, tet});
+        tets_.push_back(tet);
+    }
+    follow(changes);
+    return first;
+}
+
+// ---- vertices -------------------------------------------------------------------------------------
+
+std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
+    const std::uint32_t before = vertex_count_;
+    const auto added = static_cast<std::uint32_t>(desc.count), count = before + added;
+    const bool owns = owns_positions_;
+    const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+    const std::size_t size = position_size();
+    const std::size_t stride =
+        check_stride(desc.position_byte_stride, position_format, owns ? added : count, "");
+    for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
+        if (desc.copies_of[i] >= before)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("copies_of[%" PRIu32 "] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
+                               desc.copies_of[i], before));
+    if (added == 0) return before;
+    if (!desc.positions && !owns && positions_.data)
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("positions is null: the mesh borrows its positions, and needs all %" PRIu32, count));
+    if (owns && !desc.positions && !desc.copies_of)
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("positions and copies_of are null: the mesh has positions of its own, and needs %" PRIu32
+                   " more",
+                   added));
+
+    // The positions to come: where they are borrowed all of them, else those of the new vertices.
+    Positions given{.data = static_cast<const std::byte*>(desc.positions),
+                    .byte_stride = stride,
+                    .doubles = positions_.doubles};
+    std::pmr::vector<std::byte> news(memory()); // apart, as they may be copies of what moves in memory
+    if (owns) {
+        news.resize(added * size);
+        for (std::size_t i = 0; i < added; ++i)
+            std::memcpy(news.data() + i * size,
+                        given.data ? given.data + i * stride
+                                   : positions_.data + desc.copies_of[i] * positions_.byte_stride,
+                        size);
+    }
+
+    // A rest pose has to grow, too.
+    std::pmr::vector<Vec3f> rest(memory());
+    const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
+    if (has_rest && desc.rest_positions) {
+        const Positions poses{
+            .data = static_cast<const std::byte*>(desc.rest_positions),
+            .byte_stride = check_stride(desc.rest_position_byte_stride, position_format, added, "rest_"),
+            .doubles = positions_.doubles};
+        check_finite({.vertex_count = added, .positions = poses});
+        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(poses[i]);
+    } else if (has_rest && desc.copies_of) {
+        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(self_filter_.rest[desc.copies_of[i]]);
+    } else if (has_rest) {
+        Positions poses = given;
+        if (owns)
+            poses.data = news.data(), poses.byte_stride = size;
+        else if (given.data)
+            poses.data += before * stride;
+        else
+            throw Error(VOX_ERROR_INVALID_STATE,
+                        "the mesh has a rest distance: its new vertices need rest_positions, or positions");
+        if (has_transform_) poses.transform = transform_.data(); // as they collide
+        check_finite({.vertex_count = added, .positions = poses});
+        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(poses[i]);
+    }
+    grow_capacity(self_filter_.rest, self_filter_.rest.size() + rest.size());
+    const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
+    if (owns) grow_capacity(owned_, doubles);
+
+    self_filter_.rest.insert(self_filter_.rest.end(), rest.begin(), rest.end());
+    vertex_count_ = count;
+    if (owns) {
+        owned_.resize(doubles);
+        positions_.data = reinterpret_cast<const std::byte*>(owned_.data());
+        positions_.byte_stride = size;
+        std::memcpy(reinterpret_cast<std::byte*>(owned_.data()) + before * size, news.data(), news.size());
+    } else if (given.data) {
+        bind(given);
+    }
+    follow_vertices(before);
+    return before;
+}
+
+void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (vertices[i] >= vertex_count_)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("vertices[%zu] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
+                               vertices[i], vertex_count_));
+        if (removed_vertices_[vertices[i]])
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("vertices[%zu] is %" PRIu32 ", which was removed", i, vertices[i]));
+    }
+    if (vertices.empty()) return;
+    list_tets_of();
+    for (const std::uint32_t v : vertices)
+        if (const std::span<const std::uint32_t> around = std::as_const(tets_of_)[v]; !around.empty())
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("vertex %" PRIu32 " is a corner of tet %" PRIu32 ", which is on", v,
+                               *std::min_element(around.begin(), around.end())));
+    removed_vertices_.reserve(vertex_count_);
+
+    for (const std::uint32_t v : vertices) {
+        removed_vertices_.add(v);
+        fast::forget_loose(tiles_.surface, v);
+    }
+}
+
+void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
+                         std::span<const std::uint64_t> removed_vertices) {
+    const auto tets = static_cast<std::uint32_t>(tets_.size());
+    removed_vertices_.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertex_count_; ++v)
+        if (has_bit(removed_vertices, v)) removed_vertices_.add(v);
+    for (std::uint32_t t = 0; t < tets; ++t) {
+        if (!has_bit(off, t)) check_corners(t, tets_[t]);
+        if (!has_bit(off, t) && has_bit(removed, t))
+            throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " is removed, but not off", t));
+    }
+    std::pmr::vector<TetChange> changes(memory());
+    changes.reserve(tets);
+    reserve_off();
+    removed_.reserve(tets);
+    for (std::uint32_t t = 0; t < tets; ++t) {
+        if (has_bit(off, t)) switch_off(t, changes);
+        if (has_bit(removed, t)) removed_.add(t);
+    }
+    forget_prepared();
+}
+
+// ---- what was prepared ----------------------------------------------------------------------------
+
+void Mesh::list_tets_of() {
+    if (has_tets_of_) return;
+    list_tets(tets_, off_.words(), vertex_count_, tets_of_);
+    has_tets_of_ = true;
+}
+
+void Mesh::forget_tiles() noexcept {
+    tiles_ = FastMesh(memory());
+    has_tiles_ = false;
+}
+
+void Mesh::forget_topology() noexcept {
+    topology_ = depth::Topology(memory());
+    has_topology_ = false;
+}
+
+void Mesh::forget_rings() noexcept {
+    self_filter_.rings = Rings(memory());
+    has_rings_ = filter_.self_rings == 0;
+}
+
+void Mesh::forget_prepared() noexcept {
+    tets_of_ = Lists(memory());
+    has_tets_of_ = false;
+    forget_tiles();
+    forget_topology();
+    forget_rings();
+}
+
+void Mesh::follow(std::span<const TetChange> changes) noexcept {
+    if (changes.empty()) return;
+    const bool has_rings = has_rings_ && filter_.self_rings != 0;
+    if (!has_tets_of_ && !has_tiles_ && !has_topology_ && !has_rings) return;
+    // So many at once are more work than all anew.
+    if (changes.size() > tets_.size() / 8 + 64) return forget_prepared();
+    try {
+        if (has_tets_of_)
+            vox::follow(changes, tets_of_);
+        else
+            list_tets_of();
+    } catch (...) {
+        return forget_prepared();
+    }
+    if (has_tiles_) {
+        try {
+            if (!tiles_.follow(body(VOX_NULL_MESH), changes, tets_of_)) forget_tiles();
+        } catch (...) {
+            forget_tiles();
+        }
+    }
+    if (has_topology_) {
+        try {
+            depth::check_tet_count(tets_.size());
+            depth::repair_topology(tets_, tets_of_, changes, topology_);
+        } catch (...) {
+            forget_topology();
+        }
+    }
+    if (has_rings) {
+        try {
+            self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
+        } catch (...) {
+            forget_rings();
+        }
+    }
+}
+
+void Mesh::follow_vertices(std::uint32_t count_before) noexcept {
+    try {
+        if (has_tets_of_) tets_of_.resize(vertex_count_);
+        if (has_tiles_ && !tiles_.follow_vertices(body(VOX_NULL_MESH), count_before)) forget_tiles();
+        if (has_topology_) depth::add_vertices(vertex_count_, topology_);
+        if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
+    } catch (...) {
+        forget_prepared();
+    }
+}
+
+// ---- all of it ------------------------------------------------------------------------------------
+
+Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
+    Mesh made(desc, view, filter_defaults(), memory());
+    made.set_transform(has_transform_ ? transform_.data() : nullptr);
+    if (!desc.positions && view.vertex_count == vertex_count_) {
+        made.positions_ = positions_; // to be owned by take_over()
+        if (!desc.rest_positions) made.self_filter_.rest = self_filter_.rest;
+    }
+    made.set_filter(filter_);
+    return made;
+}
+
+void Mesh::take_over(Mesh&& before) noexcept {
+    if (before.owns_positions_ && positions_.data == before.positions_.data) {
+        owned_ = std::move(before.owned_);
+        owns_positions_ = true;
+    }
+    exceptions_ = std::move(before.exceptions_);
+    user_data_ = before.user_data_;
+    enabled_ = before.enabled_;
+}
+
+} // namespace vox

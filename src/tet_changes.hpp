@@ -1,0 +1,93 @@
+// What an edit does to tetrahedra, and the facets and vertices that it does it to: what is made of a mesh's
+// tetrahedra is repaired around those alone.
+#pragma once
+
+#include "lists.hpp"
+#include "scene.hpp"
+
+#include <compare>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vox {
+
+// A tetrahedron before and after. Changes of one edit follow each other: one tetrahedron may change twice.
+struct TetChange {
+    std::uint32_t tet;
+    bool was_on, is_on;
+    Tet before, after; // where it was, or is, on
+};
+
+// Such a tetrahedron has no facets.
+inline bool names_a_vertex_twice(const Tet& t) noexcept {
+    return t.v[0] == t.v[1] || t.v[0] == t.v[2] || t.v[0] == t.v[3] || t.v[1] == t.v[2] || t.v[1] == t.v[3] ||
+           t.v[2] == t.v[3];
+}
+
+// A facet by its vertices, sorted.
+struct FacetKey {
+    std::uint32_t low, middle, high;
+
+    auto operator<=>(const FacetKey&) const = default;
+};
+
+struct SortedFacet {
+    FacetKey key;
+    bool even; // sorting took an even permutation
+};
+inline SortedFacet sorted_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
+    bool even = true;
+    const auto order = [&even](std::uint32_t& x, std::uint32_t& y) {
+        if (x <= y) return;
+        std::swap(x, y);
+        even = !even;
+    };
+    order(a, b);
+    order(b, c);
+    order(a, b);
+    return {{a, b, c}, even};
+}
+
+// Calls function(vertex) for each different corner of a tetrahedron.
+template <class Function>
+void for_corners(const Tet& tet, Function&& function) {
+    for (int i = 0; i < 4; ++i) {
+        bool again = false;
+        for (int j = 0; j < i; ++j) again |= tet.v[i] == tet.v[j];
+        if (!again) function(tet.v[i]);
+    }
+}
+
+// The tetrahedra around each vertex: those that are on, in any order.
+void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, std::uint32_t vertex_count,
+               Lists& tets_of);
+// Follows changes. Throws what the memory throws, and is to be made anew then.
+void follow(std::span<const TetChange> changes, Lists& tets_of);
+
+// The facets of all that changed, before and after; their vertices. Sorted, each once.
+void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<FacetKey>& facets);
+void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<std::uint32_t>& vertices);
+
+// Calls function(tet, i) for each tetrahedron of which `key` is facet i.
+template <class Function>
+void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const Lists& tets_of, Function&& function) {
+    std::span<const std::uint32_t> around = tets_of[key.low];
+    for (const std::uint32_t v : {key.middle, key.high})
+        if (tets_of[v].size() < around.size()) around = tets_of[v];
+    for (const std::uint32_t t : around) {
+        const Tet& tet = tets[t];
+        if (names_a_vertex_twice(tet)) continue;
+        int shared = 0, opposite = 0;
+        for (int i = 0; i < 4; ++i) {
+            const bool is_corner = tet.v[i] == key.low || tet.v[i] == key.middle || tet.v[i] == key.high;
+            shared += is_corner;
+            if (!is_corner) opposite = i;
+        }
+        if (shared == 3) function(t, static_cast<std::uint32_t>(opposite));
+    }
+}
+
+} // namespace vox

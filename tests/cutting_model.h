@@ -1,0 +1,296 @@
+/* A model of meshes that are cut: plain arrays, from which a new grid without what is off or removed can be
+ * made, and the comparison of a grid that went through the edits with that one. */
+#ifndef VOX_TESTS_CUTTING_MODEL_H
+#define VOX_TESTS_CUTTING_MODEL_H
+
+#include <string.h>
+
+#include "bodies.h"
+#include "random.h"
+#include "suite.h"
+
+enum { tet_on, tet_off, tet_removed };
+enum { most_cut_meshes = 4, slot_shift = 12 };
+#define no_number 0xffffffffu
+
+typedef struct cut_mesh {
+    vox_mesh id;
+    uint32_t vertices, tets, most_vertices, most_tets;
+    double* positions; /* floats where the mesh has floats */
+    float* rest;
+    uint32_t* corners;
+    uint8_t* state;  /* of each tet */
+    uint8_t* gone;   /* vertices that were removed */
+    uint32_t* names; /* of each vertex, how many tets that are on name it; made when asked for */
+    int doubles, owned;
+    void* borrowed; /* what the grid reads unless the mesh owns its positions */
+    vox_filter filter;
+    uint64_t user_data;
+} cut_mesh;
+
+typedef struct cut_scene {
+    uint64_t random;
+    vox_grid* grid;
+    cut_mesh meshes[most_cut_meshes];
+    uint32_t count;
+    vox_contact* was; /* the contacts of the last step */
+    uint64_t was_count;
+    uint64_t contacts, penetrations, events, carried; /* that there were in all */
+} cut_scene;
+
+static inline size_t position_bytes(const cut_mesh* m) {
+    return m->doubles ? 3 * sizeof(double) : 3 * sizeof(float);
+}
+
+static inline void write_positions(const cut_mesh* m, const double* from, uint32_t count, void* to) {
+    for (uint32_t i = 0; i < 3 * count; ++i)
+        if (m->doubles)
+            ((double*)to)[i] = from[i];
+        else
+            ((float*)to)[i] = (float)from[i];
+}
+
+/* Shows the grid the positions of the model. */
+static inline void show_positions(cut_scene* s, cut_mesh* m) {
+    void* to = m->borrowed;
+    uint64_t stride = 0;
+    if (m->owned) ck_ok(vox_mesh_map_positions(s->grid, m->id, &to, &stride));
+    write_positions(m, m->positions, m->vertices, to);
+}
+
+/* Takes over a body of the model's kind of positions, all of it on. */
+static inline void set_model(cut_mesh* m, const body* shape) {
+    m->vertices = shape->vertex_count;
+    m->tets = shape->tet_count;
+    for (uint32_t i = 0; i < 3 * m->vertices; ++i) {
+        m->positions[i] = shape->positions[i];
+        m->rest[i] = shape->positions[i];
+    }
+    memcpy(m->corners, shape->tets, 4 * sizeof(uint32_t) * m->tets);
+    memset(m->state, tet_on, m->most_tets);
+    memset(m->gone, 0, m->most_vertices);
+}
+
+static inline void make_model(cut_mesh* m, const body* shape, uint32_t more_vertices, uint32_t more_tets) {
+    m->most_vertices = shape->vertex_count + more_vertices;
+    m->most_tets = shape->tet_count + more_tets;
+    m->positions = (double*)calloc(3 * m->most_vertices, sizeof(double));
+    m->rest = (float*)calloc(3 * m->most_vertices, sizeof(float));
+    m->corners = (uint32_t*)calloc(4 * m->most_tets, sizeof(uint32_t));
+    m->state = (uint8_t*)calloc(m->most_tets, 1);
+    m->gone = (uint8_t*)calloc(m->most_vertices, 1);
+    m->names = (uint32_t*)calloc(m->most_vertices, sizeof(uint32_t));
+    m->borrowed = calloc(3 * m->most_vertices, sizeof(double));
+    set_model(m, shape);
+}
+
+static inline void free_model(cut_mesh* m) {
+    free(m->positions);
+    free(m->rest);
+    free(m->corners);
+    free(m->state);
+    free(m->gone);
+    free(m->names);
+    free(m->borrowed);
+}
+
+static inline void insert_model(cut_scene* s, cut_mesh* m) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    float* rest = (float*)malloc(3 * sizeof(double) * m->vertices);
+    write_positions(m, m->positions, m->vertices, m->borrowed);
+    for (uint32_t i = 0; i < 3 * m->vertices; ++i)
+        if (m->doubles)
+            ((double*)(void*)rest)[i] = m->rest[i];
+        else
+            rest[i] = m->rest[i];
+    desc.positions = m->borrowed;
+    desc.position_format = m->doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+    desc.vertex_count = m->vertices;
+    desc.tets = m->corners;
+    desc.tet_count = m->tets;
+    desc.filter = &m->filter;
+    desc.rest_positions = rest;
+    desc.user_data = m->user_data;
+    if (m->owned) desc.flags = VOX_MESH_COPY_POSITIONS;
+    ck_ok(vox_mesh_insert(s->grid, &desc, &m->id));
+    free(rest);
+}
+
+static inline void count_names(cut_mesh* m) {
+    memset(m->names, 0, m->most_vertices * sizeof(uint32_t));
+    for (uint32_t t = 0; t < m->tets; ++t)
+        for (uint32_t c = 0; c < 4 && m->state[t] == tet_on; ++c) ++m->names[m->corners[4 * t + c]];
+}
+
+/* ---- the comparison ---- */
+
+/* What is left of a model, and the indices that it had there. */
+typedef struct rest_of_mesh {
+    cut_mesh mesh;
+    uint32_t *vertex, *tet;
+} rest_of_mesh;
+
+static inline rest_of_mesh leave_rest(const cut_mesh* m) {
+    rest_of_mesh r;
+    uint32_t* new_vertex = (uint32_t*)malloc((m->vertices + 1) * sizeof(uint32_t));
+    const body none = {NULL, NULL, 0, 0};
+    memset(&r, 0, sizeof r);
+    make_model(&r.mesh, &none, m->vertices + 1, m->tets + 1);
+    r.vertex = (uint32_t*)malloc((m->vertices + 1) * sizeof(uint32_t));
+    r.tet = (uint32_t*)malloc((m->tets + 1) * sizeof(uint32_t));
+    r.mesh.doubles = m->doubles;
+    r.mesh.filter = m->filter;
+    r.mesh.user_data = m->user_data;
+    for (uint32_t v = 0; v < m->vertices; ++v) {
+        new_vertex[v] = m->gone[v] ? no_number : r.mesh.vertices;
+        if (m->gone[v]) continue;
+        memcpy(r.mesh.positions + 3 * r.mesh.vertices, m->positions + 3 * v, 3 * sizeof(double));
+        memcpy(r.mesh.rest + 3 * r.mesh.vertices, m->rest + 3 * v, 3 * sizeof(float));
+        r.vertex[r.mesh.vertices++] = v;
+    }
+    for (uint32_t t = 0; t < m->tets; ++t) {
+        if (m->state[t] != tet_on) continue;
+        for (uint32_t c = 0; c < 4; ++c)
+            r.mesh.corners[4 * r.mesh.tets + c] = new_vertex[m->corners[4 * t + c]];
+        r.tet[r.mesh.tets++] = t;
+    }
+    free(new_vertex);
+    return r;
+}
+
+static inline int same_touch(const vox_contact* x, const vox_contact* y) {
+    return x->mesh_a == y->mesh_a && x->vertex == y->vertex && x->mesh_b == y->mesh_b;
+}
+
+static inline int touch_before(const vox_contact* x, const vox_contact* y) {
+    if (x->mesh_a != y->mesh_a) return x->mesh_a < y->mesh_a;
+    if (x->vertex != y->vertex) return x->vertex < y->vertex;
+    return x->mesh_b < y->mesh_b;
+}
+
+/* Those of `these` that touch and are not among `those`, as events of one kind. Returns how many. */
+static inline uint64_t expect_contact_events(const vox_contact* these, uint64_t these_count,
+                                             const vox_contact* those, uint64_t those_count,
+                                             const vox_contact_event* events, vox_touch kind) {
+    uint64_t found = 0, other = 0;
+    for (uint64_t i = 0; i < these_count; ++i) {
+        if (i > 0 && same_touch(&these[i], &these[i - 1])) continue;
+        while (other < those_count && touch_before(&those[other], &these[i])) ++other;
+        if (other < those_count && same_touch(&those[other], &these[i])) continue;
+        const vox_contact_event* e = &events[found++];
+        ck_assert(e->mesh_a == these[i].mesh_a && e->vertex == these[i].vertex &&
+                  e->mesh_b == these[i].mesh_b);
+        ck_assert_int_eq(e->kind, kind);
+    }
+    return found;
+}
+
+static inline int touches(const vox_contact* contacts, uint64_t count, vox_mesh a, vox_mesh b) {
+    for (uint64_t i = 0; i < count; ++i)
+        if ((contacts[i].mesh_a == a && contacts[i].mesh_b == b) ||
+            (contacts[i].mesh_a == b && contacts[i].mesh_b == a))
+            return 1;
+    return 0;
+}
+
+static inline void check_cut_events(cut_scene* s, const vox_contact_view* view) {
+    vox_contact_event_view vertices;
+    vox_touch_view pairs;
+    ck_ok(vox_grid_contact_events(s->grid, &vertices));
+    ck_ok(vox_grid_touch_events(s->grid, &pairs));
+    ck_assert_uint_eq(
+        expect_contact_events(view->data, view->count, s->was, s->was_count, vertices.data, VOX_TOUCH_BEGAN),
+        vertices.began);
+    ck_assert_uint_eq(expect_contact_events(s->was, s->was_count, view->data, view->count,
+                                            vertices.data + (vertices.count ? vertices.began : 0),
+                                            VOX_TOUCH_ENDED),
+                      vertices.ended);
+    uint64_t expected = 0;
+    for (uint32_t a = 0; a < s->count; ++a)
+        for (uint32_t b = a; b < s->count; ++b)
+            expected += touches(s->was, s->was_count, s->meshes[a].id, s->meshes[b].id) ||
+                        touches(view->data, view->count, s->meshes[a].id, s->meshes[b].id);
+    ck_assert_uint_eq(pairs.count, expected);
+    for (uint64_t i = 0; i < pairs.count; ++i) {
+        const vox_touch_event* e = &pairs.data[i];
+        const int was = touches(s->was, s->was_count, e->mesh_a, e->mesh_b),
+                  is = touches(view->data, view->count, e->mesh_a, e->mesh_b);
+        ck_assert_int_eq(e->kind, !was ? VOX_TOUCH_BEGAN : is ? VOX_TOUCH_PERSISTED : VOX_TOUCH_ENDED);
+    }
+    s->events += vertices.count;
+}
+
+/* Steps, and compares all there is with what a new grid finds of what is left of the meshes. */
+static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
+    vox_contact_view mine, fresh;
+    vox_penetration_view depths, fresh_depths;
+    rest_of_mesh rest[most_cut_meshes];
+    cut_scene other;
+    memset(&other, 0, sizeof other);
+    ck_ok(vox_grid_step(s->grid));
+    ck_ok(vox_grid_create(desc, &other.grid));
+    for (uint32_t i = 0; i < s->count; ++i) {
+        rest[i] = leave_rest(&s->meshes[i]);
+        insert_model(&other, &rest[i].mesh);
+    }
+    ck_ok(vox_grid_step(other.grid));
+    ck_ok(vox_grid_contacts(s->grid, &mine));
+    ck_ok(vox_grid_contacts(other.grid, &fresh));
+    ck_assert_uint_eq(mine.count, fresh.count);
+    for (uint64_t i = 0; i < mine.count; ++i) {
+        vox_contact c = fresh.data[i];
+        const uint32_t a = c.mesh_a >> slot_shift,
+                       b = c.mesh_b >> slot_shift; /* slots of the new grid: 0, 1, ... */
+        c.mesh_a = s->meshes[a].id;
+        c.mesh_b = s->meshes[b].id;
+        c.vertex = rest[a].vertex[c.vertex];
+        c.tet = rest[b].tet[c.tet];
+        ck_assert_msg(
+            memcmp(&c, &mine.data[i], sizeof c) == 0,
+            "contact %llu is vertex %u of mesh %u in tet %u of mesh %u, expected %u of %u in %u of %u",
+            (unsigned long long)i, mine.data[i].vertex, mine.data[i].mesh_a, mine.data[i].tet,
+            mine.data[i].mesh_b, c.vertex, c.mesh_a, c.tet, c.mesh_b);
+    }
+    ck_ok(vox_grid_penetrations(s->grid, &depths));
+    ck_ok(vox_grid_penetrations(other.grid, &fresh_depths));
+    ck_assert_uint_eq(depths.count, fresh_depths.count);
+    for (uint64_t i = 0; i < depths.count; ++i) {
+        vox_penetration p = fresh_depths.data[i];
+        const uint32_t a = p.mesh_a >> slot_shift;
+        p.mesh_a = s->meshes[a].id;
+        p.mesh_b = s->meshes[p.mesh_b >> slot_shift].id;
+        p.vertex = rest[a].vertex[p.vertex];
+        ck_assert_msg(memcmp(&p, &depths.data[i], sizeof p) == 0,
+                      "penetration %llu: vertex %u of mesh %u in mesh %u, state %d depth %.9g (%.9g %.9g "
+                      "%.9g), expected "
+                      "state %d depth %.9g (%.9g %.9g %.9g)",
+                      (unsigned long long)i, p.vertex, p.mesh_a, p.mesh_b, depths.data[i].state,
+                      depths.data[i].depth, depths.data[i].direction[0], depths.data[i].direction[1],
+                      depths.data[i].direction[2], p.state, p.depth, p.direction[0], p.direction[1],
+                      p.direction[2]);
+    }
+    vox_counters counters = {.struct_size = sizeof counters},
+                 fresh_counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_counters(s->grid, &counters));
+    ck_ok(vox_grid_counters(other.grid, &fresh_counters));
+    ck_assert_uint_eq(counters.tets, fresh_counters.tets);
+    if (suite_engine == VOX_ENGINE_REFERENCE &&
+        desc->engine == VOX_ENGINE_REFERENCE) /* which meets all of them */
+        ck_assert_uint_eq(counters.skipped_degenerate, fresh_counters.skipped_degenerate);
+    check_cut_events(s, &mine);
+
+    s->was = (vox_contact*)realloc(s->was, (size_t)(mine.count + 1) * sizeof(vox_contact));
+    if (mine.count) memcpy(s->was, mine.data, (size_t)mine.count * sizeof(vox_contact));
+    s->was_count = mine.count;
+    s->contacts += mine.count;
+    s->penetrations += depths.count;
+    s->carried += counters.carried_contacts;
+    vox_grid_destroy(other.grid);
+    for (uint32_t i = 0; i < s->count; ++i) {
+        free(rest[i].vertex);
+        free(rest[i].tet);
+        free_model(&rest[i].mesh);
+    }
+}
+
+#endif

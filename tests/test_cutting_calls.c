@@ -1,0 +1,688 @@
+/* The functions that cut and grow meshes one by one: arguments, memory, what an edit costs, what else sees
+ * it. */
+#include <string.h>
+
+#include "bodies.h"
+#include "random.h"
+#include "suite.h"
+
+/* ---- memory that is counted and may fail ---- */
+
+typedef struct ledger {
+    uint64_t bytes, calls, fail_at;
+    uint64_t taken; /* bytes, all that were ever taken */
+} ledger;
+
+static void* ledger_allocate(size_t size, size_t alignment, void* user) {
+    ledger* l = (ledger*)user;
+    void* memory = NULL;
+    if (++l->calls == l->fail_at) return NULL;
+    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
+        return NULL;
+    l->bytes += size;
+    l->taken += size;
+    return memory;
+}
+
+static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
+    (void)alignment;
+    ((ledger*)user)->bytes -= size;
+    free(memory);
+}
+
+static vox_grid* make_grid(ledger* l) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    vox_grid* grid = NULL;
+    desc.engine = suite_engine;
+    desc.flags |= VOX_GRID_CONTACT_EVENTS;
+    if (l) {
+        memset(l, 0, sizeof *l);
+        desc.allocator.allocate = ledger_allocate;
+        desc.allocator.release = ledger_release;
+        desc.allocator.user = l;
+    }
+    ck_ok(vox_grid_create(&desc, &grid));
+    return grid;
+}
+
+static uint64_t hash_of_step(vox_grid* grid) {
+    uint64_t hash = 0;
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_hash(grid, &hash));
+    return hash;
+}
+
+static vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters = {.struct_size = sizeof counters};
+    ck_ok(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
+/* ---- arguments ---- */
+
+START_TEST(arguments) {
+    const uint32_t zero[4] = {0, 0, 0, 0}, five[1] = {5}, corners[4] = {0, 1, 2, 8};
+    uint32_t first = 77;
+    vox_mesh mesh = 0;
+    body box = make_box(1, 1, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_grid* grid = make_grid(NULL);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+
+    ck_fails(vox_mesh_set_topology(NULL, mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_set_tets_enabled(NULL, mesh, zero, 1, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_replace_tets(NULL, mesh, zero, 1, zero), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_append_tets(NULL, mesh, zero, 1, &first), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_remove_tets(NULL, mesh, zero, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_mesh_append_vertices(NULL, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_mesh_remove_vertices(NULL, mesh, zero, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+
+    ck_fails(vox_mesh_set_topology(grid, 0, &desc), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_mesh_set_tets_enabled(grid, 2, zero, 1, 0), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_replace_tets(grid, 2, zero, 1, zero), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_append_tets(grid, 2, zero, 1, &first), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_remove_tets(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_append_vertices(grid, 2, &vertices, &first), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_remove_vertices(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+
+    ck_fails(vox_mesh_set_topology(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_mesh_set_tets_enabled(grid, mesh, NULL, 1, 0), VOX_ERROR_INVALID_ARGUMENT, "tets is null");
+    ck_fails(vox_mesh_set_tets_enabled(grid, mesh, zero, 1, 2), VOX_ERROR_INVALID_ARGUMENT, "enabled is 2");
+    ck_fails(vox_mesh_replace_tets(grid, mesh, NULL, 1, zero), VOX_ERROR_INVALID_ARGUMENT, "tets is null");
+    ck_fails(vox_mesh_replace_tets(grid, mesh, zero, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "corners is null");
+    ck_fails(vox_mesh_append_tets(grid, mesh, NULL, 1, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "corners is null");
+    ck_fails(vox_mesh_append_tets(grid, mesh, zero, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_first is null");
+    ck_fails(vox_mesh_remove_tets(grid, mesh, NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "tets is null");
+    ck_fails(vox_mesh_append_vertices(grid, mesh, NULL, &first), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_first is null");
+    ck_fails(vox_mesh_remove_vertices(grid, mesh, NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "vertices is null");
+    ck_fails(vox_vertices_desc_init(NULL, 8), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_vertices_desc_init(&vertices, 3), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
+
+    ck_fails(vox_mesh_set_tets_enabled(grid, mesh, five, 1, 0), VOX_ERROR_INVALID_ARGUMENT,
+             "tets[0] is 5, the mesh has 5 tets");
+    ck_fails(vox_mesh_set_tets_enabled(grid, mesh, five, 1ull << 60, 0), VOX_ERROR_LIMIT,
+             "count is 1152921504606846976, the limit is 2147483647");
+    ck_fails(vox_mesh_append_tets(grid, mesh, zero, VOX_MAX_TETS, &first), VOX_ERROR_LIMIT,
+             "the grid holds 5 tets and cannot take 2147483647 more");
+    ck_fails(vox_mesh_append_tets(grid, mesh, zero, 400000000, &first), VOX_ERROR_LIMIT,
+             "the mesh has 400000005 tets, a grid with VOX_GRID_PENETRATIONS takes at most 357913941");
+    ck_fails(vox_mesh_append_tets(grid, mesh, corners, 1, &first), VOX_ERROR_INVALID_MESH,
+             "tet 5 names vertex 8 of 8");
+    ck_fails(vox_mesh_replace_tets(grid, mesh, five, 1, zero), VOX_ERROR_INVALID_ARGUMENT, "tets[0] is 5");
+    ck_fails(vox_mesh_replace_tets(grid, mesh, zero, 1, corners), VOX_ERROR_INVALID_MESH,
+             "tet 0 names vertex 8 of 8");
+    ck_fails(vox_mesh_remove_vertices(grid, mesh, corners + 3, 1), VOX_ERROR_INVALID_ARGUMENT,
+             "vertices[0] is 8, the mesh has 8 vertices");
+    ck_fails(vox_mesh_remove_vertices(grid, mesh, zero, 1), VOX_ERROR_INVALID_ARGUMENT,
+             "vertex 0 is a corner of tet 0, which is on");
+    desc.tet_count = 1;
+    desc.tets = corners;
+    ck_fails(vox_mesh_set_topology(grid, mesh, &desc), VOX_ERROR_INVALID_MESH, "tet 0 names vertex 8 of 8");
+
+    vertices.count = 1ull << 40;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_LIMIT,
+             "vertices and cannot take");
+    vertices.count = 1;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "the mesh borrows its positions, and needs all 9");
+    vertices.copies_of = corners + 3;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "copies_of[0] is 8, the mesh has 8 vertices");
+    vertices.position_byte_stride = 5;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "position_byte_stride is 5");
+    vertices.reserved = 1;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "reserved is 1");
+    ck_assert_uint_eq(first, 77);
+
+    /* Nothing to do is no error. */
+    ck_ok(vox_mesh_set_tets_enabled(grid, mesh, NULL, 0, 0));
+    ck_ok(vox_mesh_remove_tets(grid, mesh, NULL, 0));
+    ck_ok(vox_mesh_remove_vertices(grid, mesh, NULL, 0));
+    ck_ok(vox_mesh_replace_tets(grid, mesh, NULL, 0, NULL));
+    ck_ok(vox_mesh_append_tets(grid, mesh, NULL, 0, &first));
+    ck_assert_uint_eq(first, 5);
+    vertices = vox_default_vertices_desc();
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+    ck_assert_uint_eq(first, 8);
+
+    /* What was removed is no more. */
+    static const uint32_t all[5] = {0, 1, 2, 3, 4};
+    ck_ok(vox_mesh_remove_tets(grid, mesh, all, 5));
+    ck_fails(vox_mesh_remove_tets(grid, mesh, all + 3, 1), VOX_ERROR_INVALID_ARGUMENT,
+             "tets[0] is 3, which was removed");
+    ck_fails(vox_mesh_replace_tets(grid, mesh, all, 1, zero), VOX_ERROR_INVALID_ARGUMENT,
+             "which was removed");
+    ck_ok(vox_mesh_remove_vertices(grid, mesh, all + 1, 1));
+    ck_fails(vox_mesh_remove_vertices(grid, mesh, all + 1, 1), VOX_ERROR_INVALID_ARGUMENT,
+             "vertices[0] is 1, which was removed");
+    ck_fails(vox_mesh_append_tets(grid, mesh, all, 1, &first), VOX_ERROR_INVALID_MESH,
+             "tet 5 names vertex 1, which was removed");
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(counters_of(grid).tets, 0);
+    vox_grid_destroy(grid);
+    free_body(&box);
+}
+END_TEST
+
+/* A struct of an older program ends before the rest positions. */
+START_TEST(smaller_struct) {
+    body box = make_box(1, 1, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_mesh mesh = 0;
+    vox_grid* grid = make_grid(NULL);
+    const float place[3] = {0.5f, 0.5f, 0.5f};
+    uint32_t first = 0;
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_vertices_desc vertices;
+    memset(&vertices, 0xff, sizeof vertices);
+    ck_ok(vox_vertices_desc_init(&vertices, 40));
+    vertices.count = 1;
+    vertices.positions = place;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+    ck_assert_uint_eq(first, 8);
+    vox_grid_destroy(grid);
+    free_body(&box);
+}
+END_TEST
+
+/* ---- what an edit does to the next step, and what it leaves alone ---- */
+
+START_TEST(off_and_on) {
+    body box = make_box(2, 1, 0, 0, 0);
+    const float point[3] = {0.5f, 0.5f, 0.5f}; /* in the middle tet of the first cube */
+    vox_mesh_desc desc = body_desc(&box), sensor = array_desc(point, 1, NULL, 0);
+    vox_mesh solid = 0, probe = 0;
+    vox_contact_view view;
+    vox_touch_view events;
+    vox_grid* grid = make_grid(NULL);
+    ck_ok(vox_mesh_insert(grid, &desc, &solid));
+    ck_ok(vox_mesh_insert(grid, &sensor, &probe));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_assert_uint_eq(view.count, 1);
+    const uint32_t tet = view.data[0].tet;
+    for (int round = 0; round < 3; ++round) {
+        ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_eq(view.count, 1); /* until the next step */
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_touch_events(grid, &events));
+        ck_assert_uint_eq(view.count, 0);
+        ck_assert(events.ended == 1 && events.count == 1);
+        ck_assert_uint_eq(counters_of(grid).tets, 39);
+        ck_assert_uint_eq(counters_of(grid).skipped_degenerate, 0);
+        ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert(view.count == 1 && view.data[0].tet == tet);
+    }
+    /* Cut and mended between two steps: the pair persists. */
+    ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
+    ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    ck_assert(events.persisted == 1 && events.count == 1);
+    vox_grid_destroy(grid);
+    free_body(&box);
+}
+END_TEST
+
+START_TEST(topology_keeps_what_is_not_topology) {
+    body box = make_box(2, 1, 0, 0, 0), other = make_box(1, 1, 0.25f, 0.25f, 0.25f);
+    vox_mesh_desc desc = body_desc(&box), more = body_desc(&other);
+    vox_mesh a = 0, b = 0, c = 0;
+    uint64_t user_data = 0;
+    vox_touch_view events;
+    vox_filter filter = vox_default_filter();
+    vox_grid* grid = make_grid(NULL);
+    desc.user_data = 41;
+    filter.category = 6;
+    desc.filter = &filter;
+    ck_ok(vox_mesh_insert(grid, &desc, &a));
+    ck_ok(vox_mesh_insert(grid, &more, &b));
+    ck_ok(vox_mesh_insert(grid, &more, &c));
+    ck_ok(vox_grid_set_pair_enabled(grid, a, c, 0));
+    const double up[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.125};
+    ck_ok(vox_mesh_set_transform(grid, a, up));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    ck_assert_uint_eq(events.began, 2); /* a and b, b and c */
+
+    vox_mesh_desc anew = body_desc(&box);
+    anew.tet_count = 5; /* the first cube alone */
+    anew.user_data = 99;
+    ck_ok(vox_mesh_set_topology(grid, a, &anew));
+    ck_ok(vox_mesh_user_data(grid, a, &user_data));
+    ck_assert_uint_eq(user_data, 41);
+    ck_ok(vox_mesh_filter(grid, a, &filter));
+    ck_assert_uint_eq(filter.category, 6);
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    ck_assert(events.persisted == 2 && events.count == 2); /* a and c still do not collide */
+    ck_assert_uint_eq(counters_of(grid).tets, 15);
+    const double away[12] = {1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0};
+    ck_ok(vox_mesh_set_transform(grid, a, away));
+    anew.positions = NULL; /* those it has; the transform stays, too */
+    anew.tet_count = 40;
+    ck_ok(vox_mesh_set_topology(grid, a, &anew));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    ck_assert(events.persisted == 1 && events.ended == 1);
+
+    anew = vox_default_mesh_desc(); /* nothing at all */
+    ck_ok(vox_mesh_set_topology(grid, b, &anew));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    ck_assert(events.ended == 1 && events.count == 1);
+    anew.vertex_count = 3; /* without positions */
+    ck_ok(vox_mesh_set_topology(grid, b, &anew));
+    ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
+    vox_grid_destroy(grid);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+START_TEST(growing_from_nothing) {
+    /* Vertex by vertex and tet by tet, from an empty mesh, in positions of its own. */
+    body box = make_box(2, 1, 0, 0, 0);
+    vox_mesh_desc desc = vox_default_mesh_desc(), whole = body_desc(&box);
+    vox_mesh grown = 0, probe = 0;
+    uint64_t hash = 0, expected = 0, stride = 0;
+    void* mapped = NULL;
+    vox_grid* grid = make_grid(NULL);
+    vox_grid* other = make_grid(NULL);
+    body small = make_box(2, 0.5f, 0.25f, 0.375f, 0.125f);
+    vox_mesh_desc moving = body_desc(&small);
+    ck_ok(vox_mesh_insert(grid, &desc, &grown));
+    ck_ok(vox_mesh_insert(grid, &moving, &probe));
+    ck_ok(vox_mesh_insert(other, &whole, &grown));
+    ck_ok(vox_mesh_insert(other, &moving, &probe));
+    expected = hash_of_step(other);
+    for (uint32_t v = 0; v < box.vertex_count; ++v) {
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        uint32_t first = 0;
+        vertices.count = 1;
+        vertices.positions = v == 0 ? box.positions : box.positions + 3 * v;
+        ck_ok(vox_mesh_append_vertices(grid, grown, &vertices, &first));
+        ck_assert_uint_eq(first, v);
+        if (v == 0) ck_ok(vox_mesh_map_positions(grid, grown, &mapped, &stride)); /* borrowed until here */
+        ck_ok(vox_grid_step(grid));
+    }
+    for (uint32_t t = 0; t < box.tet_count; ++t) {
+        uint32_t first = 0;
+        ck_ok(vox_mesh_append_tets(grid, grown, box.tets + 4 * t, 1, &first));
+        ck_assert_uint_eq(first, t);
+        hash = hash_of_step(grid);
+    }
+    ck_assert_uint_eq(hash, expected);
+    vox_grid_destroy(grid);
+    vox_grid_destroy(other);
+    free_body(&box);
+    free_body(&small);
+}
+END_TEST
+
+START_TEST(positions_of_its_own) {
+    /* An empty mesh that copies positions: the array given with the first vertices is not read any more. */
+    vox_mesh_desc desc = vox_default_mesh_desc(), solid = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_mesh mesh = 0, other = 0;
+    uint32_t first = 0, copy_of = 0;
+    uint64_t stride = 0;
+    void* mapped = NULL;
+    double place[3] = {0.125, 0.25, 0.125};
+    vox_contact_view view;
+    vox_grid* grid = make_grid(NULL);
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_insert(grid, &solid, &other));
+    vertices.count = 1;
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "needs 1 more");
+    vertices.positions = place;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+    place[0] = 50;
+    vertices.positions = NULL;
+    vertices.copies_of = &copy_of;
+    for (uint32_t i = 1; i < 100; ++i) {
+        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        ck_assert_uint_eq(first, i);
+    }
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_assert_uint_eq(view.count, 100);
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
+    ck_assert_uint_eq(stride, 24);
+    for (int i = 0; i < 100; ++i) ck_assert(((double*)mapped)[3 * i] == 0.125);
+    /* Others over the same vertices: the positions stay its own. */
+    vox_mesh_desc anew = vox_default_mesh_desc();
+    anew.vertex_count = 100;
+    anew.tets = unit_tet;
+    anew.tet_count = 1;
+    ck_ok(vox_mesh_set_topology(grid, mesh, &anew));
+    void* again = NULL;
+    ck_ok(vox_mesh_map_positions(grid, mesh, &again, &stride));
+    ck_assert(again == mapped && stride == 24);
+    ck_ok(vox_grid_step(grid));
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* ---- queries, suggestions, cell size ---- */
+
+START_TEST(queries_and_suggestions_see_it) {
+    body box = make_box(3, 1, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_mesh mesh = 0;
+    vox_point_hit hit;
+    vox_surface_hit closest;
+    uint64_t count = 0;
+    const double middle[3] = {1.5, 1.5, 1.5};
+    vox_grid* grid = make_grid(NULL);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_prepare_queries(grid));
+    ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
+    ck_assert_uint_eq(count, 1);
+    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
+    ck_assert(closest.distance == 1.5);
+    uint32_t cube[5]; /* the one in the middle: a cavity */
+    for (uint32_t i = 0; i < 5; ++i) cube[i] = 5 * 13 + i;
+    ck_ok(vox_mesh_remove_tets(grid, mesh, cube, 5));
+    ck_ok(vox_grid_prepare_queries(grid));
+    ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
+    ck_assert_uint_eq(count, 0);
+    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
+    ck_assert(closest.distance == 0.5);
+
+    vox_suggestion suggestion = {.struct_size = sizeof suggestion};
+    ck_ok(vox_grid_suggest_cell_size(grid, NULL, &suggestion));
+    ck_assert_uint_eq(suggestion.stats.tets, 130);
+    ck_assert_uint_eq(suggestion.stats.boundary_facets, 12 * 9 + 12);
+    ck_assert_uint_eq(suggestion.stats.degenerate_tets, 0);
+
+    uint32_t all[135];
+    for (uint32_t t = 0; t < 135; ++t) all[t] = t;
+    ck_ok(vox_mesh_set_tets_enabled(grid, mesh, all, 65, 0));
+    ck_ok(vox_mesh_set_tets_enabled(grid, mesh, all + 70, 65, 0));
+    ck_ok(vox_grid_prepare_queries(grid)); /* none is on */
+    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
+    ck_assert_uint_eq(closest.mesh, VOX_NULL_MESH);
+    ck_ok(vox_grid_step(grid));
+    ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT, "tet");
+    vox_grid_destroy(grid);
+    free_body(&box);
+}
+END_TEST
+
+START_TEST(cell_size_follows_a_cut) {
+    /* Large tets and many small ones: without the small ones, larger cells are better. */
+    body large = make_box(3, 4, 0, 0, 0), small = make_box(8, 0.125f, 1, 1, 1);
+    const uint32_t vertices = large.vertex_count + small.vertex_count,
+                   tets = large.tet_count + small.tet_count;
+    float* positions = (float*)malloc(3 * sizeof(float) * vertices);
+    uint32_t* corners = (uint32_t*)malloc(4 * sizeof(uint32_t) * tets);
+    uint32_t* fine = (uint32_t*)malloc(sizeof(uint32_t) * small.tet_count);
+    memcpy(positions, large.positions, 3 * sizeof(float) * large.vertex_count);
+    memcpy(positions + 3 * large.vertex_count, small.positions, 3 * sizeof(float) * small.vertex_count);
+    memcpy(corners, large.tets, 4 * sizeof(uint32_t) * large.tet_count);
+    for (uint32_t i = 0; i < 4 * small.tet_count; ++i)
+        corners[4 * large.tet_count + i] = small.tets[i] + large.vertex_count;
+    for (uint32_t i = 0; i < small.tet_count; ++i) fine[i] = large.tet_count + i;
+    vox_mesh_desc desc = array_desc(positions, vertices, corners, tets);
+    vox_mesh mesh = 0;
+    double before = 0, after = 0;
+    vox_grid* grid = make_grid(NULL);
+    desc.flags = VOX_MESH_SELF_COLLISION;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_cell_size(grid, &before));
+    ck_ok(vox_mesh_set_tets_enabled(grid, mesh, fine, small.tet_count, 0));
+    for (int step = 0; step < 500 && !(after > 1.5 * before); ++step) {
+        positions[0] += 0.001f; /* or it is at rest */
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_cell_size(grid, &after));
+    }
+    ck_assert_msg(after > 1.5 * before, "cell size %g after %g", after, before);
+    vox_grid_destroy(grid);
+    free(positions);
+    free(corners);
+    free(fine);
+    free_body(&large);
+    free_body(&small);
+}
+END_TEST
+
+/* ---- memory ---- */
+
+enum { edit_kinds = 8 };
+
+/* One of several edits of the first mesh of the scene below. */
+static vox_result run_edit(vox_grid* grid, vox_mesh mesh, const body* box, const float* larger, int kind) {
+    static const uint32_t tets[3] = {2, 3, 77};
+    uint32_t first = 0;
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_mesh_desc desc = body_desc(box);
+    switch (kind) {
+    case 0:
+        return vox_mesh_set_tets_enabled(grid, mesh, tets, 3, 0);
+    case 1:
+        return vox_mesh_remove_tets(grid, mesh, tets, 3);
+    case 2:
+        return vox_mesh_replace_tets(grid, mesh, tets, 3, box->tets + 400);
+    case 3:
+        return vox_mesh_append_tets(grid, mesh, box->tets + 400, 3, &first);
+    case 4:
+        vertices.count = 2;
+        vertices.positions = larger;
+        vertices.copies_of = tets;
+        return vox_mesh_append_vertices(grid, mesh, &vertices, &first);
+    case 5:
+        return vox_mesh_set_tets_enabled(grid, mesh, tets, 3, 1);
+    case 6:
+        first = box->vertex_count - 1;
+        return vox_mesh_remove_vertices(grid, mesh, &first, 1);
+    default:
+        desc.tet_count = 300;
+        return vox_mesh_set_topology(grid, mesh, &desc);
+    }
+}
+
+/* Two bodies that overlap; the last vertex of the first is of no tet. */
+static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_mesh* mesh) {
+    vox_mesh_desc a = body_desc(box), b = body_desc(other);
+    vox_mesh second = 0;
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = 1;
+    filter.self_rings = 1;
+    filter.self_rest_distance = 0.01;
+    a.filter = &filter;
+    ck_ok(vox_mesh_insert(grid, &a, mesh));
+    ck_ok(vox_mesh_insert(grid, &b, &second));
+}
+
+START_TEST(allocation_n_fails) {
+    body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
+    float* larger = (float*)calloc(3 * (box.vertex_count + 3), sizeof(float));
+    const uint32_t point = box.vertex_count++;
+    float* positions = (float*)calloc(3 * box.vertex_count, sizeof(float));
+    memcpy(positions, box.positions, 3 * sizeof(float) * point);
+    free(box.positions);
+    box.positions = positions;
+    for (int axis = 0; axis < 3; ++axis) positions[3 * point + (uint32_t)axis] = 0.5f;
+    memcpy(larger, positions, 3 * sizeof(float) * box.vertex_count);
+    for (int first_edit = 0; first_edit < 2; ++first_edit)
+        for (int kind = 0; kind < edit_kinds; ++kind) {
+            uint64_t hashes[2] = {0, 0}; /* without and with the edit */
+            uint64_t failed = 0;
+            for (uint64_t n = 0;; ++n) { /* 0: none fails */
+                ledger l;
+                vox_mesh mesh = 0;
+                vox_grid* grid = make_grid(&l);
+                insert_scene(grid, &box, &other, &mesh);
+                if (!first_edit)
+                    ck_ok(run_edit(grid, mesh, &box, larger, 0)); /* so that this one is the second */
+                const uint64_t unedited = hash_of_step(grid), bytes = l.bytes;
+                if (n > 0) l.fail_at = l.calls + n;
+                const vox_result result = run_edit(grid, mesh, &box, larger, kind);
+                const int reached = l.calls >= l.fail_at;
+                l.fail_at = 0;
+                if (n == 0) {
+                    ck_ok(result);
+                    hashes[0] = unedited;
+                    hashes[1] = hash_of_step(grid);
+                    /* What was taken is given back when there is no more need of it. */
+                    const uint64_t most = l.bytes;
+                    for (int again = 0; again < 3; ++again) (void)hash_of_step(grid);
+                    ck_assert_uint_le(l.bytes, most + most / 4);
+                } else {
+                    ck_assert_msg(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY, "%s",
+                                  vox_last_error());
+                    failed += result != VOX_OK;
+                    if (result != VOX_OK) ck_assert_uint_le(l.bytes, bytes + bytes / 2);
+                    ck_assert_uint_eq(hash_of_step(grid), hashes[result == VOX_OK]);
+                }
+                vox_grid_destroy(grid);
+                ck_assert_uint_eq(l.bytes, 0);
+                if (n > 0 && !reached) break;
+            }
+            ck_assert_msg(failed > 0, "edit %d never failed", kind);
+        }
+    free(larger);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+/* What an edit takes is in proportion to it: in a body of 40,000 tets, a thousand small ones take less
+ * memory, all that was ever taken counted, than making anything of the whole body anew would, even a few
+ * times. */
+START_TEST(edits_cost_what_they_change) {
+    ledger l;
+    body box = make_box(20, 0.25f, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_mesh mesh = 0;
+    uint64_t random = 5;
+    vox_filter filter = vox_default_filter();
+    vox_grid* grid = make_grid(&l);
+    filter.self_collision = 1;
+    filter.self_rings = 1;
+    desc.filter = &filter;
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    const uint64_t whole = 16ull * box.tet_count; /* the tets alone */
+    for (int round = 0; round < 1000; ++round) {
+        const uint32_t v = random_below(&random, box.vertex_count);
+        uint32_t tet = random_below(&random, box.tet_count), first = 0, corners[4];
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        vertices.count = 1;
+        vertices.copies_of = &v;
+        ck_ok(vox_mesh_set_tets_enabled(grid, mesh, &tet, 1, (uint32_t)round % 3 == 2));
+        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        memcpy(corners, box.tets + 4 * tet, sizeof corners);
+        corners[round % 4] = first;
+        ck_ok(vox_mesh_replace_tets(grid, mesh, &tet, 1, corners));
+        if (round == 0) l.taken = 0; /* the first edit is in proportion to the mesh */
+    }
+    /* Arrays that double once or twice, and 1000 edits of a few kilobytes. */
+    ck_assert_msg(l.taken < 20 * whole, "%llu bytes, the body has %llu", (unsigned long long)l.taken,
+                  (unsigned long long)whole);
+    filter.self_collision = 0; /* contacts take memory, too */
+    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    l.taken = 0;
+    ck_ok(vox_grid_step(grid)); /* to which nothing was left but buffers of more vertices */
+    ck_assert_msg(l.taken < 4 * whole, "%llu bytes in the step", (unsigned long long)l.taken);
+    vox_grid_destroy(grid);
+    ck_assert_uint_eq(l.bytes, 0);
+    free_body(&box);
+}
+END_TEST
+
+/* A body that is culled by winding numbers, cut to and fro: as the reference engine and a new grid find it.
+ */
+START_TEST(compact_body) {
+    body box = make_box(22, 0.25f, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_mesh mesh = 0;
+    uint64_t random = 9;
+    uint8_t* off = (uint8_t*)calloc(box.tet_count, 1);
+    uint32_t* kept = (uint32_t*)malloc(4 * sizeof(uint32_t) * box.tet_count);
+    vox_grid* grid = make_grid(NULL);
+    desc.flags = VOX_MESH_SELF_COLLISION;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    for (int round = 0; round < 12; ++round) {
+        for (int i = 0; i < 4; ++i) { /* a few cubes off or on, and vertices into the body or back */
+            uint32_t tets[15];
+            const uint32_t first = 5 * random_below(&random, box.tet_count / 5 - 3),
+                           on = random_below(&random, 3) == 0;
+            for (uint32_t k = 0; k < 15; ++k) {
+                tets[k] = first + k;
+                off[first + k] = !on;
+            }
+            ck_ok(vox_mesh_set_tets_enabled(grid, mesh, tets, 15, on));
+        }
+        for (int i = 0; i < 3; ++i)
+            box.positions[3 * random_below(&random, box.vertex_count)] += round % 2 ? 0.5f : -0.5f;
+        uint32_t count = 0;
+        for (uint32_t t = 0; t < box.tet_count; ++t)
+            if (!off[t]) memcpy(kept + 4 * count++, box.tets + 4 * t, 4 * sizeof(uint32_t));
+        vox_mesh_desc rest = array_desc(box.positions, box.vertex_count, kept, count);
+        vox_mesh id = 0;
+        vox_contact_view mine, expected;
+        vox_grid* other = NULL;
+        vox_grid_desc other_desc = vox_default_grid_desc();
+        rest.flags = VOX_MESH_SELF_COLLISION;
+        other_desc.engine = round % 2 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
+        ck_ok(vox_grid_create(&other_desc, &other));
+        ck_ok(vox_mesh_insert(other, &rest, &id));
+        ck_ok(vox_grid_step(other));
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &mine));
+        ck_ok(vox_grid_contacts(other, &expected));
+        ck_assert_uint_eq(mine.count, expected.count);
+        for (uint64_t i = 0; i < mine.count; ++i) {
+            const uint32_t* was = box.tets + 4 * mine.data[i].tet;
+            ck_assert_uint_eq(mine.data[i].vertex, expected.data[i].vertex);
+            ck_assert_int_eq(memcmp(was, kept + 4 * expected.data[i].tet, 4 * sizeof(uint32_t)), 0);
+        }
+        vox_grid_destroy(other);
+    }
+    vox_grid_destroy(grid);
+    free(off);
+    free(kept);
+    free_body(&box);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_test(tests, arguments);
+    tcase_add_test(tests, smaller_struct);
+    tcase_add_test(tests, off_and_on);
+    tcase_add_test(tests, topology_keeps_what_is_not_topology);
+    tcase_add_test(tests, growing_from_nothing);
+    tcase_add_test(tests, positions_of_its_own);
+    tcase_add_test(tests, queries_and_suggestions_see_it);
+    tcase_add_test(tests, cell_size_follows_a_cut);
+    tcase_add_test(tests, allocation_n_fails);
+    tcase_add_test(tests, edits_cost_what_they_change);
+    tcase_add_test(tests, compact_body);
+}
+
+int main(void) {
+    Suite* suite = suite_create("cutting calls");
+    add_for_each_engine(suite, add_tests);
+    return run_suite(suite);
+}

@@ -1,0 +1,201 @@
+/* Limits that no other test comes near: each is passed by one, which is an error with both numbers in it, and
+ * changes nothing. */
+#include <string.h>
+
+#include "bodies.h"
+#include "suite.h"
+
+static vox_grid* new_grid(uint64_t byte_budget) {
+    vox_grid* grid;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    desc.byte_budget = byte_budget;
+    ck_ok(vox_grid_create(&desc, &grid));
+    return grid;
+}
+
+/* A mesh without positions as yet takes no memory for its vertices. */
+static vox_mesh_desc points(uint64_t count) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.vertex_count = count;
+    return desc;
+}
+
+START_TEST(vertices_of_a_grid) {
+    vox_grid* grid = new_grid(0);
+    vox_mesh all, mesh = 7;
+    vox_mesh_desc desc = points(VOX_MAX_VERTICES);
+    ck_ok(vox_mesh_insert(grid, &desc, &all));
+    desc = points(1);
+    ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
+             "holds 2147483647 vertices and cannot take 1 more, the limit is 2147483647");
+    ck_assert_uint_eq(mesh, 7);
+    desc = points(0);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_remove(grid, all));
+    desc = points(VOX_MAX_VERTICES);
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_remove(grid, mesh));
+    desc = points(VOX_MAX_VERTICES + 1ull);
+    ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
+             "vertex_count is 2147483648, the limit is 2147483647");
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* More than a gigabyte, where the machine has it. */
+START_TEST(meshes_of_a_grid) {
+    vox_grid* grid = new_grid(0);
+    const vox_mesh_desc desc = points(0);
+    vox_mesh mesh = 0, last = 0;
+    vox_result result = vox_grid_reserve(grid, VOX_MAX_MESHES, 0);
+    for (uint32_t i = 0; i < VOX_MAX_MESHES && result == VOX_OK; ++i) {
+        result = vox_mesh_insert(grid, &desc, &mesh);
+        ck_assert(mesh > last || result != VOX_OK);
+        last = mesh;
+    }
+    if (result == VOX_OK) {
+        ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
+                 "holds 1048576 mesh slots and cannot take 1 more, the limit is 1048576");
+        ck_ok(vox_mesh_remove(grid, last));
+        ck_ok(vox_mesh_insert(grid, &desc, &mesh)); /* in its place */
+        ck_assert_uint_ne(mesh, last);
+        ck_fails(vox_mesh_insert(grid, &desc, &last), VOX_ERROR_LIMIT, "1048576");
+        ck_ok(vox_grid_step(grid));
+    } else {
+        ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+    }
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* 1290^3 cells are fewer than 2^31, and too many bytes; 1291^3 are more. */
+START_TEST(cells_of_dense_storage) {
+    for (int more = 0; more < 2; ++more) {
+        vox_grid* grid = NULL;
+        vox_mesh mesh;
+        vox_grid_desc desc = vox_default_grid_desc();
+        const vox_mesh_desc body = array_desc(unit_tet_positions, 4, unit_tet, 1);
+        desc.engine = VOX_ENGINE_REFERENCE;
+        desc.storage = VOX_STORAGE_DENSE;
+        desc.cell_size = 1;
+        for (int axis = 0; axis < 3; ++axis) desc.world_max[axis] = 1290 + more;
+        ck_ok(vox_grid_create(&desc, &grid));
+        ck_ok(vox_mesh_insert(grid, &body, &mesh));
+        if (more)
+            ck_fails(vox_grid_step(grid), VOX_ERROR_LIMIT, "1291 x 1291 x 1291 cells");
+        else
+            ck_fails(vox_grid_step(grid), VOX_ERROR_BUDGET, "1290 x 1290 x 1290 cells");
+        ck_ok(vox_grid_set_cell_size(grid, 100));
+        ck_ok(vox_grid_step(grid));
+        vox_grid_destroy(grid);
+    }
+}
+END_TEST
+
+START_TEST(buckets_and_workers) {
+    vox_grid* grid = NULL;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = VOX_ENGINE_REFERENCE;
+    desc.hash_table_size = VOX_MAX_VERTICES;
+    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid_destroy(grid);
+    desc.hash_table_size = VOX_MAX_VERTICES + 1ull;
+    grid = NULL;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT,
+             "hash_table_size is 2147483648, expected at most 2147483647");
+    ck_assert_ptr_null(grid);
+    desc.hash_table_size = 0;
+    desc.worker_count = VOX_MAX_WORKERS;
+    ck_ok(vox_grid_create(&desc, &grid));
+    ck_fails(vox_grid_set_worker_count(grid, VOX_MAX_WORKERS + 1), VOX_ERROR_INVALID_ARGUMENT, "257");
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* What has no limit but memory: contacts, and all that follows from them, from none to a hundred thousand and
+ * back. */
+START_TEST(buffers_grow) {
+    body large = make_box(7, 1, 0, 0, 0), same = make_box(7, 1, 0.3f, 0.3f, 0.3f);
+    vox_grid_desc desc = vox_default_grid_desc();
+    vox_grid* grid = NULL;
+    vox_mesh mesh;
+    desc.engine = suite_engine;
+    desc.flags |= VOX_GRID_CONTACT_EVENTS;
+    ck_ok(vox_grid_create(&desc, &grid));
+    uint64_t expected = 0;
+    for (int i = 0; i < 2; ++i) {
+        vox_mesh_desc body = body_desc(i ? &same : &large);
+        ck_ok(vox_mesh_insert(grid, &body, &mesh));
+    }
+    for (int copies = 1; copies <= 16; copies *= 4) {
+        vox_mesh more[16];
+        vox_contact_view contacts;
+        vox_penetration_view penetrations;
+        vox_contact_event_view events;
+        vox_pair_view pairs;
+        for (int i = 0; i < copies; ++i) {
+            vox_mesh_desc body = body_desc(&same);
+            ck_ok(vox_mesh_insert(grid, &body, &more[i]));
+        }
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &contacts));
+        ck_ok(vox_grid_penetrations(grid, &penetrations));
+        ck_ok(vox_grid_contact_events(grid, &events));
+        ck_ok(vox_grid_pairs(grid, &pairs));
+        if (!expected) expected = contacts.count / 3; /* three bodies, of which two are the same */
+        ck_assert_uint_gt(contacts.count, expected * (uint64_t)copies);
+        ck_assert_uint_ge(contacts.count, penetrations.count);
+        ck_assert_uint_gt(events.began, 0);
+        ck_assert_uint_eq(pairs.count, (uint64_t)((copies + 2) * (copies + 1) / 2));
+        for (int i = 0; i < copies; ++i) ck_ok(vox_mesh_remove(grid, more[i]));
+    }
+    vox_grid_destroy(grid);
+    free_body(&large);
+    free_body(&same);
+}
+END_TEST
+
+/* Arrays of fixed length in structs: no model fills more than there is. */
+START_TEST(capacities) {
+    body box = make_box(3, 1, 0, 0, 0);
+    const vox_mesh_desc mesh = body_desc(&box);
+    for (int model = VOX_COST_MODEL_PAPER; model <= VOX_COST_MODEL_FAST; ++model) {
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        vox_suggestion found;
+        memset(&found, 0, sizeof found);
+        found.struct_size = sizeof found;
+        desc.model = (vox_cost_model)model;
+        ck_ok(vox_suggest_cell_size(&desc, &mesh, 1, &found));
+        ck_assert_uint_eq(found.curve_count, VOX_COST_CURVE_CAPACITY);
+        ck_assert_uint_gt(found.term_count, 0);
+        ck_assert_uint_le(found.term_count, VOX_COST_TERM_CAPACITY);
+        ck_assert_uint_le(found.level_count, VOX_CELL_SIZE_LEVEL_CAPACITY);
+        double sum = 0; /* so there is none that had no place */
+        for (uint32_t i = 0; i < found.term_count; ++i) sum += found.terms[i].cost;
+        ck_assert_double_ge(sum, found.predicted_cost * (1 - 1e-9));
+        ck_assert_double_le(sum, found.predicted_cost * (1 + 1e-9));
+    }
+    free_body(&box);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_test(tests, vertices_of_a_grid);
+    tcase_add_test(tests, buffers_grow);
+}
+
+int main(void) {
+    Suite* suite = suite_create("limits");
+    add_for_each_engine(suite, add_tests);
+    TCase* once = tcase_create("one engine");
+    tcase_set_timeout(once, 0);
+    tcase_add_test(once, cells_of_dense_storage);
+    tcase_add_test(once, buckets_and_workers);
+    tcase_add_test(once, capacities);
+    suite_add_tcase(suite, once);
+    TCase* large = tagged_tests("large");
+    tcase_add_test(large, meshes_of_a_grid);
+    suite_add_tcase(suite, large);
+    return run_suite(suite);
+}
