@@ -69,39 +69,38 @@ def details(rows):
 
 
 def draw(path, curves):
-    """A panel for each engine: times over those of the best size, and the models as lines, fitted to them in height."""
+    """Times of the reference engine over those of the best size, and its model as lines, fitted to them in height."""
     import matplotlib
     matplotlib.use("svg")
     matplotlib.rcParams["svg.hashsalt"] = "vox"
     import matplotlib.pyplot as plt
 
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
-    for panel, engine in zip(panels, ENGINES):
-        lines = {}
-        with open(curves, newline="", encoding="utf-8") as file:
-            for name, scene, _, size, ms, model in csv.reader(file):
-                if name == engine:
-                    lines.setdefault(scene, []).append((float(size), float(ms), float(model)))
-        for colour, (scene, points) in zip(("#1f5fa8", "#b0762b", "#2c7a2c", "#8a3a8a"), lines.items()):
-            points = [p for p in sorted(points) if p[2] > 0]
-            sizes, times, models = zip(*points)
-            best = statistics.median(sorted(times)[:3])
-            height = statistics.median(m / t for _, t, m in points if t < 2 * best)
-            panel.plot(sizes, [t / best for t in times], ".", color=colour, ms=5)
-            curve = [m / height / best for m in models]
-            panel.plot(sizes, curve, color=colour, lw=1.5, label=scene)
-            zone = [s for s, c in zip(sizes, curve) if c <= 1.05 * min(curve)]
-            panel.axvspan(zone[0], zone[-1], color=colour, alpha=0.08, lw=0)
-        panel.set_xscale("log")
-        panel.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["0.25", "0.5", "1", "2", "4", "8"])
-        panel.set_xticks([], minor=True)
-        panel.set_ylim(0, 4)
-        panel.set_title(f"{engine} engine")
-        panel.set_xlabel("cell size, mean edges")
-        panel.legend(fontsize=8)
-    panels[0].set_ylabel("time of a step, best = 1")
+    lines = {}
+    with open(curves, newline="", encoding="utf-8") as file:
+        for engine, scene, _, size, ms, model in csv.reader(file):
+            if engine == "reference":
+                lines.setdefault(scene, []).append((float(size), float(ms), float(model)))
+    figure, axes = plt.subplots(figsize=(7, 4.2))
+    colours = ("#1f5fa8", "#b0762b", "#2c7a2c", "#8a3a8a")
+    for i, (colour, (scene, points)) in enumerate(zip(colours, lines.items())):
+        sizes, times, models = zip(*(p for p in sorted(points) if p[2] > 0))
+        best = statistics.median(sorted(times)[:3])
+        height = statistics.median(m / t for t, m in zip(times, models) if t < 2 * best)
+        curve = [m / height / best for m in models]
+        zone = [s for s, c in zip(sizes, curve) if c <= 1.05 * min(curve)]
+        axes.plot(sizes, [t / best for t in times], ".", color=colour, ms=5)
+        axes.plot(sizes, curve, color=colour, lw=1.5, label=scene)
+        axes.plot([zone[0], zone[-1]], [0.15 * (i + 1)] * 2, color=colour, lw=4, solid_capstyle="butt")
+    axes.text(0.26, 0.15, "zones of 5 %", fontsize=8, va="bottom")
+    axes.set_xscale("log")
+    axes.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["0.25", "0.5", "1", "2", "4", "8"])
+    axes.set_xticks([], minor=True)
+    axes.set_ylim(0, 4)
+    axes.set_xlabel("cell size, mean edges")
+    axes.set_ylabel("time of a step, best = 1")
+    axes.legend(fontsize=8, loc="upper center")
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None} if path.endswith(".svg") else None)
+    figure.savefig(path, **({"metadata": {"Date": None}} if path.endswith(".svg") else {}))
 
 
 def main():
