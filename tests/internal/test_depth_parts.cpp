@@ -236,6 +236,34 @@ START_TEST(walks_through_inverted_tets) {
 }
 END_TEST
 
+START_TEST(walks_do_not_go_round) {
+    // Inner vertices pulled far out of their stars: lines come back to where they were, again and again.
+    constexpr int n = 12;
+    std::uint64_t longest = 0;
+    int walks = 0;
+    Random random{3};
+    Mesh box = block(n, n, n, {0, 0, 0}, 1);
+    for (int i = 0; i < 60; ++i) {
+        const auto inner = [&] { return 3 + random.below(n - 5); };
+        box.positions[(inner() * (n + 1) + inner()) * (n + 1) + inner()] = {
+            random.uniform(1, n - 1), random.uniform(1, n - 1), random.uniform(1, n - 1)};
+    }
+    const Prepared p(std::move(box));
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3d from{random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1)};
+        const Vec3d to{random.uniform(1, 2 * n), random.uniform(1, 2 * n), random.uniform(1, 2 * n)};
+        SurfacePoint out{};
+        std::uint64_t visited = 0;
+        (void)walk_out(p.solid(), tet_with(p, from), from, to, out, visited);
+        longest = std::max(longest, visited);
+        ++walks;
+    }
+    ck_assert_int_eq(walks, 2000);
+    ck_assert_msg(longest < 1000, "%llu of %zu tetrahedra", static_cast<unsigned long long>(longest),
+                  p.solid().tets.size());
+}
+END_TEST
+
 // ---- normals --------------------------------------------------------------------------------------
 
 START_TEST(normals_on_a_sphere) {
@@ -376,6 +404,7 @@ int main() {
     tcase_add_test(tests, walks_along_facets_edges_and_through_vertices);
     tcase_add_test(tests, walks_that_lead_nowhere);
     tcase_add_test(tests, walks_through_inverted_tets);
+    tcase_add_test(tests, walks_do_not_go_round);
     tcase_add_test(tests, normals_on_a_sphere);
     tcase_add_test(tests, normals_of_a_box_are_those_of_its_faces);
     tcase_add_test(tests, normals_of_a_tetrahedron_are_those_of_its_faces);
