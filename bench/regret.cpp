@@ -1,21 +1,31 @@
 // Regret: how much longer a step takes with the cell size that a rule chooses than with the best one of a
 // fine sweep. Both engines, many scenes; the rules are the library's own cost models, a grid that chooses by
-// itself, the paper's formula, the mean edge and the median box side.
-#include "bodies.hpp"
+// itself, the paper's formula, the mean edge and the median box side. bench/regret.py makes tables of it.
+//
+// The best of forty noisy times is too good to be true (the winner's curse), and every rule then seems to
+// lose by the noise. So the sweep only names the candidates: its curve is smoothed, and the sizes around its
+// least value are timed again, in turns with those of the rules. In each round every size has one turn, over
+// the same frames, and counts by its time over that of the best in the same round, which takes out what makes
+// the whole machine slower for a while. Which candidate is the best is decided by one half of the rounds and
+// how much the rules lose by the other half, and the other way round: a candidate that was only lucky in one
+// half is not so in the other. The model's size has two turns in each round; by how much they differ in the
+// end is the noise of a figure.
 #include "scenes.hpp"
 #include "stopwatch.hpp"
+#include "unlike.hpp"
 
 #include <vox/vox.h>
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
-#include <map>
-#include <numbers>
+#include <limits>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,116 +43,46 @@ double median(std::vector<double> values) {
     return n == 0 ? 0 : n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
 }
 
-double quantile(std::vector<double> values, double part) {
-    std::sort(values.begin(), values.end());
-    const auto place = static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size())));
-    return values.empty() ? 0 : values[std::min(std::max<std::size_t>(place, 1), values.size()) - 1];
-}
-
-// ---- scenes of unlike sizes -----------------------------------------------------------------------
-
-// Frames of a body that stands at `place` and waves a little.
-void add(Scene& scene, const Solid& solid, double scale, const Vec3& place, double radius,
-         bool self = false) {
-    Body body;
-    for (int frame = 0; frame < 4; ++frame) {
-        std::vector<float> positions;
-        for (const Vec3& p : solid.positions) {
-            const double a = 0.01 * radius, k = std::numbers::pi / radius, run = 0.1 * frame;
-            positions.push_back(
-                static_cast<float>(place.x + scale * p.x + a * std::sin(k * scale * p.y + run)));
-            positions.push_back(
-                static_cast<float>(place.y + scale * p.y + a * std::sin(k * scale * p.z + run + 1)));
-            positions.push_back(
-                static_cast<float>(place.z + scale * p.z + a * std::sin(k * scale * p.x + run + 2)));
-        }
-        positions.push_back(0);
-        body.frames.push_back(std::move(positions));
-    }
-    body.positions = body.frames[0];
-    body.tets = solid.tets;
-    body.self_collision = self;
-    scene.bodies.push_back(std::move(body));
-}
-
-// A ball whose tetrahedra get smaller towards its surface, or towards its centre.
-Solid graded_ball(double tets, double power, std::uint64_t seed) {
-    Solid ball = lattice_ball(tets, seed);
-    const double radius = ball_radius(tets);
-    for (Vec3& p : ball.positions) {
-        const double r = std::hypot(p.x, p.y, p.z);
-        if (r == 0) continue;
-        const double factor = std::pow(r / radius, power - 1);
-        p = {p.x * factor, p.y * factor, p.z * factor};
-    }
-    return ball;
-}
-
-Scene graded_pair(double tets, double power) {
-    const double radius = ball_radius(tets / 2);
-    Scene scene;
-    add(scene, graded_ball(tets / 2, power, 1), 1, {0, 0, 0}, radius);
-    add(scene, graded_ball(tets / 2, power, 2), 1, {1.8 * radius, 0.01 * radius, 0.02 * radius}, radius);
-    return scene;
-}
-
-Scene graded_self(double tets, double power) {
-    Scene scene;
-    add(scene, graded_ball(tets, power, 1), 1, {0, 0, 0}, ball_radius(tets), true);
-    return scene;
-}
-
-// A coarse ball and a fine one at its surface, with edges smaller by `ratio`.
-Scene unlike_pair(double tets, double ratio) {
-    const double coarse = ball_radius(tets / 3), fine = ball_radius(tets * 2 / 3) / ratio;
-    Scene scene;
-    const Vec3 place{0.37, 0.21, 0.73}; // not at the corner of a cell
-    add(scene, lattice_ball(tets / 3, 1), 1, place, coarse);
-    add(scene, lattice_ball(tets * 2 / 3, 2), 1 / ratio, {place.x + coarse - 0.3 * fine, place.y, place.z},
-        fine);
-    return scene;
-}
-
-double mean_edge(const Scene& scene) {
-    double sum = 0, count = 0;
-    for (const Body& body : scene.bodies)
-        for (std::size_t t = 0; t < body.tets.size(); t += 4)
-            for (std::size_t i = 0; i < 4; ++i)
-                for (std::size_t j = 0; j < i; ++j, count += 1) {
-                    const float* a = &body.positions[3 * body.tets[t + i]];
-                    const float* b = &body.positions[3 * body.tets[t + j]];
-                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
-                }
-    return sum / count;
-}
+// ---- scenes ---------------------------------------------------------------------------------------
 
 std::vector<SceneMaker> all_scenes(const std::string& meshes) {
     std::vector<SceneMaker> makers = scene_makers(meshes);
     // What rests costs the fast engine nothing, whatever the cell size.
     std::erase_if(makers, [](const SceneMaker& maker) { return maker.name.ends_with("-rest"); });
-    const auto own = [&](const std::string& name, const std::string& title, auto make) {
-        makers.push_back({name, title, true, [=](double tets, bool) {
-                              Scene scene = make(tets);
+    std::ranges::move(unlike_scenes(), std::back_inserter(makers));
+    if (meshes.empty()) return makers;
+    for (const std::string body : {"sphere01", "sphere02", "sphere03", "sphere04", "sphere05", "bunny", "cow",
+                                   "armadillo"}) { // the paper's pairs
+        const std::string name = "paper-" + body, path = meshes + "/" + body + ".msh";
+        makers.push_back({name, body + " pair, 1 % of tets in contact", false, [=](double, bool) {
+                              Scene scene = pair_from_file(path, 0.01);
                               scene.name = name;
-                              scene.mean_edge = mean_edge(scene);
                               return scene;
                           }});
-    };
-    own("graded", "two balls, finer inside, 1:10", [](double n) { return graded_pair(n, 2); });
-    own("graded-self", "one ball, finer inside, 1:10, self", [](double n) { return graded_self(n, 2); });
-    own("graded-100", "two balls, finer inside, 1:100", [](double n) { return graded_pair(n, 3); });
-    own("unlike-10", "two balls, edges 1:10", [](double n) { return unlike_pair(n, 10); });
-    own("unlike-100", "two balls, edges 1:100", [](double n) { return unlike_pair(n, 100); });
+    }
     return makers;
+}
+
+double mean_edge(const Body& body) {
+    double sum = 0;
+    for (std::size_t t = 0; t < body.tets.size(); t += 4)
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const float* a = &body.positions[3 * body.tets[t + i]];
+                const float* b = &body.positions[3 * body.tets[t + j]];
+                sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
+            }
+    return sum / (6 * static_cast<double>(body.tet_count()));
 }
 
 // ---- timing ---------------------------------------------------------------------------------------
 
 class Grid {
 public:
-    Grid(vox_engine engine, Scene& scene) : scene_(scene) {
+    Grid(vox_engine engine, Scene& scene, std::uint32_t flags) : scene_(scene) {
         vox_grid_desc desc = vox_default_grid_desc();
         desc.engine = engine;
+        desc.flags = flags;
         desc.byte_budget = 0;
         must(vox_grid_create(&desc, &grid_));
         for (const vox_mesh_desc& mesh : descs(scene)) {
@@ -168,20 +108,26 @@ public:
         return descs;
     }
 
-    // Seconds of a step at this cell size, in the mean over all frames, or a few rounds of them where they
-    // are short; the first step is not counted. 0: the grid's own size, left as it is.
-    double seconds(double cell_size) {
-        if (cell_size > 0) must(vox_grid_set_cell_size(grid_, cell_size));
-        step();
+    // Seconds of a step at this cell size (0: the grid's own choice), in the mean over the frames of a turn.
+    // A turn always has the same frames; its first step is not counted.
+    double turn(double cell_size) {
+        must(vox_grid_set_cell_size(grid_, cell_size));
+        frame_ = 0;
+        scene_.pose(frame_);
+        must(vox_grid_step(grid_));
         double sum = 0;
-        std::size_t count = 0;
-        do {
-            for (std::size_t frame = 0; frame < scene_.frame_count(); ++frame, ++count) {
-                next_frame();
-                sum += seconds_of([&] { must(vox_grid_step(grid_)); });
-            }
-        } while (sum < 2e-3);
-        return sum / static_cast<double>(count);
+        for (std::size_t i = 0; i < steps_; ++i) {
+            scene_.pose(frame_ = (frame_ + 1) % scene_.frame_count());
+            sum += seconds_of([&] { must(vox_grid_step(grid_)); });
+        }
+        return sum / static_cast<double>(steps_);
+    }
+
+    // As many steps a turn as it takes to measure well.
+    void set_turn(double seconds_a_step) {
+        steps_ = seconds_a_step > 0.02
+                     ? 1
+                     : std::max(scene_.frame_count(), static_cast<std::size_t>(2e-3 / seconds_a_step) + 1);
     }
 
     double cell_size() const {
@@ -190,34 +136,156 @@ public:
         return size;
     }
 
-private:
-    void next_frame() { scene_.pose(frame_ = (frame_ + 1) % scene_.frame_count()); }
-    void step() {
-        next_frame();
-        must(vox_grid_step(grid_));
+    // Time of a suggestion over that of a step, each the median of some.
+    double steps_to_suggest() {
+        std::vector<double> ratios;
+        for (int i = 0; i < 5; ++i) {
+            const double step = turn(0);
+            vox_suggestion suggestion{};
+            suggestion.struct_size = sizeof suggestion;
+            ratios.push_back(
+                seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &suggestion)); }) / step);
+        }
+        return median(ratios);
     }
 
+private:
     Scene& scene_;
     vox_grid* grid_ = nullptr;
-    std::size_t frame_ = 0;
+    std::size_t frame_ = 0, steps_ = 4;
 };
 
-struct Row {
-    std::string scene;
-    std::string engine;
-    std::size_t tets = 0;
-    double best_seconds = 0, best_size = 0, suggest_seconds = 0, uniform_loss = 0; // sizes in mean edges
-    std::map<std::string, double> size, regret;
-};
-
-const std::vector<std::string> rule_names = {"model", "grid", "mean edge", "paper", "median box"};
+// ---- the sweep ------------------------------------------------------------------------------------
 
 struct Settings {
-    int sizes = 40, rounds = 9;
-    double least = 0.2, most = 10;
+    double sizes = 40; // of a sweep from 0.2 to 10 mean edges
+    double seconds = 10;
+    int least_rounds = 6, most_rounds = 40;
 };
 
-Row measure(Scene& scene, vox_engine engine, const Settings& settings) {
+struct Sample {
+    double size, seconds;
+};
+
+constexpr double least = 0.2, most = 10;
+// A size that takes so many times the best is the last one on its side.
+constexpr double hopeless = 5;
+
+// From 0.2 mean edges of the finest body to 10 of the coarsest.
+std::vector<double> sweep_sizes(const Scene& scene, double sizes) {
+    double finest = scene.mean_edge, coarsest = scene.mean_edge;
+    for (const Body& body : scene.bodies) {
+        finest = std::min(finest, mean_edge(body));
+        coarsest = std::max(coarsest, mean_edge(body));
+    }
+    const double ratio = std::pow(most / least, 1 / (sizes - 1));
+    std::vector<double> list;
+    for (double size = least * finest; size < most * coarsest * std::sqrt(ratio); size *= ratio)
+        list.push_back(size);
+    return list;
+}
+
+// Outwards from `start`.
+std::vector<Sample> sweep(Grid& grid, const std::vector<double>& sizes, double start) {
+    std::vector<Sample> samples;
+    const auto middle = std::lower_bound(sizes.begin(), sizes.end(), start);
+    double best = std::numeric_limits<double>::infinity();
+    const auto try_size = [&](double size) {
+        double seconds = grid.turn(size);
+        if (seconds < 0.1) seconds = std::min(seconds, grid.turn(size));
+        samples.push_back({size, seconds});
+        best = std::min(best, seconds);
+        return seconds <= hopeless * best;
+    };
+    for (auto size = middle; size != sizes.end() && try_size(*size);) ++size;
+    for (auto size = middle; size != sizes.begin() && try_size(*(size - 1));) --size;
+    std::sort(samples.begin(), samples.end(),
+              [](const Sample& a, const Sample& b) { return a.size < b.size; });
+    return samples;
+}
+
+// The value at sample i of the parabola through it and three neighbours on either side, in logarithms: local
+// regression (W. S. Cleveland, 1979) without weights.
+double smoothed(const std::vector<Sample>& samples, std::size_t i) {
+    const std::size_t first = i > 3 ? i - 3 : 0, last = std::min(i + 4, samples.size());
+    // Normal equations in powers of x, the distance from sample i: the value there is the constant.
+    double a[3][4] = {};
+    for (std::size_t j = first; j < last; ++j) {
+        const double x = std::log(samples[j].size / samples[i].size), y = std::log(samples[j].seconds);
+        const double power[3] = {1, x, x * x};
+        for (int r = 0; r < 3; ++r) {
+            for (int c = 0; c < 3; ++c) a[r][c] += power[r] * power[c];
+            a[r][3] += power[r] * y;
+        }
+    }
+    if (last - first < 4) return std::log(samples[i].seconds);
+    for (int p = 0; p < 3; ++p) // positive definite: no pivoting
+        for (int r = 0; r < 3; ++r) {
+            if (r == p) continue;
+            const double factor = a[r][p] / a[p][p];
+            for (int c = p; c < 4; ++c) a[r][c] -= factor * a[p][c];
+        }
+    return a[0][3] / a[0][0];
+}
+
+// Those that may be the best: the four of the least smoothed times, and the one of the least time.
+std::vector<double> candidates(const std::vector<Sample>& samples) {
+    std::vector<std::pair<double, std::size_t>> order;
+    std::size_t quickest = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        order.emplace_back(smoothed(samples, i), i);
+        if (samples[i].seconds < samples[quickest].seconds) quickest = i;
+    }
+    std::sort(order.begin(), order.end());
+    std::set<std::size_t> chosen{quickest};
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, order.size()); ++i) chosen.insert(order[i].second);
+    std::vector<double> sizes;
+    for (const std::size_t i : chosen) sizes.push_back(samples[i].size);
+    return sizes;
+}
+
+// ---- the rules ------------------------------------------------------------------------------------
+
+constexpr std::array rules = {"model", "grid", "mean_edge", "paper", "median_box"};
+
+struct Row {
+    std::string engine, scene;
+    double asked = 0; // tetrahedra; 0: those of a file
+    std::size_t tets = 0, rounds = 0;
+    double best_seconds = 0, best_size = 0; // sizes in mean edges
+    double noise = 0, suggest_steps = 0, uniform_loss = 0;
+    std::array<double, rules.size()> size{}, regret{};
+};
+
+// Times of a size, a turn each.
+struct Contender {
+    double size;
+    std::vector<double> seconds;
+
+    std::vector<double> half(std::size_t which) const {
+        std::vector<double> part;
+        for (std::size_t i = which; i < seconds.size(); i += 2) part.push_back(seconds[i]);
+        return part;
+    }
+};
+
+double ratio(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
+    return median(ratios);
+}
+
+// The candidate of the least time in one half of the rounds.
+const Contender& best_of(const std::vector<Contender>& candidates, std::size_t half) {
+    const auto beside_first = [&](const Contender& c) {
+        return ratio(c.half(half), candidates[0].half(half));
+    };
+    return *std::min_element(
+        candidates.begin(), candidates.end(),
+        [&](const Contender& a, const Contender& b) { return beside_first(a) < beside_first(b); });
+}
+
+Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vector<Sample>& curve) {
     Row row;
     row.scene = scene.name;
     row.engine = engine == VOX_ENGINE_FAST ? "fast" : "reference";
@@ -233,135 +301,91 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings) {
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
     row.uniform_loss = model.uniform_loss;
 
-    Grid fixed(engine, scene), own(engine, scene);
-    row.suggest_seconds = seconds_of([&] { own.seconds(0); }); // with the first step, for what it is worth
+    // All sizes in one grid: another one's memory lies elsewhere, and that alone makes per cents.
+    Grid grid(engine, scene, 0); // contacts alone
+    grid.set_turn(grid.turn(model.cell_size));
+    curve = sweep(grid, sweep_sizes(scene, settings.sizes), model.cell_size);
+    std::vector<Contender> best;
+    for (const double size : candidates(curve)) best.push_back({size, {}});
+    std::array<Contender, rules.size()> rule = {
+        Contender{model.cell_size, {}}, Contender{0, {}}, Contender{paper.rules.mean_edge, {}},
+        Contender{paper.cell_size, {}}, Contender{paper.rules.median_box_side, {}}};
+    Contender again{model.cell_size, {}};
 
-    // The sweep: all sizes, fewer and fewer of them.
-    struct Entry {
-        double size;
-        std::vector<double> times;
-    };
-    std::vector<Entry> sweep;
-    for (int i = 0; i < settings.sizes; ++i)
-        sweep.push_back({scene.mean_edge * settings.least *
-                             std::pow(settings.most / settings.least, double(i) / (settings.sizes - 1)),
-                         {}});
-    const auto by_time = [](const Entry& a, const Entry& b) { return median(a.times) < median(b.times); };
-    for (const std::size_t keep : {std::size_t{16}, std::size_t{10}, std::size_t{6}}) {
-        // From the middle outwards: what is hopeless is not tried to the end.
-        std::sort(sweep.begin(), sweep.end(), [&](const Entry& a, const Entry& b) {
-            return std::abs(std::log(a.size / model.cell_size)) <
-                   std::abs(std::log(b.size / model.cell_size));
-        });
-        double best = std::numeric_limits<double>::infinity();
-        bool above = false, below = false; // sizes above, below are worse than three times the best
-        for (Entry& entry : sweep) {
-            if (entry.size > model.cell_size ? above : below) {
-                entry.times.push_back(std::numeric_limits<double>::infinity());
-                continue;
+    std::vector<Contender*> all{&again};
+    for (Contender& c : best) all.push_back(&c);
+    for (Contender& c : rule) all.push_back(&c);
+    double spent = 0;
+    for (int round = 0; round < settings.most_rounds; ++round) {
+        if (round >= settings.least_rounds && round % 2 == 0 && spent > settings.seconds) break;
+        // Another one begins in each round, so that none always comes after the same one's end.
+        std::rotate(all.begin(), all.begin() + 1, all.end());
+        spent += seconds_of([&] {
+            for (Contender* c : all) {
+                // A hopeless one need not be timed again and again.
+                const bool known = c->seconds.size() > 1 && c->seconds[1] > hopeless * best[0].seconds[0];
+                c->seconds.push_back(known ? c->seconds[1] : grid.turn(c->size));
             }
-            entry.times.push_back(fixed.seconds(entry.size));
-            best = std::min(best, entry.times.back());
-            if (entry.times.back() > 3 * best) (entry.size > model.cell_size ? above : below) = true;
-        }
-        std::sort(sweep.begin(), sweep.end(), by_time);
-        sweep.resize(std::min(sweep.size(), keep));
+        });
     }
-
-    // The rules beside the best of the sweep, in turns.
-    std::map<std::string, Entry> rules;
-    rules["model"].size = model.cell_size;
-    rules["grid"].size = 0;
-    rules["mean edge"].size = paper.rules.mean_edge;
-    rules["paper"].size = paper.cell_size;
-    rules["median box"].size = paper.rules.median_box_side;
-    for (Entry& entry : sweep) entry.times.clear();
-    for (int round = 0; round < settings.rounds; ++round) {
-        for (Entry& entry : sweep) entry.times.push_back(fixed.seconds(entry.size));
-        for (auto& [name, entry] : rules) {
-            // Very bad ones need no second look.
-            if (round > 2 && median(entry.times) > 3 * median(sweep[0].times)) continue;
-            entry.times.push_back((entry.size > 0 ? fixed : own).seconds(entry.size));
-        }
+    row.rounds = again.seconds.size();
+    row.noise = std::abs(ratio(again.seconds, rule[0].seconds) - 1);
+    for (std::size_t half = 0; half < 2; ++half) {
+        const Contender& found = best_of(best, half);
+        const std::size_t other = 1 - half;
+        row.best_seconds += median(found.half(other)) / 2;
+        row.best_size += found.size / scene.mean_edge / 2;
+        for (std::size_t i = 0; i < rules.size(); ++i)
+            row.regret[i] += (ratio(rule[i].half(other), found.half(other)) - 1) / 2;
     }
-    const Entry& best = *std::min_element(sweep.begin(), sweep.end(), by_time);
-    row.best_seconds = median(best.times);
-    row.best_size = best.size / scene.mean_edge;
-    for (const auto& [name, entry] : rules) {
-        row.size[name] = (entry.size > 0 ? entry.size : own.cell_size()) / scene.mean_edge;
-        row.regret[name] = median(entry.times) / row.best_seconds - 1;
-    }
+    grid.turn(0);
+    for (std::size_t i = 0; i < rules.size(); ++i)
+        row.size[i] = (rule[i].size > 0 ? rule[i].size : grid.cell_size()) / scene.mean_edge;
+    row.suggest_steps = Grid(engine, scene, vox_default_grid_desc().flags).steps_to_suggest();
     return row;
 }
 
 // ---- results --------------------------------------------------------------------------------------
 
-void print_head(std::FILE* out) {
-    std::fprintf(out, "engine,scene,tets,best_ms,best_size,uniform_loss");
-    for (const std::string& name : rule_names)
-        std::fprintf(out, ",%s size,%s regret", name.c_str(), name.c_str());
-    std::fprintf(out, "\n");
+std::string key(const std::string& engine, const std::string& scene, double asked) {
+    std::ostringstream text;
+    text << engine << ',' << scene << ',' << static_cast<std::uint64_t>(asked);
+    return text.str();
 }
 
-void print(std::FILE* out, const Row& row) {
-    std::fprintf(out, "%s,%s,%zu,%.4f,%.3f,%.3f", row.engine.c_str(), row.scene.c_str(), row.tets,
-                 row.best_seconds * 1e3, row.best_size, row.uniform_loss);
-    for (const std::string& name : rule_names)
-        std::fprintf(out, ",%.3f,%.4f", row.size.at(name), row.regret.at(name));
-    std::fprintf(out, "\n");
-    std::fflush(out);
+std::string head() {
+    std::string text = "engine,scene,asked,tets,rounds,best_ms,best_size,noise,suggest_steps,uniform_loss";
+    for (const std::string rule : rules) text += "," + rule + "_size," + rule + "_regret";
+    return text + "\n";
 }
 
-std::string summary(const std::vector<Row>& rows) {
-    std::string text = "| engine | rule | median | 95th percentile | worst |\n|---|---|---|---|---|\n";
-    for (const char* engine : {"reference", "fast"})
-        for (const std::string& name : rule_names) {
-            std::vector<double> regrets;
-            for (const Row& row : rows)
-                if (row.engine == engine) regrets.push_back(row.regret.at(name));
-            if (regrets.empty()) continue;
-            char line[160];
-            std::snprintf(line, sizeof line, "| %s | %s | %.1f %% | %.1f %% | %.1f %% |\n", engine,
-                          name.c_str(), 100 * median(regrets), 100 * quantile(regrets, 0.95),
-                          100 * quantile(regrets, 1));
-            text += line;
-        }
-    return text;
-}
-
-// A line for each scene: the best size of the sweep, the model's, and what each rule loses.
-std::string details(const std::vector<Row>& rows) {
-    std::string text = "| engine | scene | tets | best, ms | best size | model's size |";
-    for (const std::string& name : rule_names) text += " " + name + " |";
-    text += "\n|---|---|---|---|---|---|";
-    for (std::size_t i = 0; i < rule_names.size(); ++i) text += "---|";
-    text += "\n";
-    for (const Row& row : rows) {
-        char line[200];
-        std::snprintf(line, sizeof line, "| %s | %s | %zu | %.3f | %.2f | %.2f |", row.engine.c_str(),
-                      row.scene.c_str(), row.tets, row.best_seconds * 1e3, row.best_size,
-                      row.size.at("model"));
-        text += line;
-        for (const std::string& name : rule_names) {
-            std::snprintf(line, sizeof line, " %+.0f %% |", 100 * row.regret.at(name));
-            text += line;
-        }
-        text += "\n";
+std::string line(const Row& row) {
+    char text[160];
+    std::snprintf(text, sizeof text, ",%zu,%zu,%.5f,%.4f,%.4f,%.3f,%.4f", row.tets, row.rounds,
+                  row.best_seconds * 1e3, row.best_size, row.noise, row.suggest_steps, row.uniform_loss);
+    std::string all = key(row.engine, row.scene, row.asked) + text;
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        std::snprintf(text, sizeof text, ",%.4f,%.4f", row.size[i], row.regret[i]);
+        all += text;
     }
-    return text;
+    return all + "\n";
 }
 
-// Puts the text between the two lines of a page that say where it goes.
-void write_between(const std::string& path, const std::string& text) {
-    const std::string begin = "<!-- bench/regret -->\n", end = "<!-- /bench/regret -->";
-    std::ifstream in(path, std::ios::binary);
-    std::string page((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    const std::size_t from = page.find(begin), to = page.find(end);
-    if (!in || from == std::string::npos || to == std::string::npos || to < from)
-        throw std::runtime_error(path + " has no lines " + begin + "and " + end);
-    page.replace(from + begin.size(), to - from - begin.size(), text);
-    std::ofstream out(path, std::ios::binary);
-    out << page;
+// The rows that a file has: engine, scene and size of each.
+std::set<std::string> rows_of(const std::string& path) {
+    std::set<std::string> found;
+    std::ifstream in(path);
+    for (std::string row; std::getline(in, row);) {
+        std::size_t end = 0;
+        for (int i = 0; i < 3 && end != std::string::npos; ++i) end = row.find(',', end + (i > 0));
+        found.insert(row.substr(0, end));
+    }
+    return found;
+}
+
+void append(const std::string& path, const std::string& text) {
+    std::ofstream out(path, std::ios::app | std::ios::binary);
+    out << text;
     if (!out.flush()) throw std::runtime_error("cannot write " + path);
 }
 
@@ -369,42 +393,62 @@ int run(int argc, char** argv) {
     CLI::App app("Time lost by each rule for the cell size, against the best of a sweep");
     std::vector<double> tets = {5000, 40000};
     std::vector<std::string> engines = {"reference", "fast"}, scenes;
-    std::string meshes, csv, page;
+    std::string meshes, csv, curves;
+    double most_tets = std::numeric_limits<double>::infinity(), stop_after = most_tets;
     Settings settings;
     bool calibrate = false;
     app.add_option("--tets", tets, "Tetrahedra of a scene")->delimiter(',');
+    app.add_option("--max-tets", most_tets, "Leave out the files' scenes of more");
     app.add_option("--engine", engines, "reference, fast")->delimiter(',');
-    app.add_option("--scene", scenes, "Names of scenes; all by default")->delimiter(',');
-    app.add_option("--meshes", meshes, "Folder with bunny.msh, cow.msh, armadillo.msh");
-    app.add_option("--rounds", settings.rounds, "Turns of each rule and of the best sizes");
-    app.add_option("--sizes", settings.sizes, "Cell sizes of the sweep")->check(CLI::Range(3, 1000));
-    app.add_option("--csv", csv, "Write the rows here, too");
-    app.add_option("--page", page, "Write the tables into this page, docs/cell-size.md");
+    app.add_option("--scenes", scenes, "Names of scenes; all by default")->delimiter(',');
+    app.add_option("--meshes", meshes, "Folder with the paper's bodies as Gmsh files");
+    app.add_option("--seconds", settings.seconds, "To compare the rules, for each scene and engine");
+    app.add_option("--rounds", settings.most_rounds, "Most turns of each size")->check(CLI::Range(4, 1000));
+    app.add_option("--sizes", settings.sizes, "Cell sizes from 0.2 to 10 mean edges")
+        ->check(CLI::Range(3, 1000));
+    app.add_option("--csv", csv, "Append the rows to this file; what it has is not measured again");
+    app.add_option("--curves", curves, "Append the sweeps to this file");
+    app.add_option("--stop-after", stop_after, "Begin no scene after so many seconds");
     app.add_flag("--calibrate", calibrate, "Measure the weights first");
     CLI11_PARSE(app, argc, argv);
+    settings.least_rounds = std::min(settings.least_rounds, settings.most_rounds);
     if (calibrate) must(vox_cost_calibrate(nullptr));
 
-    std::FILE* file = csv.empty() ? nullptr : std::fopen(csv.c_str(), "w");
-    if (!csv.empty() && !file) throw std::runtime_error("cannot write " + csv);
-    std::vector<Row> rows;
-    print_head(stdout);
-    if (file) print_head(file);
+    const std::set<std::string> done = csv.empty() ? std::set<std::string>{} : rows_of(csv);
+    if (!csv.empty() && done.empty()) append(csv, head());
+    std::printf("%s", head().c_str());
+    double spent = 0;
     for (const SceneMaker& maker : all_scenes(meshes)) {
         if (!scenes.empty() && std::find(scenes.begin(), scenes.end(), maker.name) == scenes.end()) continue;
         for (const double count : tets) {
             if (!maker.sized && count != tets.front()) continue;
-            Scene scene = maker.make(count, false);
-            for (const std::string& engine : engines) {
-                rows.push_back(
-                    measure(scene, engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE, settings));
-                print(stdout, rows.back());
-                if (file) print(file, rows.back());
-            }
+            const double asked = maker.sized ? count : 0;
+            std::vector<std::string> left;
+            for (const std::string& engine : engines)
+                if (!done.count(key(engine, maker.name, asked))) left.push_back(engine);
+            if (left.empty() || spent > stop_after) continue;
+            spent += seconds_of([&] {
+                Scene scene = maker.make(count, false);
+                if (static_cast<double>(scene.tet_count()) > most_tets) return;
+                for (const std::string& engine : left) {
+                    std::vector<Sample> curve;
+                    Row row = measure(scene, engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE,
+                                      settings, curve);
+                    row.asked = asked;
+                    std::printf("%s", line(row).c_str());
+                    std::fflush(stdout);
+                    if (!csv.empty()) append(csv, line(row));
+                    for (const Sample& s : curve) {
+                        if (curves.empty()) break;
+                        char text[120];
+                        std::snprintf(text, sizeof text, ",%.5f,%.6f\n", s.size / scene.mean_edge,
+                                      s.seconds * 1e3);
+                        append(curves, key(row.engine, row.scene, row.asked) + text);
+                    }
+                }
+            });
         }
     }
-    std::printf("\n%s", summary(rows).c_str());
-    if (file) std::fclose(file);
-    if (!page.empty()) write_between(page, summary(rows) + "\n" + details(rows));
     return 0;
 }
 

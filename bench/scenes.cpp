@@ -256,6 +256,12 @@ void Scene::pose(std::size_t frame) {
     for (Body& body : bodies) std::ranges::copy(body.frames[frame], body.positions.begin());
 }
 
+Scene pair_from_file(const std::string& path, double share) {
+    Scene scene = file_pair(path, false, share);
+    scene.mean_edge = mean_edge(scene);
+    return scene;
+}
+
 std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
     std::vector<SceneMaker> makers = {
         {"overlap-1", "two bodies, 1 % overlap volume", true,

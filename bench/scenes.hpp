@@ -43,4 +43,7 @@ struct SceneMaker {
 // `shuffle` gives vertices and tetrahedra random numbers instead of the generator's.
 std::vector<SceneMaker> scene_makers(const std::string& mesh_folder);
 
+// A body from a file and its turned copy, so far apart that `share` of the tetrahedra hold a vertex of the other one.
+Scene pair_from_file(const std::string& path, double share);
+
 } // namespace bench

@@ -1,5 +1,6 @@
 // The C border of vox.h's cell-size section.
 
+#include "bits.hpp"
 #include "border.hpp"
 #include "cost/calibrate.hpp"
 #include "cost/minimise.hpp"
@@ -10,6 +11,7 @@
 #include "structs.hpp"
 #include "suggest.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <limits>
@@ -70,28 +72,64 @@ std::vector<Body> read_bodies(const vox_mesh_desc* meshes, std::uint64_t count) 
     return bodies;
 }
 
-// Bodies with what the model of the fast engine needs of them.
+// Bodies with what the models need of them.
 class Scene {
 public:
-    Scene(vox_cost_model model, std::vector<Body> bodies)
-        : bodies_(std::move(bodies)), geometry_(measure(bodies_)) {
-        if (model != VOX_COST_MODEL_FAST) return;
-        tiles_.reserve(bodies_.size());
-        for (const Body& body : bodies_) {
-            tiles_.emplace_back(std::pmr::get_default_resource());
-            fast::make_tiles(body.tets, body.vertex_count, body.positions, tiles_.back());
-        }
-        for (const fast::Tiles& tiles : tiles_) views_.push_back(&tiles);
+    Scene(vox_cost_model model, std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+        geometry_ = measure(bodies_);
+        tiles_.resize(bodies_.size());
+        if (model == VOX_COST_MODEL_FAST) make_tiles();
+    }
+
+    // A grid asks between its steps, and should not wait longer than for one of them: from a sample.
+    Scene(vox_cost_model model, vox_grid::Known known)
+        : bodies_(std::move(known.bodies)), tiles_(std::move(known.tiles)),
+          activity_(std::move(known.activity)) {
+        constexpr std::size_t samples = 256;
+        std::size_t tets = 0;
+        for (const Body& body : bodies_) tets += body.tets.size();
+        const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
+        geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
+        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles : quick(tets);
+        if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
 
     const Geometry& geometry() const noexcept { return geometry_; }
-    SuggestScene view() const noexcept { return {bodies_, views_}; }
+    SuggestScene view() const noexcept { return {bodies_, tiles_, activity_, effort_}; }
 
 private:
+    // Of the tetrahedra that are not off.
+    Geometry measure_without_off() const {
+        std::vector<std::vector<Tet>> on;
+        std::vector<Body> bodies = bodies_;
+        for (Body& body : bodies) {
+            if (body.off_count == 0) continue;
+            std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
+            for (std::size_t t = 0; t < body.tets.size(); ++t)
+                if (!has_bit(body.off, t)) tets.push_back(body.tets[t]);
+            body.tets = tets;
+        }
+        return measure(bodies);
+    }
+
+    // Where there are none.
+    void make_tiles() {
+        made_.reserve(bodies_.size());
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            if (tiles_[b]) continue;
+            const Body& body = bodies_[b];
+            fast::make_tiles(body.tets, body.vertex_count, body.positions,
+                             made_.emplace_back(std::pmr::get_default_resource()), body.off);
+            tiles_[b] = &made_.back();
+        }
+    }
+
     std::vector<Body> bodies_;
-    Geometry geometry_;
-    std::vector<fast::Tiles> tiles_;
-    std::vector<const fast::Tiles*> views_;
+    Geometry geometry_{};
+    std::vector<fast::Tiles> made_;
+    std::vector<const fast::Tiles*> tiles_;
+    std::vector<Activity> activity_;
+    Effort effort_ = thorough;
 };
 
 // ---- cost functions of others ---------------------------------------------------------------------
@@ -181,8 +219,7 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         if (!desc) grid->describe(settings);
         const double p_nc = grid->share_without_contact();
         if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
-        std::vector<std::vector<Tet>> on;
-        const Scene scene(settings.model, grid->bodies(on));
+        const Scene scene(settings.model, grid->known());
         write_struct(out,
                      suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
                              std::pmr::get_default_resource()),

@@ -2,6 +2,7 @@
 // each stage is a file in fast/.
 #pragma once
 
+#include "cost/activity.hpp"
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
 #include "fast/repair.hpp"
@@ -39,8 +40,8 @@ struct FastMesh : fast::Tiles {
     // (or what the memory throws) and leaves this as it was then.
     void prepare(const Body& body);
 
-    // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it; vertices
-    // that are new at the end. False, or what the memory throws: all is to be prepared anew.
+    // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it;
+    // vertices that are new at the end. False, or what the memory throws: all is to be prepared anew.
     bool follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of);
     bool follow_vertices(const Body& body, std::uint32_t count_before);
 
@@ -78,6 +79,14 @@ public:
     // Whether a body of the last step had to be looked at: all of them unless FastSettings::carry.
     bool moved(std::size_t body) const noexcept { return states_[body].moved; }
 
+    // What the last step had to do for a body of `vertices` that is there since; all for others. Where
+    // winding numbers cleared most of it, the rest is not worth a thought.
+    Activity activity(std::size_t body, std::uint32_t vertices) const noexcept {
+        if (body >= states_.size()) return {};
+        const BodyState& state = states_[body];
+        return {state.moved, state.self && state.binned > vertices / 2};
+    }
+
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }
 
@@ -93,6 +102,7 @@ private:
         bool reached;           // by others: super_boxes_ and the tile_boxes_ are made where they meet them
         bool tiles_known;       // all of tile_boxes_ are
         bool self;              // some vertices of the window may be in tets of the same body
+        std::uint32_t binned;   // vertices in the windows
         fast::Box own;          // where vertices of the window may be in tets of the same body
         std::uint32_t buffers;  // in large_buffers_, or none
         const fast::Bins* bins; // of its windows; null: there are none

@@ -66,11 +66,6 @@ Tet sorted(const Tet& tet) {
     return result;
 }
 
-bool names_a_vertex_twice(const Tet& ascending) {
-    return ascending.v[0] == ascending.v[1] || ascending.v[1] == ascending.v[2] ||
-           ascending.v[2] == ascending.v[3];
-}
-
 // Calls visit(first, rest, multiplicity) once for every different (first, rest) pair that `generate(emit)`
 // emits. A counting sort by `first` (a vertex) makes short lists, which are then sorted by `rest`; `generate`
 // is called twice, to count and to place.

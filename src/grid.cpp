@@ -242,6 +242,7 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     tet_count_ -= s.mesh.tet_count();
     s.mesh = Mesh(&memory_);
     s.live = false;
+    s.body = Slot::none;
     adaptive_.scene_changed();
     // A slot whose generations are used up is retired, so that no old id comes to life again.
     if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
@@ -443,23 +444,27 @@ std::uint64_t vox_grid::carry_contacts() {
 
 void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
     choose_cell_size();
-    settings_.cell_size = cell_size_;
     counters.moved_meshes = bodies_.size();
     reference_.detect(bodies_, settings_, hits_, counters, profile);
 }
 
 void vox_grid::choose_cell_size() {
+    settings_.cell_size = cell_size_;
+    settings_.levels = {};
     if (!choose_cell_size_) return;
     const double before = cell_size_;
-    cell_size_ = adaptive_.cell_size(bodies_, {settings_.storage, byte_limit()}, &memory_);
-    if (cell_size_ == before) return;
-    const auto tets = static_cast<unsigned long long>(tet_count_);
-    write_log(VOX_LOG_INFO,
-              (before > 0 ? format("cell size %.9g after %.9g, for %llu tets in %zu meshes", cell_size_, before,
-                                   tets, bodies_.size())
-                          : format("cell size %.9g chosen for %llu tets in %zu meshes", cell_size_, tets,
-                                   bodies_.size()))
-                  .c_str());
+    const std::uint64_t changes = adaptive_.changes();
+    settings_.levels = adaptive_.cell_sizes(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    cell_size_ = settings_.levels[0].cell_size;
+    if (before > 0 && adaptive_.changes() == changes) return;
+    if (!log_.write) return;
+    std::string text = format("cell size %.9g", cell_size_);
+    for (std::size_t l = 1; l < settings_.levels.size(); ++l)
+        text += format(", %.9g", settings_.levels[l].cell_size);
+    text += before > 0 ? format(" after %.9g,", before) : " chosen";
+    write_log(VOX_LOG_INFO, format("%s for %llu tets in %zu meshes", text.c_str(),
+                                   static_cast<unsigned long long>(tet_count_), bodies_.size())
+                                .c_str());
 }
 
 // Most bytes for the cells of dense storage: the budget less what is held without them, and less what a first step
@@ -474,24 +479,22 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-std::vector<Body> vox_grid::bodies(std::vector<std::vector<Tet>>& on) const {
-    std::vector<Body> bodies;
+vox_grid::Known vox_grid::known() const {
+    Known known;
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        Body& body = bodies.emplace_back(s.mesh.body(id));
-        if (body.off_count == 0) continue;
-        std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
-        for (std::size_t t = 0; t < body.tets.size(); ++t)
-            if (!has_bit(body.off, t)) tets.push_back(body.tets[t]);
-        body.tets = tets;
-        body.off = {};
-        body.off_count = 0;
+        known.bodies.push_back(s.mesh.body(id));
+        known.tiles.push_back(s.mesh.tiles_if_made());
+        const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
+        known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
+        known.activity.push_back(s.body == Slot::none ? Activity{}
+                                                      : fast_engine_.activity(s.body, s.mesh.vertex_count()));
     }
-    return bodies;
+    return known;
 }
 
 void vox_grid::describe(vox_suggest_desc& desc) const noexcept {

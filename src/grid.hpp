@@ -45,10 +45,16 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
-    // For suggestions: the meshes with their positions as they are now (`on` gets the tets of those some of
-    // which are off), the fields of a desc that the grid knows, and the share of its tets that held no vertex in
-    // the last step. Throws INVALID_STATE for a mesh without positions.
-    std::vector<vox::Body> bodies(std::vector<std::vector<vox::Tet>>& on) const;
+    // For suggestions: the meshes with their positions as they are now, what there is of them already, the
+    // fields of a desc that the grid knows, and the share of its tets that held no vertex in the last step.
+    // Throws INVALID_STATE for a mesh without positions.
+    struct Known {
+        std::vector<vox::Body> bodies;
+        std::vector<const vox::fast::Tiles*> tiles; // null where they were not made, as the next ones
+        std::vector<const vox::depth::Topology*> topologies;
+        std::vector<vox::Activity> activity;
+    };
+    Known known() const;
     void describe(vox_suggest_desc& desc) const noexcept;
     double share_without_contact() const noexcept;
 
@@ -75,7 +81,10 @@ public:
     std::span<const vox_reading> readings() const { return readings_.all(); }
 
     void prepare_queries();
-    const vox::Queries& queries() const { queries_.require_prepared(); return queries_; }
+    const vox::Queries& queries() const {
+        queries_.require_prepared();
+        return queries_;
+    }
 
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
@@ -141,8 +150,8 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
-    // They are what another step would find of meshes that were in the last one and have not moved since. False
-    // after every change of a setting that contacts may depend on.
+    // They are what another step would find of meshes that were in the last one and have not moved since.
+    // False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;

@@ -38,6 +38,8 @@ public:
     // Makes the fast engine's tiles, unless that is done; needs positions.
     void make_tiles();
     FastMesh& tiles() noexcept { return tiles_; }
+    // Null before they are made.
+    const FastMesh* tiles_if_made() const noexcept { return has_tiles_ ? &tiles_ : nullptr; }
 
     // Finds the rings of the filter, unless that is done.
     void make_rings();

@@ -1,5 +1,6 @@
 // The paper, Sect. 3 and Fig. 1, step by step: pass one recomputes the boxes and classifies all particles;
-// pass two runs the broad and the narrow phase for each tetrahedron.
+// pass two runs the broad and the narrow phase for each tetrahedron. With levels of cell sizes, which the
+// paper does not have, the second half of pass one and pass two run for each of them.
 #include "reference.hpp"
 
 #include "bits.hpp"
@@ -73,35 +74,46 @@ void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& se
     compute_boxes(step);
     profile.bin_ns = nanoseconds() - start;
 
+    double above = -1;
+    for (const CellLevel& level : settings.levels) {
+        detect_level(step, level.cell_size, {above, level.longest_side});
+        above = level.longest_side;
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (settings.levels.empty()) detect_level(step, settings.cell_size, {above, infinity});
+}
+
+void Reference::detect_level(Step& step, double cell_size, const Sizes& sizes) {
+    const ReferenceSettings& settings = step.settings;
     // Hashed storage knows no borders; 2^30 cells each way are enough for floats at any sensible cell size,
     // and clamping beyond keeps the order.
     constexpr std::int32_t far = 1 << 30;
-    const Lattice unbounded({0, 0, 0}, settings.cell_size, {-far, -far, -far}, {far, far, far});
+    const Lattice unbounded({0, 0, 0}, cell_size, {-far, -far, -far}, {far, far, far});
     if (settings.storage == VOX_STORAGE_DENSE) {
         DenseAddress address{};
-        const Lattice lattice = prepare_dense(settings, address);
-        run(step, lattice, address);
+        const Lattice lattice = prepare_dense(settings, cell_size, address);
+        run(step, sizes, lattice, address);
     } else if (settings.hash == VOX_HASH_PAPER) {
-        run(step, unbounded, PaperAddress{prepare_hashed(settings)});
+        run(step, sizes, unbounded, PaperAddress{prepare_hashed(settings)});
     } else {
-        run(step, unbounded, MixedAddress{prepare_hashed(settings)});
+        run(step, sizes, unbounded, MixedAddress{prepare_hashed(settings)});
     }
 }
 
 template <class Address>
-void Reference::run(Step& step, const Lattice& lattice, const Address& address) {
-    const std::uint64_t start = nanoseconds();
+void Reference::run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address) {
+    const std::uint64_t start = nanoseconds(), decided = step.profile.narrow_ns;
     classify(step, lattice, address);
     const std::uint64_t classified = nanoseconds();
     step.profile.bin_ns += classified - start;
 
     const Box3f* boxes = boxes_.data();
     for (std::uint32_t body = 0; body < step.bodies.size(); ++body) {
-        broad_phase(step, body, boxes, lattice, address);
+        broad_phase(step, body, boxes, sizes, lattice, address);
         narrow_phase(step, body);
         boxes += step.bodies[body].tets.size();
     }
-    step.profile.broad_ns = nanoseconds() - classified - step.profile.narrow_ns;
+    step.profile.broad_ns += nanoseconds() - classified - (step.profile.narrow_ns - decided);
 }
 
 // ---- pass one -------------------------------------------------------------------------------------
@@ -163,7 +175,7 @@ void Reference::compute_boxes(Step& step) {
 }
 
 // The box of cells of dense storage; its lattice counts from the box's corner.
-Lattice Reference::prepare_dense(const ReferenceSettings& settings, DenseAddress& address) {
+Lattice Reference::prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address) {
     Vec3d min = settings.world_min, max = settings.world_max;
     const bool automatic = min.x == 0 && min.y == 0 && min.z == 0 && max.x == 0 && max.y == 0 && max.z == 0;
     if (automatic && !particles_.empty()) {
@@ -173,14 +185,14 @@ Lattice Reference::prepare_dense(const ReferenceSettings& settings, DenseAddress
         max = {box.max.x, box.max.y, box.max.z};
     }
     const auto cells_along = [&](double from, double to) {
-        return std::max(1.0, std::ceil((to - from) / settings.cell_size));
+        return std::max(1.0, std::ceil((to - from) / cell_size));
     };
     const double nx = cells_along(min.x, max.x), ny = cells_along(min.y, max.y),
                  nz = cells_along(min.z, max.z);
     const double count = nx * ny * nz;
     const auto wanted = [&] {
         return format("dense storage needs %.0f x %.0f x %.0f cells of size %g, %.0f bytes", nx, ny, nz,
-                      settings.cell_size, count * double(sizeof(std::uint32_t)));
+                      cell_size, count * double(sizeof(std::uint32_t)));
     };
     if (!(count < 0x1p31))
         throw Error(VOX_ERROR_LIMIT, format("%s; the limit is 2^31 cells", wanted().c_str()));
@@ -192,7 +204,7 @@ Lattice Reference::prepare_dense(const ReferenceSettings& settings, DenseAddress
         throw Error(VOX_ERROR_OUT_OF_MEMORY, format("%s: out of memory", wanted().c_str()));
     }
     address = {std::uint32_t(nx), std::uint32_t(ny)};
-    return Lattice(min, settings.cell_size, {0, 0, 0},
+    return Lattice(min, cell_size, {0, 0, 0},
                    {std::int32_t(nx) - 1, std::int32_t(ny) - 1, std::int32_t(nz) - 1});
 }
 
@@ -214,9 +226,9 @@ void Reference::classify(Step& step, const Lattice& lattice, const Address& addr
         const std::uint32_t bucket = address.bucket(address.row(at.j, at.k), at.i);
         fullest = std::max(fullest, cells_.insert(bucket, at, particle, std::uint32_t(p)));
     }
-    step.counters.cells = cells_.occupied().size();
-    step.counters.entries = particles_.size();
-    step.counters.fullest_cell = fullest;
+    step.counters.cells += cells_.occupied().size();
+    step.counters.entries += particles_.size();
+    step.counters.fullest_cell = std::max<std::uint64_t>(step.counters.fullest_cell, fullest);
 }
 
 // Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its
@@ -235,8 +247,8 @@ bool Reference::filter_particles(std::span<const Body> bodies, std::uint32_t bod
 // ---- pass two -------------------------------------------------------------------------------------
 
 template <class Address>
-void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Lattice& lattice,
-                            const Address& address) {
+void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
+                            const Lattice& lattice, const Address& address) {
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* particles = particles_.data();
     const std::uint32_t first_own = first_[body];
@@ -248,6 +260,8 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
     for (std::size_t t = 0; t < tets.size(); ++t) {
         const Box3f& box = boxes[t];
         if (is_empty(box)) continue;
+        const double side = longest_side(box);
+        if (!(side > sizes.above && side <= sizes.most)) continue;
 
         const auto visit = [&](const Cell& cell) {
             visited_entries += cell.count;

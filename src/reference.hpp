@@ -3,6 +3,7 @@
 // paper's cost function.
 #pragma once
 
+#include "cell_level.hpp"
 #include "reference_grid.hpp"
 #include "scene.hpp"
 
@@ -21,6 +22,8 @@ struct ReferenceSettings {
     vox_hash hash = VOX_HASH_MIXED;
     std::uint64_t hash_table_size = 0;
     Vec3d world_min{}, world_max{}; // dense storage: both zero means the box of all positions
+    // Instead of the cell size, where there are any: ascending, one grid after the other.
+    std::span<const CellLevel> levels{};
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing (dense storage
@@ -30,9 +33,10 @@ public:
     explicit Reference(std::pmr::memory_resource* memory);
 
     // Appends a Hit for every vertex in a closed tetrahedron that does not own it (all of them: canonical
-    // filtering is contacts.hpp's), in the order of (body_b, tet). Throws Error(NON_FINITE) naming mesh and
-    // vertex, Error(LIMIT or BUDGET) when the cells do not fit; may be called again after that. Sets the
-    // counters from `cells` to `skipped_degenerate` and the stage times from `bin_ns` to `narrow_ns`.
+    // filtering is contacts.hpp's), in the order of (body_b, tet) level by level. Throws Error(NON_FINITE)
+    // naming mesh and vertex, Error(LIMIT or BUDGET) when the cells do not fit; may be called again after
+    // that. Sets the counters from `cells` to `skipped_degenerate` and the stage times from `bin_ns` to
+    // `narrow_ns`.
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
@@ -47,19 +51,25 @@ private:
 
     struct Step; // arguments of detect() and what is found on the way
 
+    // Tetrahedra whose boxes have a longest side above the one and of at most the other.
+    struct Sizes {
+        double above, most;
+    };
+
     bool filter_particles(std::span<const Body> bodies, std::uint32_t body);
     void load_particles(std::span<const Body> bodies);
     Vec3d position(std::size_t particle) const;
     void compute_boxes(Step& step);
-    Lattice prepare_dense(const ReferenceSettings& settings, DenseAddress& address);
+    void detect_level(Step& step, double cell_size, const Sizes& sizes);
+    Lattice prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address);
     Modulus prepare_hashed(const ReferenceSettings& settings);
     template <class Address>
-    void run(Step& step, const Lattice& lattice, const Address& address);
+    void run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address);
     template <class Address>
     void classify(Step& step, const Lattice& lattice, const Address& address);
     template <class Address>
-    void broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Lattice& lattice,
-                     const Address& address);
+    void broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
+                     const Lattice& lattice, const Address& address);
     void narrow_phase(Step& step, std::uint32_t body);
 
     std::pmr::vector<Particle> particles_;  // of all bodies, one after the other

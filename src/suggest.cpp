@@ -248,7 +248,8 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
 
 void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
                    const CellSizeRange& range) {
-    const CostMinimum best = minimise(cost, range);
+    constexpr double near = 1e-4; // no model is as good as that
+    const CostMinimum best = minimise(cost, range, near);
     const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, cost, range);
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
@@ -259,7 +260,7 @@ void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const C
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
                                  const SuggestScene& scene, const vox_cost_weights& weights,
                                  std::pmr::memory_resource* memory) {
-    const ReferenceCost cost(scene.bodies, desc.storage, thorough, weights, memory);
+    const ReferenceCost cost(scene.bodies, desc.storage, scene.effort, weights, memory);
     CellSizeRange range{};
     if (!cost.range(range.min, range.max)) throw_no_size(geometry.stats);
     vox_suggestion result{};
@@ -269,17 +270,17 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     range.max = std::max(range.max, range.min);
     const CostFunction function = [&](double d) { return cost(d); };
     minimise_into(result, desc, function, range);
-    const Levels levels = choose_levels(cost);
+    const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
-    std::copy(levels.cell_size.begin(), levels.cell_size.end(), result.levels);
+    for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
     explain(result, desc, geometry, function, cost.terms(result.cell_size));
     return result;
 }
 
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                             const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastCost cost(scene.bodies, scene.tiles, thorough, weights, memory);
+    const FastCost cost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory);
     if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
     // Where no body is near another one any size will do; the usual one is there when some come near.
     CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};
@@ -316,9 +317,9 @@ CostTerms predict(const vox_suggest_desc& desc, const Geometry& geometry, const 
                   const vox_cost_weights& weights, double cell_size, std::pmr::memory_resource* memory) {
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
-        return ReferenceCost(scene.bodies, desc.storage, thorough, weights, memory).terms(cell_size);
+        return ReferenceCost(scene.bodies, desc.storage, scene.effort, weights, memory).terms(cell_size);
     case VOX_COST_MODEL_FAST:
-        return FastCost(scene.bodies, scene.tiles, thorough, weights, memory)
+        return FastCost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory)
             .terms(cell_size, FastCost::Lie::as_it_is);
     default:
         return paper_terms(desc, paper_model(desc, geometry.stats), cell_size);

@@ -1,6 +1,7 @@
 // The cell size that minimises a cost model, and why (paper, Sect. 4; the models are in cost/).
 #pragma once
 
+#include "cost/activity.hpp"
 #include "cost/effort.hpp"
 #include "cost/terms.hpp"
 #include "fast/tiles.hpp"
@@ -20,7 +21,9 @@ void check_suggest_desc(const vox_suggest_desc& desc);
 // What is suggested for. All positions are finite (measure() has looked).
 struct SuggestScene {
     std::span<const Body> bodies;
-    std::span<const fast::Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone
+    std::span<const fast::Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone, as what follows
+    std::span<const Activity> activity;        // of each body in the last step; none where there was none
+    Effort effort = thorough;
 };
 
 // For a desc that passed the check. All fields but struct_size are set. Throws INVALID_ARGUMENT when the

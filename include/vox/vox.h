@@ -188,7 +188,9 @@ typedef struct vox_grid_desc {
     /* Edge length of a cell, > 0. 0 (the default): the library chooses it, by the cost model of the engine. The
      * reference engine does so at the first step and again when the counts of its steps say that another size
      * would be better (bodies deform, come into contact, are inserted or removed); every change is written to the
-     * log and counted in cell_size_changes. The fast one chooses for each of its windows, at every step. */
+     * log and counted in cell_size_changes. Where tetrahedra are of such unlike sizes that one cell size for all would
+     * be dear, it uses a few grids, one after the other, each with a cell size and all vertices, for tetrahedra of
+     * some sizes. The fast one chooses for each of its windows, at every step. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside count to the nearest border
      * cell. All zero (the default): the box of all positions, found at every step. */
@@ -239,7 +241,8 @@ VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_
  * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
-/* The cell size in use: the one set, or the one chosen for the last step; 0 when none was chosen yet. */
+/* The cell size in use: the one set, or the one chosen for the last step (of several, that of the smallest
+ * tetrahedra); 0 when none was chosen yet. */
 VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
 
 /* Sets vox_grid_desc.worker_count for the steps to come. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and 0
@@ -875,7 +878,7 @@ typedef struct vox_counters {
     uint32_t meshes;
     uint64_t vertices;
     uint64_t tets;
-    uint64_t cells;              /* occupied cells */
+    uint64_t cells;              /* occupied cells; where there are several cell sizes, of all of them together */
     uint64_t entries;            /* vertices in them */
     uint64_t fullest_cell;       /* most vertices in one cell */
     uint64_t visited_cells;      /* objective voxels looked into */
@@ -1037,7 +1040,8 @@ typedef struct vox_suggestion {
     double budget_cell_size; /* cells must not be smaller, for the byte budget; 0: it does not matter */
     /* REFERENCE: what one cell size for tetrahedra of all sizes loses: predicted cost over that of a few grids
      * side by side, each with the cell size that is best for its share of the tetrahedra, less 1. About 0 where
-     * one size is as good as several, and for the other models. */
+     * one size is as good as several, and for the other models. A grid with cell_size 0 uses them where there are
+     * several. */
     double uniform_loss;
     double levels[VOX_CELL_SIZE_LEVEL_CAPACITY]; /* those sizes, for the smallest tets first; level_count of them */
     uint32_t level_count;
@@ -1057,7 +1061,10 @@ VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox
 
 /* The same for the meshes of a grid. desc null: the model of the grid's engine, with its storage and byte budget; the
  * paper's model takes p_nc from the last step where there was one with contacts and desc is null or has the
- * default. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE for a mesh without positions. */
+ * default. FAST knows from the last step which meshes rest and which need no cells for self-collision: those cost
+ * nothing. Quicker than vox_suggest_cell_size: counts are those of samples, and so are the means of grids with
+ * VOX_GRID_PENETRATIONS, to a few per cent. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE
+ * for a mesh without positions. */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
                                               vox_suggestion* out);
 

@@ -1,6 +1,5 @@
 #include "adaptive.hpp"
 
-#include "minimise.hpp"
 #include "reference_cost.hpp"
 #include "weights.hpp"
 
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 namespace vox {
@@ -22,11 +22,11 @@ constexpr double hysteresis = 0.08;
 constexpr double most_at_once = 2;
 // Beyond this factor from what the model chose it is asked again.
 constexpr double far_off = 1.5;
-// Of the time of the steps, for choosing.
-constexpr double time_share = 0.01;
+// Of the time of the steps, for choosing: a hundredth, told by counts to within a factor of two.
+constexpr double time_share = 0.005;
 // Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
 // it or one of the few far ones.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 300;
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 256;
 
 double choice_ns(double vertices, double tets, const Effort& effort) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
@@ -64,9 +64,9 @@ double few_box_sides(std::span<const Body> bodies) {
 
 } // namespace
 
-double AdaptiveCellSize::cell_size(std::span<const Body> bodies, const Setting& setting,
-                                   std::pmr::memory_resource* memory) {
-    const double before = cell_size_;
+std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bodies, const Setting& setting,
+                                                        std::pmr::memory_resource* memory) {
+    const Levels before = sizes_;
     if (must_choose()) {
         try {
             sized_ = choose(bodies, setting, memory);
@@ -76,24 +76,27 @@ double AdaptiveCellSize::cell_size(std::span<const Body> bodies, const Setting& 
             if (error.result() != VOX_ERROR_BUDGET) throw;
             sized_ = false;
         }
-        if (!sized_) {
+        if (!sized_ && (before.count == 0 || scene_changed_)) {
             const double side = few_box_sides(bodies);
             // Without any size nothing can touch: any cell will do.
-            if (before == 0 || scene_changed_) cell_size_ = side > 0 ? std::max(1.5 * side, floor_) : 1;
+            use(side > 0 ? std::max(1.5 * side, floor_) : 1);
         }
         scene_changed_ = balanced_ = false;
     } else {
         follow();
     }
-    if (before != 0 && cell_size_ != before) ++changes_;
-    return cell_size_;
+    const auto same = [](const CellLevel& a, const CellLevel& b) {
+        return a.cell_size == b.cell_size && a.longest_side == b.longest_side;
+    };
+    if (before.count != 0 && !std::ranges::equal(before.list(), sizes_.list(), same)) ++changes_;
+    return sizes_.list();
 }
 
 bool AdaptiveCellSize::must_choose() const noexcept {
-    if (cell_size_ == 0) return true;
+    if (sizes_.count == 0) return true;
     if (scene_changed_) return credit_ >= 0 || !sized_;
     if (!sized_) return balanced_ && credit_ >= 0; // now some have a size, or there may be memory now
-    return credit_ >= 0 && std::abs(std::log(cell_size_ / chosen_)) > std::log(far_off);
+    return credit_ >= 0 && std::abs(moved_) > std::log(far_off);
 }
 
 void AdaptiveCellSize::follow() noexcept {
@@ -101,8 +104,31 @@ void AdaptiveCellSize::follow() noexcept {
     const double part =
         std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
     if (std::abs(part) < hysteresis) return;
-    cell_size_ = std::max(cell_size_ * std::exp(part), floor_);
+    scale(std::exp(part));
+    moved_ += part;
     last_balance_ = balance_; // as it will be
+}
+
+void AdaptiveCellSize::use(double cell_size) noexcept {
+    sizes_ = {};
+    sizes_.count = 1;
+    sizes_.level[0] = {cell_size, std::numeric_limits<double>::infinity()};
+    moved_ = 0;
+}
+
+void AdaptiveCellSize::scale(double factor) noexcept {
+    for (std::uint32_t l = 0; l < sizes_.count; ++l) {
+        sizes_.level[l].cell_size = std::max(sizes_.level[l].cell_size * factor, floor_);
+        sizes_.level[l].longest_side *= factor;
+    }
+}
+
+bool AdaptiveCellSize::is_near(const Levels& other) const noexcept {
+    return std::ranges::equal(sizes_.list(), other.list(), [this](const CellLevel& a, const CellLevel& b) {
+        return a.cell_size >= floor_ && std::abs(std::log(a.cell_size / b.cell_size)) <= hysteresis &&
+               (a.longest_side == b.longest_side ||
+                std::abs(std::log(a.longest_side / b.longest_side)) <= hysteresis);
+    });
 }
 
 bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setting,
@@ -116,7 +142,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
     const Effort effort = quick(tets);
     const vox_cost_weights weights = weights_in_use();
     // The first choice has to be made.
-    if (cell_size_ != 0)
+    if (sizes_.count != 0)
         credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
     const ReferenceCost cost(bodies, setting.storage, effort, weights, memory);
     CellSizeRange range{};
@@ -127,15 +153,25 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
         range.min = std::max(range.min, floor_);
         range.max = std::max(range.max, range.min);
     }
-    const CostFunction function = [&](double d) { return cost(d); };
-    const CostMinimum best = minimise(function, range);
-    const auto balance = [&](double d) { return std::log(cost.profile().read(d) / cost.profile().cells(d)); };
+    const Levels best = choose_levels(cost, range);
+    // R / V with all cell sizes changed by the same factor.
+    const auto balance = [&](double factor) {
+        double read = 0, cells = 0;
+        for (const SizeClass& c : cost.profile().classes()) {
+            const double side = std::ldexp(1.0, c.exponent); // the shortest there is
+            const auto level =
+                std::ranges::find_if(best.list(), [&](const CellLevel& l) { return side <= l.longest_side; });
+            const double d = level->cell_size * factor;
+            read += c.passed.at(d) + c.tested.at(d);
+            cells += c.cells.at(d);
+        }
+        return std::log(read / cells);
+    };
     constexpr double nearby = 1.1;
-    slope_ = (balance(best.cell_size * nearby) - balance(best.cell_size / nearby)) / (2 * std::log(nearby));
-    chosen_ = best.cell_size;
-    // One that is about as good is kept.
-    if (cell_size_ == 0 || cell_size_ < floor_ || std::abs(std::log(cell_size_ / chosen_)) > hysteresis)
-        cell_size_ = chosen_;
+    slope_ = (balance(nearby) - balance(1 / nearby)) / (2 * std::log(nearby));
+    // Those that are about as good are kept.
+    if (!is_near(best)) sizes_ = best;
+    moved_ = 0;
     return true;
 }
 

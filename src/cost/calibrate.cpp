@@ -144,7 +144,7 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
     std::vector<Timing> timings;
     for (const bool self : {false, true}) {
         for (Body& body : scene.bodies) body.self_collision = self;
-        const ReferenceCost cost(scene.bodies, VOX_STORAGE_HASHED, quick(0), weights, Scene::memory());
+        const ReferenceCost cost(scene.bodies, VOX_STORAGE_HASHED, thorough, weights, Scene::memory());
         for (const double cell_size : cell_sizes) {
             ReferenceSettings settings;
             settings.cell_size = cell_size;
@@ -187,7 +187,7 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
     std::array<FastMesh*, 2> prepared{&scene.meshes[0], &scene.meshes[1]};
     const std::array<const fast::Tiles*, 2> tiles{&scene.meshes[0], &scene.meshes[1]};
     for (Body& body : scene.bodies) body.self_collision = true;
-    const FastCost cost(scene.bodies, tiles, quick(0), weights, Scene::memory());
+    const FastCost cost(scene.bodies, tiles, {}, thorough, weights, Scene::memory());
     std::vector<Timing> timings;
     for (const double cell_size : cell_sizes) {
         FastSettings settings;

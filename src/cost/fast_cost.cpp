@@ -1,6 +1,10 @@
 #include "fast_cost.hpp"
 
 #include "../fast/pairs.hpp"
+#include "../fast/query.hpp"
+#include "../fast/rest.hpp"
+#include "../fast/stream.hpp"
+#include "../filter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,29 +17,6 @@ namespace {
 
 // As in fast/body_window.cpp: most cells of a window.
 std::size_t most_cells(std::uint32_t points) { return 2 * std::size_t{points} + 64; }
-
-template <class Position>
-void extend(Box& box, const Position& p) {
-    const float c[3] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    for (int a = 0; a < 3; ++a) {
-        box.lo[a] = std::min(box.lo[a], c[a]);
-        box.hi[a] = std::max(box.hi[a], c[a]);
-    }
-}
-
-Box block_box(const Body& body, const fast::Tiles& tiles, std::uint32_t block) {
-    Box box = fast::empty_box;
-    for (std::uint32_t v = tiles.block_first[block]; v < tiles.block_first[block + 1]; ++v)
-        extend(box, body.positions[v]);
-    return box;
-}
-
-Box tile_box(const Body& body, const fast::Tiles& tiles, const fast::Tile& tile) {
-    Box box = fast::empty_box;
-    for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
-        extend(box, body.positions[tiles.vertices[tile.first_vertex + i]]);
-    return box;
-}
 
 struct Sides {
     double w[3];
@@ -52,71 +33,131 @@ struct Reach {
     Box region;
 };
 
-// The boxes of everything, one list for all bodies.
-struct Boxes {
-    explicit Boxes(std::pmr::memory_resource* memory)
-        : bodies(memory), blocks(memory), tiles(memory), first_block(memory), first_tile(memory) {}
+// The boxes of everything, one list for all bodies, found as the engine finds them: those of blocks from one
+// pass over the positions, those of tiles where somebody may look.
+class Boxes {
+public:
+    Boxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+          std::pmr::memory_resource* memory)
+        : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(memory), blocks_(memory),
+          tile_boxes_(memory), known_(memory), first_block_(memory), first_tile_(memory) {
+        std::size_t block_count = 0, tile_count = 0, rounded = 0;
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            first_block_.push_back(block_count);
+            first_tile_.push_back(tile_count);
+            block_count += tiles[b]->block_count();
+            tile_count += tiles[b]->tiles.size();
+            if (!fast::is_packed(bodies[b].positions)) rounded += 3 * std::size_t{bodies[b].vertex_count};
+        }
+        blocks_.resize(block_count);
+        tile_boxes_.resize(tile_count);
+        known_.resize(tile_count);
+        rounded_.resize(rounded);
+        float* copy = rounded_.data();
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Body& body = bodies[b];
+            const float* positions = copy;
+            if (fast::is_packed(body.positions))
+                positions = reinterpret_cast<const float*>(body.positions.data);
+            else
+                for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+                    const Vec3f p = body.positions[v];
+                    for (const float x : {p.x, p.y, p.z}) *copy++ = x;
+                }
+            positions_.push_back(positions);
+            bodies_.push_back(fast::empty_box);
+            if (body.vertex_count > 0)
+                (void)fast::stream_boxes(positions, tiles[b]->block_first, blocks_.data() + first_block_[b],
+                                         bodies_.back());
+        }
+    }
 
-    std::pmr::vector<Box> bodies, blocks, tiles;
-    std::pmr::vector<std::size_t> first_block, first_tile; // of each body, and the end
+    const float* positions(std::size_t body) const noexcept { return positions_[body]; }
+    std::span<const Box> bodies() const noexcept { return bodies_; }
+    std::span<const Box> blocks(std::size_t body) const noexcept {
+        return {blocks_.data() + first_block_[body], tiles_[body]->block_count()};
+    }
+
+    // Calls visit(box) for the tiles of a body that meet a region.
+    template <class Visit>
+    void for_tiles(std::size_t body, const Box& region, Visit&& visit) {
+        const fast::Tiles& tiles = *tiles_[body];
+        Box* boxes = tile_boxes_.data() + first_tile_[body];
+        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
+            Box super = fast::empty_box;
+            for (const std::uint32_t block : tiles.blocks[s])
+                fast::add(super, blocks_[first_block_[body] + block]);
+            if (!fast::overlap(super, region)) continue;
+            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+            fast::tile_boxes(tiles, positions_[body], first, last, boxes, known_.data() + first_tile_[body]);
+            for (std::uint32_t t = first; t < last; ++t)
+                if (fast::overlap(boxes[t], region)) visit(boxes[t]);
+        }
+    }
+
+private:
+    std::span<const fast::Tiles* const> tiles_;
+    std::pmr::vector<float> rounded_;
+    std::pmr::vector<const float*> positions_; // of each body, packed
+    std::pmr::vector<Box> bodies_, blocks_, tile_boxes_;
+    std::pmr::vector<std::uint8_t> known_;
+    std::pmr::vector<std::size_t> first_block_, first_tile_;
 };
 
-void measure(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles, Boxes& out) {
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        out.first_block.push_back(out.blocks.size());
-        out.first_tile.push_back(out.tiles.size());
-        Box all = fast::empty_box;
-        for (std::uint32_t i = 0; i < tiles[b]->block_count(); ++i) {
-            out.blocks.push_back(block_box(bodies[b], *tiles[b], i));
-            fast::add(all, out.blocks.back());
-        }
-        for (const fast::Tile& tile : tiles[b]->tiles)
-            out.tiles.push_back(tile_box(bodies[b], *tiles[b], tile));
-        out.bodies.push_back(all);
-    }
-    out.first_block.push_back(out.blocks.size());
-    out.first_tile.push_back(out.tiles.size());
-}
-
-template <class List>
-std::span<const Box> of_body(const std::pmr::vector<Box>& boxes, const List& first, std::size_t body) {
-    return std::span(boxes).subspan(first[body], first[body + 1] - first[body]);
-}
-
-// Cuts the region to the boxes of the list that meet it.
-void shrink(Box& region, std::span<const Box> boxes) {
-    Box covered = fast::empty_box;
-    for (const Box& box : boxes)
-        if (fast::overlap(box, region)) fast::add(covered, box);
-    fast::intersect(region, covered);
-    if (fast::is_empty(region)) region = fast::empty_box;
-}
-
-std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, const Boxes& boxes,
-                                     std::pmr::memory_resource* memory) {
+std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<const Activity> activity,
+                                     Boxes& boxes, std::pmr::memory_resource* memory) {
     fast::PairBuffers buffers(memory);
     std::pmr::vector<fast::Pair> pairs(memory);
     std::pmr::vector<Reach> reaches(memory);
-    fast::find_pairs(boxes.bodies, buffers, pairs);
+    fast::find_pairs(boxes.bodies(), buffers, pairs);
     for (const fast::Pair& pair : pairs) {
-        if (bodies[pair.b].tets.empty()) continue;
-        Reach reach{pair.a, pair.b, boxes.bodies[pair.a]};
-        fast::intersect(reach.region, boxes.bodies[pair.b]);
-        shrink(reach.region, of_body(boxes.blocks, boxes.first_block, pair.a));
-        shrink(reach.region, of_body(boxes.tiles, boxes.first_tile, pair.b));
+        if (bodies[pair.b].tets.empty() || !collide(bodies[pair.a], bodies[pair.b])) continue;
+        if (!activity.empty() && !activity[pair.a].moves && !activity[pair.b].moves) continue;
+        Reach reach{pair.a, pair.b, boxes.bodies()[pair.a]};
+        fast::intersect(reach.region, boxes.bodies()[pair.b]);
+        Box covered = fast::empty_box;
+        for (const Box& block : boxes.blocks(pair.a))
+            if (fast::overlap(block, reach.region)) fast::add(covered, block);
+        fast::intersect(reach.region, covered);
+        if (fast::is_empty(reach.region)) continue;
+        covered = fast::empty_box;
+        boxes.for_tiles(pair.b, reach.region, [&](const Box& tile) { fast::add(covered, tile); });
+        fast::intersect(reach.region, covered);
         if (!fast::is_empty(reach.region)) reaches.push_back(reach);
     }
     return reaches;
 }
 
+// The points of the blocks that meet one of the regions, and lie in the box around them all.
+void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, bool all,
+             std::span<const Reach> reaches, const Box& around, fast::Points& points) {
+    const std::span<const Box> blocks = boxes.blocks(body);
+    const auto is_wanted = [&](const Box& block) {
+        return all || std::any_of(reaches.begin(), reaches.end(),
+                                  [&](const Reach& r) { return fast::overlap(block, r.region); });
+    };
+    points.count = 0;
+    for (std::size_t b = 0; b < blocks.size();) { // runs of wanted blocks
+        const std::size_t begin = b;
+        while (b < blocks.size() && is_wanted(blocks[b])) ++b;
+        if (b == begin) {
+            ++b;
+            continue;
+        }
+        const std::uint32_t first = tiles.block_first[begin], last = tiles.block_first[b];
+        points.reserve(std::size_t{points.count} + (last - first));
+        fast::collect(boxes.positions(body), first, last, around, points);
+    }
+}
+
 } // namespace
 
 FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-                   const Effort& effort, const vox_cost_weights& weights, std::pmr::memory_resource* memory)
-    : pools_(memory), weights_(weights) {
-    Boxes boxes(memory);
-    measure(bodies, tiles, boxes);
-    const std::pmr::vector<Reach> reaches = find_reaches(bodies, boxes, memory);
+                   std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
+                   std::pmr::memory_resource* memory)
+    : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
+    Boxes boxes(bodies, tiles, memory);
+    const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, memory);
 
     fast::Points points(memory);
     std::uint32_t first_vertex = 0;
@@ -125,49 +166,33 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         const auto begin = reach;
         while (reach != reaches.end() && reach->a == a) ++reach;
         const std::span<const Reach> own(begin, reach);
-        const bool self = bodies[a].self_collision && !bodies[a].tets.empty();
-        Box region = self ? boxes.bodies[a] : fast::empty_box;
+        const bool self = bodies[a].self_collision && !bodies[a].tets.empty() &&
+                          (activity.empty() || activity[a].meets_itself);
+        Box region = self ? boxes.bodies()[a] : fast::empty_box;
         for (const Reach& r : own) fast::add(region, r.region);
         if (fast::is_empty(region)) continue;
-
-        points.count = 0;
-        points.reserve(bodies[a].vertex_count);
-        const std::span<const Box> blocks = of_body(boxes.blocks, boxes.first_block, a);
-        for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-            if (!self && std::none_of(own.begin(), own.end(),
-                                      [&](const Reach& r) { return fast::overlap(blocks[b], r.region); }))
-                continue;
-            for (std::uint32_t v = tiles[a]->block_first[b]; v < tiles[a]->block_first[b + 1]; ++v) {
-                const auto p = bodies[a].positions[v];
-                Box at = fast::empty_box;
-                extend(at, p);
-                if (!fast::overlap(at, region)) continue;
-                const std::uint32_t i = points.count++;
-                points.x[i] = static_cast<float>(p.x);
-                points.y[i] = static_cast<float>(p.y);
-                points.z[i] = static_cast<float>(p.z);
-                points.id[i] = first_vertex + v;
-            }
-        }
+        collect(boxes, *tiles[a], a, self, own, region, points);
         if (points.count == 0) continue;
 
         const Box window = fast::bounds(points);
         const fast::Lattice finest = fast::make_lattice(window, 0, most_cells(points.count));
-        Pool& pool = pool_of(1 / double{finest.inverse});
+        Pool& pool = pool_of(1 / double{finest.inverse}, effort.sample);
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
         pool.cells.add(cells_met(sides_of(window).w));
         pool.points.reserve(pool.points.count + std::size_t{points.count});
-        for (std::uint32_t i = 0; i < points.count; ++i, ++pool.points.count) {
-            pool.points.x[pool.points.count] = points.x[i];
-            pool.points.y[pool.points.count] = points.y[i];
-            pool.points.z[pool.points.count] = points.z[i];
-            pool.points.id[pool.points.count] = points.id[i];
-        }
+        const auto append = [&](const auto& from, auto& to) {
+            std::copy_n(from.begin(), points.count, to.begin() + pool.points.count);
+        };
+        append(points.x, pool.points.x);
+        append(points.y, pool.points.y);
+        append(points.z, pool.points.z);
+        for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
+        append(points.id, pool.points.id);
+        pool.points.count += points.count;
         const auto look = [&](std::uint32_t b, Box where) {
             fast::intersect(where, window);
-            for (Box box : of_body(boxes.tiles, boxes.first_tile, b)) {
-                if (!fast::overlap(box, where)) continue;
+            boxes.for_tiles(b, where, [&](Box box) {
                 fast::intersect(box, where);
                 Lookup lookup{};
                 Look look{};
@@ -182,48 +207,49 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
                 lookup.first_read = first_vertex;
                 lookup.last_read = first_vertex + bodies[a].vertex_count;
                 pool.profile.add(lookup);
-            }
+            });
         };
         if (self) look(a, region);
         for (const Reach& r : own) look(r.b, r.region);
     }
     for (Pool& pool : pools_) {
-        pool.profile.count_points(pool.points, effort.sample);
+        pool.profile.count_points(pool.points);
         pool.smallest_cell /= pool.windows;
     }
 }
 
-FastCost::Pool& FastCost::pool_of(double smallest_cell) {
+FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes) {
     const int key = static_cast<int>(std::floor(2 * std::log2(smallest_cell)));
     for (Pool& pool : pools_)
         if (pool.key == key) return pool;
-    return pools_.emplace_back(key, pools_.get_allocator().resource());
+    return pools_.emplace_back(key, sizes, pools_.get_allocator().resource());
 }
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at
 // distance e from the side is in one of its cells with probability 1 - e/d.
-void FastCost::Pool::add(double cell_size, Lie lie, Counts& sum) const noexcept {
-    constexpr std::size_t most = 4096;
-    const std::size_t stride = looks.size() / most + 1;
+void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
+    const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
     for (std::size_t i = 0; i < looks.size(); i += stride, count += 1) {
         const Look& look = looks[i];
-        double met[3], laid[3]; // cells along each axis, and so much of them that is in the window
-        double volume = 1, volume_laid = 1;
+        double along[3];                    // cells along each axis
+        double volume = 1, volume_laid = 1; // so much of them as is in the window
         for (int a = 0; a < 3; ++a) {
             const double below = std::min(look.below[a] * inverse, 1.0),
                          above = std::min(look.above[a] * inverse, 1.0);
             const double side = look.side[a] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
-            met[a] = std::max(side, 1.0);
             volume *= side;
+            if (lie == Lie::in_the_mean) {
+                along[a] = std::max(side, 1.0);
+                continue;
+            }
             const double first = std::floor(look.below[a] * inverse);
             const double last = std::floor((look.below[a] + look.side[a]) * inverse);
             const double end = (look.below[a] + look.side[a] + look.above[a]) * inverse;
-            laid[a] = last - first + 1;
+            along[a] = last - first + 1;
             volume_laid *= std::min(last + 1, end) - first;
         }
-        const double(&along)[3] = lie == Lie::as_it_is ? laid : met;
         rows += along[1] * along[2];
         visited += along[0] * along[1] * along[2];
         mean += volume;
@@ -256,7 +282,7 @@ bool FastCost::range(double& min, double& max) const noexcept {
 
 FastCost::Counts FastCost::counts(double cell_size, Lie lie) const {
     Counts sum;
-    for (const Pool& pool : pools_) pool.add(pool.effective(cell_size), lie, sum);
+    for (const Pool& pool : pools_) pool.add(pool.effective(cell_size), lie, most_looks_, sum);
     return sum;
 }
 

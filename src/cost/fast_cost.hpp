@@ -12,6 +12,7 @@
 // by winding numbers, have no window and cost nothing here.
 #pragma once
 
+#include "activity.hpp"
 #include "effort.hpp"
 #include "profile.hpp"
 #include "terms.hpp"
@@ -29,10 +30,11 @@ namespace vox {
 
 class FastCost {
 public:
-    // `tiles` of each body. Measures the positions as they are now; all of them are finite. All bodies that
-    // collide with themselves get a window.
-    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles, const Effort& effort,
-             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+    // `tiles` of each body, and what its last step was like, if it is known: then `activity` has as many.
+    // Measures the positions as they are now; all of them are finite.
+    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+             std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
+             std::pmr::memory_resource* memory);
 
     // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
     // small windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size
@@ -59,11 +61,12 @@ private:
     };
     // Windows whose smallest possible cells are alike, so that one effective cell size does for all.
     struct Pool {
-        Pool(int key, std::pmr::memory_resource* memory)
-            : key(key), profile(memory), points(memory), looks(memory) {}
+        Pool(int key, const SampleSizes& sizes, std::pmr::memory_resource* memory)
+            : key(key), profile(sizes, memory), points(memory), looks(memory) {}
 
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
-        void add(double cell_size, Lie lie, Counts& sum) const noexcept;
+        // From so many looks, evenly spread, at most.
+        void add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept;
 
         int key;
         Profile profile;
@@ -73,10 +76,11 @@ private:
         Moments cells;                         // of the windows themselves
     };
 
-    Pool& pool_of(double smallest_cell);
+    Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 
     std::pmr::vector<Pool> pools_;
     vox_cost_weights weights_;
+    std::size_t most_looks_;
 };
 
 } // namespace vox

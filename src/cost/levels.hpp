@@ -1,22 +1,26 @@
-// What several grids side by side would cost, each with the cell size that is best for the tetrahedra that
-// look into it: the measure of what one cell size for all of them loses.
+// Where tetrahedra are of very unlike sizes, no one cell size is near the best for all of them: several grids
+// side by side, each with the cell size that is best for the tetrahedra that look into it.
 #pragma once
 
+#include "../cell_level.hpp"
 #include "reference_cost.hpp"
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace vox {
 
 struct Levels {
-    double cost = 0;                                              // of a step, at the sizes below
-    std::array<double, VOX_CELL_SIZE_LEVEL_CAPACITY> cell_size{}; // for the smallest tets first
-    std::uint32_t count = 0;
+    double cost = 0; // of a step
+    std::array<CellLevel, VOX_CELL_SIZE_LEVEL_CAPACITY> level{};
+    std::uint32_t count = 0; // 0: there are no tetrahedra of any size
+
+    std::span<const CellLevel> list() const noexcept { return {level.data(), count}; }
 };
 
-// The best way to share the size classes of the tetrahedra, in order, among at most that many grids. Every
-// vertex is in each of them. One level where more do not pay.
-Levels choose_levels(const ReferenceCost& cost);
+// The best way to share the size classes of the tetrahedra, in order, among at most that many grids, with
+// cell sizes in the range. Every vertex is in each of them. One level where more do not pay.
+Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range);
 
 } // namespace vox

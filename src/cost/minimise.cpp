@@ -19,9 +19,35 @@ double finite_cost(const CostFunction& cost, double cell_size) {
     return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
 }
 
+// Where the cost passes the limit between a size inside, where it is not above it, and one outside.
+double crossing(const CostFunction& cost, double limit, double inside, double outside) {
+    constexpr double near = 1e-10; // of the limit
+    double below = finite_cost(cost, inside) - limit, above = finite_cost(cost, outside) - limit;
+    int kept = 0; // how often the same end was, one after the other: negative the inner one
+    for (int i = 0; i < 200; ++i) {
+        double at = inside + (outside - inside) / 2;
+        if (std::isfinite(above) && i < 60) at = inside + (outside - inside) * (below / (below - above));
+        if (at == inside || at == outside) break;
+        const double excess = finite_cost(cost, at) - limit;
+        if (excess <= 0) {
+            inside = at;
+            below = excess;
+            if (-excess <= near * limit) break;
+            if (kept++ > 0) above /= 2;
+            kept = std::max(kept, 1);
+        } else {
+            outside = at;
+            above = excess;
+            if (kept-- < 0) below /= 2;
+            kept = std::min(kept, -1);
+        }
+    }
+    return inside;
+}
+
 } // namespace
 
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range) {
+CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance) {
     const double low = std::log(range.min), high = std::log(range.max);
     const int scan_count = static_cast<int>(
         std::clamp((high - low) * scans_per_octave / std::log(2.0), double{least_scans}, double{most_scans}));
@@ -47,7 +73,7 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range) {
     double left = b - golden * (b - a), right = a + golden * (b - a);
     double cost_left = consider(std::exp(left)), cost_right = consider(std::exp(right));
     // Nearer to a minimum than the root of the precision, a function is flat as computed.
-    while (b - a > 1e-8) {
+    while (b - a > std::max(tolerance, 1e-8)) {
         if (cost_left <= cost_right) {
             b = right;
             right = left;
@@ -67,7 +93,8 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range) {
 
 Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
                  const CellSizeRange& range) {
-    // Out from the minimum by small steps, then to the last bits by halving.
+    // Out from the minimum by small steps, then regula falsi (the Illinois variant: M. Dowell, P. Jarratt,
+    // BIT 11, 1971) until that is as near as matters.
     const auto end = [&](double factor, double last) {
         double inside = minimum.cell_size;
         while (inside != last) {
@@ -77,11 +104,7 @@ Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& c
                 inside = outside;
                 continue;
             }
-            for (;;) {
-                const double middle = inside + (outside - inside) / 2;
-                if (middle == inside || middle == outside) return inside;
-                (finite_cost(cost, middle) <= limit ? inside : outside) = middle;
-            }
+            return crossing(cost, limit, inside, outside);
         }
         return inside;
     };

@@ -22,8 +22,8 @@ struct CostMinimum {
 
 // The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section
 // search around its best place. The function may have several minima; those that lie between two places of
-// the scan can be missed.
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range);
+// the scan can be missed. The place is found to within this part of it.
+CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance = 1e-8);
 
 // The interval around the minimum where the cost is at most `limit`, as far as the range goes.
 Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,

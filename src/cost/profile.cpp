@@ -11,11 +11,10 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t largest_sample = 256; // of a class
 // Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
 constexpr double near_sides = 1;
-// Most rows of cells and points looked at for one box; of more, every so many.
-constexpr std::size_t most_rows = 1024, most_points = 4096;
+// Most rows of cells looked at for one box; of more, every so many.
+constexpr std::size_t most_rows = 1024;
 // Points in a cell, about.
 constexpr double points_per_cell = 6;
 // Of the lookups sampled, this part tells how many cells are occupied.
@@ -57,6 +56,7 @@ struct Binned {
     const fast::Window& window;
     const fast::Points& points;
     const std::uint32_t* begin; // of each cell
+    std::size_t most_near;      // points looked at near one lookup; of more, every so many
     std::size_t stride;         // every so many points are the few
 };
 
@@ -87,7 +87,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
     std::size_t there = 0;
     for (std::size_t r = first_row; r < rows; r += row_stride)
         there += in.begin[row_of(r) + hi[0] + 1] - in.begin[row_of(r) + lo[0]];
-    const std::size_t stride = there / most_points + 1;
+    const std::size_t stride = there / in.most_near + 1;
     const auto near_weight = static_cast<double>(row_stride * stride);
     std::size_t skip = stride > 1 ? next_below(random, stride) : 0;
     for (std::size_t r = first_row; r < rows; r += row_stride) {
@@ -149,42 +149,46 @@ void PointsMet::finish() noexcept {
 
 // ---- lookups --------------------------------------------------------------------------------------
 
-SizeClass::SizeClass(int e, std::pmr::memory_resource* memory)
-    : exponent(e), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)), sample(memory) {
-    sample.reserve(largest_sample);
+SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std::pmr::memory_resource* memory)
+    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)),
+      sample(memory) {
+    sample.reserve(most_samples);
 }
 
-Profile::Profile(std::pmr::memory_resource* memory) : classes_(memory) { index_.fill(-1); }
+Profile::Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory)
+    : sizes_(sizes), classes_(memory) {
+    index_.fill(-1);
+}
 
-SizeClass& Profile::class_of(double side) {
+SizeClass& Profile::class_of(double side, bool may_meet) {
     // A box without sides counts as very small; scaled, it would have no class of points.
     const int exponent =
         side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
-    std::int16_t& index = index_[static_cast<std::size_t>(exponent + exponents / 2)];
+    std::int16_t& index = index_[2 * static_cast<std::size_t>(exponent + exponents / 2) + may_meet];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
-        classes_.emplace_back(exponent, classes_.get_allocator().resource());
+        classes_.emplace_back(exponent, may_meet, sizes_.lookups, classes_.get_allocator().resource());
     }
     return classes_[static_cast<std::size_t>(index)];
 }
 
 void Profile::add(const Lookup& lookup, double weight) {
-    SizeClass& c = class_of(longest_side(lookup));
+    SizeClass& c = class_of(longest_side(lookup), lookup.may_meet);
     const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
                          lookup.hi[2] - lookup.lo[2]};
     c.count += weight;
     c.added += 1;
     c.cells.add(cells_met(w), weight);
     c.rows.add(rows_met(w), weight);
-    if (c.sample.size() < largest_sample) {
+    if (c.sample.size() < sizes_.lookups) {
         c.sample.push_back(lookup);
         return;
     }
     const std::uint64_t place = next_below(random_, c.added);
-    if (place < largest_sample) c.sample[static_cast<std::size_t>(place)] = lookup;
+    if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
-void Profile::count_points(const fast::Points& points, const SampleSizes& sizes) {
+void Profile::count_points(const fast::Points& points) {
     const double lookups = count();
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
@@ -200,13 +204,13 @@ void Profile::count_points(const fast::Points& points, const SampleSizes& sizes)
             first_size_ = smallest / 16;
             size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
         }
-        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell,
-                            points.count / sizes.far_points + 1};
+        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
+                            points.count / sizes_.far_points + 1};
         for (SizeClass& c : classes_) {
             // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
             const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
             const auto size = std::min(
-                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes.lookups) * share) + 1);
+                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
             const double near = near_sides * std::ldexp(2.0, c.exponent);
             const double each = c.count / static_cast<double>(size);
             for (std::size_t i = 0; i < size; ++i) {

@@ -66,13 +66,16 @@ struct Lookup {
     double lo[3], hi[3];
     std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
+    bool may_meet = true; // points that it tests may be near it: such lookups are sampled for themselves
 };
 
-// Lookups whose longest side is at least 2^exponent and less than twice that.
+// Lookups whose longest side is at least 2^exponent and less than twice that, and that may meet something, or
+// not.
 struct SizeClass {
-    SizeClass(int exponent, std::pmr::memory_resource* memory);
+    SizeClass(int exponent, bool may_meet, std::size_t most_samples, std::pmr::memory_resource* memory);
 
     int exponent;
+    bool may_meet;
     double count = 0;        // of lookups
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
@@ -80,21 +83,22 @@ struct SizeClass {
     std::pmr::vector<Lookup> sample;
 };
 
-// How much is looked at: lookups whose surroundings are, and points in what is far from them.
+// How much is looked at: lookups whose surroundings are, points near each of them, and points in what is far
+// from them all.
 struct SampleSizes {
-    std::size_t lookups, far_points;
+    std::size_t lookups, near_points, far_points;
 };
 
 class Profile {
 public:
-    explicit Profile(std::pmr::memory_resource* memory);
+    Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory);
 
     // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample.
     // Sides are finite.
     void add(const Lookup& lookup, double weight = 1);
     // Once, when all are there: the points around the samples. `points` are those of the scene, their ids
     // what the lookups mean by an index; all are finite.
-    void count_points(const fast::Points& points, const SampleSizes& sizes);
+    void count_points(const fast::Points& points);
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept;
@@ -111,13 +115,14 @@ public:
 private:
     static constexpr int exponents = 512;
 
-    SizeClass& class_of(double side);
+    SizeClass& class_of(double side, bool may_meet);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
 
-    std::pmr::vector<SizeClass> classes_;       // those that occur
-    std::array<std::int16_t, exponents> index_; // in classes_; -1: none
+    SampleSizes sizes_;
+    std::pmr::vector<SizeClass> classes_;           // those that occur
+    std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0;
     // Of cells with a point, for cell sizes that are even in the logarithm.
     static constexpr std::size_t occupied_sizes = 64;

@@ -1,5 +1,7 @@
 #include "reference_cost.hpp"
 
+#include "../fast/pairs.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,13 +50,14 @@ bool has_volume(const std::array<Corner, 4>& p) {
 
 Effort quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
-    return {std::clamp<std::size_t>(t / 8, 1024, 1u << 15),
-            {std::clamp<std::size_t>(t / 256, 64, 256), std::clamp<std::size_t>(t / 64, 64, 256)}};
+    return {std::clamp<std::size_t>(t / 8, 512, 1u << 15),
+            {std::clamp<std::size_t>(t / 256, 64, 256), 256, std::clamp<std::size_t>(t / 64, 64, 256)},
+            64};
 }
 
 ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
                              const vox_cost_weights& weights, std::pmr::memory_resource* memory)
-    : profile_(memory), classes_(memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
+    : profile_(effort.sample, memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
     std::size_t vertices = 0, tets = 0;
     for (const Body& body : bodies) {
         vertices += body.vertex_count;
@@ -64,8 +67,9 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
     tets_ = static_cast<double>(tets);
     fast::Points points(memory);
     points.reserve(vertices);
-    std::uint32_t first = 0;
+    std::pmr::vector<fast::Box> boxes(memory);
     for (const Body& body : bodies) {
+        boxes.push_back(fast::empty_box);
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
             const auto p = body.positions[v];
             const std::uint32_t i = points.count++;
@@ -73,7 +77,20 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
             points.y[i] = static_cast<float>(p.y);
             points.z[i] = static_cast<float>(p.z);
             points.id[i] = i;
+            fast::add(boxes.back(), {{points.x[i], points.y[i], points.z[i], 0},
+                                     {points.x[i], points.y[i], points.z[i], 0}});
         }
+    }
+    fast::PairBuffers buffers(memory);
+    std::pmr::vector<fast::Pair> pairs(memory);
+    fast::find_pairs(boxes, buffers, pairs);
+    auto pair = pairs.begin(); // sorted by a
+    std::uint32_t first = 0;
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+        const Body& body = bodies[b];
+        const auto begin = pair;
+        while (pair != pairs.end() && pair->a == b) ++pair;
+        const std::span<const fast::Pair> others(begin, pair);
         Lookup lookup{};
         lookup.last_read = static_cast<std::uint32_t>(vertices);
         lookup.first_passed = first;
@@ -97,6 +114,17 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
+            // Also through cells as large as it is itself.
+            const double margin = std::max(
+                {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]});
+            lookup.may_meet = std::any_of(others.begin(), others.end(), [&](const fast::Pair& other) {
+                const fast::Box& box = boxes[other.b];
+                for (int a = 0; a < 3; ++a)
+                    if (lookup.lo[a] - margin > double{box.hi[a]} ||
+                        lookup.hi[a] + margin < double{box.lo[a]})
+                        return false;
+                return true;
+            });
             profile_.add(lookup, weight);
         });
     }
@@ -104,8 +132,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         const fast::Box box = fast::bounds(points);
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
-    profile_.count_points(points, effort.sample);
-    for (const SizeClass& c : profile_.classes()) classes_.push_back(&c);
+    profile_.count_points(points);
 }
 
 bool ReferenceCost::range(double& min, double& max) const noexcept {
@@ -126,7 +153,9 @@ double ReferenceCost::least_cell_size(double byte_limit, const CellSizeRange& ra
     const double limit = 0x1p31 - 1, fitting = byte_limit / sizeof(std::uint32_t);
     const double most = byte_limit > 0 ? std::min(limit, fitting) : limit;
     if (dense_cells(range.min) <= most) return 0;
-    double low = std::log(range.min), high = std::log(range.max);
+    // All in one cell at the latest.
+    double low = std::log(range.min),
+           high = std::log(std::max({range.max, 2 * sides_[0], 2 * sides_[1], 2 * sides_[2]}));
     while (high - low > 1e-9) {
         const double middle = (low + high) / 2;
         (dense_cells(std::exp(middle)) <= most ? high : low) = middle;
@@ -138,23 +167,24 @@ double ReferenceCost::buckets(double cell_size) const noexcept {
     return dense_ ? dense_cells(cell_size) : 2 * vertices_;
 }
 
+double ReferenceCost::occupied(double cell_size) const noexcept {
+    return std::min(profile_.occupied(cell_size), vertices_);
+}
+
 // A box that meets more cells than are occupied goes through those instead.
-ReferenceCost::Visits ReferenceCost::visits(std::span<const SizeClass* const> classes,
-                                            double cell_size) const noexcept {
-    const double occupied = std::min(profile_.occupied(cell_size), vertices_);
-    Visits visits;
-    for (const SizeClass* c : classes) {
-        const double cells = c->cells.at(cell_size);
-        if (cells > occupied * c->count)
-            visits.scanned += occupied * c->count;
-        else
-            visits.visited += cells;
-    }
-    return visits;
+ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
+    const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
+    return cells > scanned ? Visits{0, scanned} : Visits{cells, 0};
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
-    const Visits cells = visits(classes_, cell_size);
+    const double occupied_cells = occupied(cell_size);
+    Visits cells{0, 0};
+    for (const SizeClass& c : profile_.classes()) {
+        const Visits own = visits(c, cell_size, occupied_cells);
+        cells.visited += own.visited;
+        cells.scanned += own.scanned;
+    }
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
@@ -167,17 +197,17 @@ CostTerms ReferenceCost::terms(double cell_size) const {
     return terms;
 }
 
-double ReferenceCost::level(std::span<const SizeClass* const> classes, double cell_size) const {
-    const Visits cells = visits(classes, cell_size);
-    double read = 0, tested = 0;
-    for (const SizeClass* c : classes) {
-        const double t = c->tested.at(cell_size);
-        read += t + c->passed.at(cell_size);
-        tested += t;
-    }
-    return vertices_ * weights_.reference_classify_vertex + cells.visited * weights_.reference_visit_cell +
-           cells.scanned * weights_.reference_scan_cell + read * weights_.reference_read_vertex +
-           tested * weights_.reference_test_box + buckets(cell_size) * weights_.reference_clear_bucket;
+double ReferenceCost::of_grid(double cell_size) const noexcept {
+    return vertices_ * weights_.reference_classify_vertex +
+           buckets(cell_size) * weights_.reference_clear_bucket;
+}
+
+double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
+    const Visits cells = visits(c, cell_size, occupied);
+    const double tested = c.tested.at(cell_size);
+    return cells.visited * weights_.reference_visit_cell + cells.scanned * weights_.reference_scan_cell +
+           (c.passed.at(cell_size) + tested) * weights_.reference_read_vertex +
+           tested * weights_.reference_test_box;
 }
 
 double ReferenceCost::shared() const noexcept {

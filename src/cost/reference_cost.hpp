@@ -45,20 +45,22 @@ public:
     // 0 where all of the range is fine.
     double least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept;
 
-    // The cost apart: of one grid with this cell size that only these classes look into, vertices and buckets
-    // included; and of what is done once, however many grids there are.
-    double level(std::span<const SizeClass* const> classes, double cell_size) const;
+    // The cost in parts: of a grid with this cell size that nothing looks into, vertices and buckets; of what
+    // one class does in it, given how many of its cells are occupied; and of what is done once, however many
+    // grids there are.
+    double of_grid(double cell_size) const noexcept;
+    double of_class(const SizeClass& c, double cell_size, double occupied) const noexcept;
     double shared() const noexcept;
+    double occupied(double cell_size) const noexcept;
 
 private:
     struct Visits {
-        double visited = 0, scanned = 0;
+        double visited, scanned;
     };
-    Visits visits(std::span<const SizeClass* const> classes, double cell_size) const noexcept;
+    static Visits visits(const SizeClass& c, double cell_size, double occupied) noexcept;
     double buckets(double cell_size) const noexcept;
 
     Profile profile_;
-    std::pmr::vector<const SizeClass*> classes_; // of the profile
     vox_cost_weights weights_;
     bool dense_;
     double vertices_ = 0, tets_ = 0;

@@ -168,8 +168,10 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     const double automatic = cells_per_tile * sides.mean(), wanted = step.settings.cell_size;
     state.cell_size = wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
 
+    const std::uint32_t before = bins.points.count;
     state.root = fast::bin_tree(points, state.cell_size, buffers.cell_of, bins);
     state.bins = &bins;
+    state.binned = bins.points.count - before;
     state.own = own;
     fast::intersect(state.own, bins.windows[state.root].box);
 }

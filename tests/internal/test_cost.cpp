@@ -11,7 +11,9 @@
 #include "reference.hpp"
 #include "suite.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory_resource>
 #include <string>
 
@@ -87,6 +89,13 @@ const Named scenes[] = {
          s.add(jittered_ball(6000, 0.1, 0.3 + r - 0.05 * r, 0.17, 0.26, 2));
      },
      0.7},
+    {"unlike 1:100",
+     [](Scene& s) {
+         const double r = radius_of(6000);
+         s.add(jittered_ball(6000, 1, 0.3, 0.1, 0.2, 1));
+         s.add(jittered_ball(6000, 0.01, 0.3 + 0.9 * r, 0.17, 0.26, 2));
+     },
+     0.3},
 };
 
 void ck_near(const Named& scene, double size, const char* what, double predicted, double counted,
@@ -110,7 +119,7 @@ START_TEST(reference_counts) {
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         ReferenceSettings settings;
         settings.cell_size = size * named.unit;
-        double cells = 0, read = 0, occupied = 0;
+        double cells = 0, read = 0, occupied = 0, in_boxes = 0;
         constexpr int places = 9;
         for (int place = 0; place < places; ++place) {
             std::pmr::vector<Hit> hits(heap);
@@ -120,12 +129,16 @@ START_TEST(reference_counts) {
             cells += double(counters.visited_cells) / places;
             read += double(counters.visited_entries) / places;
             occupied += double(counters.cells) / places;
+            in_boxes += double(counters.candidates) / places;
+            for (const Body& body : scene.bodies()) // the engine does not count a tet's own corners
+                if (body.self_collision) in_boxes += 4 * double(body.tets.size()) / places;
             for (Mesh& mesh : scene.meshes())
                 move(mesh, 1, 0.382 * settings.cell_size, 0.276 * settings.cell_size,
                      0.618 * settings.cell_size);
         }
         ck_near(named, size, "cells", counts.cells(settings.cell_size), cells, 0.1);
         ck_near(named, size, "vertices read", counts.read(settings.cell_size), read, 0.1);
+        ck_near(named, size, "vertices in boxes", counts.candidates(), in_boxes, 0.1);
         ck_near(named, size, "occupied cells", counts.occupied(settings.cell_size), occupied, 0.35);
     }
 }
@@ -152,8 +165,8 @@ END_TEST
 
 // ---- the fast engine ------------------------------------------------------------------------------
 
-// Cells one size after the other; the vertices in them all sizes together, since how many lie in few cells is
-// a matter of luck.
+// How many vertices lie in few cells is a matter of luck, since a window's lattice begins at its corner:
+// counted at nine sizes a little apart, together.
 START_TEST(fast_counts) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -161,25 +174,67 @@ START_TEST(fast_counts) {
     scene.prepare();
     std::vector<const fast::Tiles*> tiles;
     for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
-    const FastCost cost(scene.bodies(), tiles, thorough, shipped_weights(), heap);
+    const FastCost cost(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
     Fast engine(heap);
-    double predicted = 0, read = 0;
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
-        std::pmr::vector<Hit> hits(heap);
-        vox_counters counters{};
-        vox_profile profile{};
-        FastSettings settings;
-        settings.cell_size = size * named.unit;
-        settings.winding = false; // the model has it that bodies which collide with themselves are looked at
-        engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
-        const FastCost::Counts counts = cost.counts(settings.cell_size, FastCost::Lie::as_it_is);
-        ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
-        ck_near(named, size, "cells", counts.visited_cells, double(counters.visited_cells), 0.1);
-        ck_near(named, size, "vertices read", counts.read, double(counters.visited_entries), 0.25);
-        predicted += counts.read;
-        read += double(counters.visited_entries);
+        FastCost::Counts predicted;
+        double cells = 0, read = 0;
+        constexpr int sizes = 9;
+        for (int i = 0; i < sizes; ++i) {
+            std::pmr::vector<Hit> hits(heap);
+            vox_counters counters{};
+            vox_profile profile{};
+            FastSettings settings;
+            settings.cell_size = size * named.unit * std::pow(1.2, (i - 4.0) / sizes);
+            settings.winding =
+                false; // the model has it that bodies which collide with themselves are looked at
+            engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
+            const FastCost::Counts counts = cost.counts(settings.cell_size, FastCost::Lie::as_it_is);
+            ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
+            predicted.visited_cells += counts.visited_cells;
+            predicted.read += counts.read;
+            cells += double(counters.visited_cells);
+            read += double(counters.visited_entries);
+        }
+        ck_near(named, size, "cells", predicted.visited_cells, cells, 0.1);
+        ck_near(named, size, "vertices read", predicted.read, read, 0.1);
     }
-    ck_near(named, 0, "vertices read at all sizes", predicted, read, 0.1);
+}
+END_TEST
+
+// What rests costs nothing where it meets what rests, nor do bodies that were cleared of meeting themselves.
+START_TEST(fast_bodies_at_rest) {
+    Scene scene;
+    scenes[2].fill(scene);
+    scene.prepare();
+    std::vector<const fast::Tiles*> tiles;
+    for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
+    std::vector<Activity> activity(tiles.size(), {false, false});
+    const auto counts = [&] {
+        return FastCost(scene.bodies(), tiles, activity, thorough, shipped_weights(), heap)
+            .counts(2, FastCost::Lie::as_it_is);
+    };
+    ck_assert_double_eq(counts().vertices, 0);
+    activity[0].moves = true;
+    Fast engine(heap);
+    std::pmr::vector<Hit> hits(heap);
+    vox_counters counters{};
+    vox_profile profile{};
+    FastSettings settings;
+    settings.cell_size = 2;
+    settings.carry = true;
+    engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
+    for (Mesh& mesh : scene.meshes()) {
+        move(mesh, 1, 0.01, 0, 0);
+        break;
+    }
+    engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
+    const FastCost::Counts one = counts();
+    ck_assert_double_gt(one.vertices, 0);
+    ck_near(scenes[2], 2, "vertices binned", one.vertices, double(counters.entries), 0.02);
+    ck_near(scenes[2], 2, "cells", one.visited_cells, double(counters.visited_cells), 0.1);
+    for (std::size_t b = 0; b < activity.size(); ++b)
+        ck_assert_int_eq(engine.activity(b, scene.bodies()[b].vertex_count).moves, activity[b].moves);
 }
 END_TEST
 
@@ -191,18 +246,78 @@ START_TEST(levels_where_they_pay) {
     scenes[0].fill(alike);
     alike.prepare();
     const ReferenceCost one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    ck_assert_uint_eq(choose_levels(one).count, 1);
+    CellSizeRange range{};
+    ck_assert(one.range(range.min, range.max));
+    ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
     const ReferenceCost cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    const Levels levels = choose_levels(cost);
-    CellSizeRange range{};
     ck_assert(cost.range(range.min, range.max));
+    const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
     ck_assert_uint_ge(levels.count, 2);
     ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
-    ck_assert_double_gt(levels.cell_size[levels.count - 1], 3 * levels.cell_size[0]);
+    ck_assert_double_gt(levels.level[levels.count - 1].cell_size, 3 * levels.level[0].cell_size);
+}
+END_TEST
+
+// The engine with levels finds what it finds with one cell size, and counts what the model says.
+START_TEST(levels_are_one_engine) {
+    for (const std::size_t s : {std::size_t{4}, std::size_t{5}, std::size_t{6}}) {
+        Scene scene;
+        scenes[s].fill(scene);
+        scene.prepare();
+        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+        CellSizeRange range{};
+        ck_assert(cost.range(range.min, range.max));
+        const Levels best = choose_levels(cost, range);
+        // Also where they do not pay: shares of the classes, one size smaller than the other.
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const CellLevel some[3] = {{0.5, 0.25}, {0.7, 1}, {1.5, infinity}};
+        std::vector<Key> expected;
+        for (const vox_storage storage : {VOX_STORAGE_HASHED, VOX_STORAGE_DENSE})
+            for (const std::span<const CellLevel> levels :
+                 {std::span<const CellLevel>(), best.list(), std::span<const CellLevel>(some)}) {
+                Reference engine(heap);
+                std::pmr::vector<Hit> hits(heap);
+                vox_counters counters{};
+                vox_profile profile{};
+                ReferenceSettings settings;
+                settings.storage = storage;
+                settings.cell_size = scenes[s].unit;
+                settings.levels = levels;
+                engine.detect(scene.bodies(), settings, hits, counters, profile);
+                if (expected.empty()) expected = keys(hits);
+                ck_assert_uint_gt(expected.size(), 0);
+                ck_assert(keys(hits) == expected);
+            }
+
+        double cells = 0, read = 0, predicted_cells = 0, predicted_read = 0;
+        for (const SizeClass& c : cost.profile().classes()) {
+            const double side = std::ldexp(1.0, c.exponent);
+            const auto level =
+                std::ranges::find_if(best.list(), [&](const CellLevel& l) { return side <= l.longest_side; });
+            predicted_cells += c.cells.at(level->cell_size);
+            predicted_read += c.passed.at(level->cell_size) + c.tested.at(level->cell_size);
+        }
+        constexpr int places = 25; // a fine body lies in few coarse cells
+        const double step = best.level[best.count - 1].cell_size;
+        for (int place = 0; place < places; ++place) {
+            Reference engine(heap);
+            std::pmr::vector<Hit> hits(heap);
+            vox_counters counters{};
+            vox_profile profile{};
+            ReferenceSettings settings;
+            settings.levels = best.list();
+            engine.detect(scene.bodies(), settings, hits, counters, profile);
+            cells += double(counters.visited_cells) / places;
+            read += double(counters.visited_entries) / places;
+            for (Mesh& mesh : scene.meshes()) move(mesh, 1, 0.382 * step, 0.276 * step, 0.618 * step);
+        }
+        ck_near(scenes[s], 0, "cells of the levels", predicted_cells, cells, 0.1);
+        ck_near(scenes[s], 0, "read in the levels", predicted_read, read, 0.1);
+    }
 }
 END_TEST
 
@@ -213,14 +328,15 @@ double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     vox_counters counters{};
     vox_profile profile{};
     ReferenceSettings settings;
-    settings.cell_size = adaptive.cell_size(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
+    settings.levels = adaptive.cell_sizes(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
     engine.detect(scene.bodies(), settings, hits, counters, profile);
     for (const Body& body : scene.bodies()) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size();
     }
     adaptive.observe(counters);
-    return settings.cell_size;
+    ck_assert_uint_eq(settings.levels.size(), 1); // of a scene of like tetrahedra
+    return settings.levels[0].cell_size;
 }
 
 // How much the model says a size loses for the scene as it is.
@@ -298,7 +414,9 @@ int main() {
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
     tcase_add_loop_test(tests, fast_counts, 0, scene_count);
+    tcase_add_test(tests, fast_bodies_at_rest);
     tcase_add_test(tests, levels_where_they_pay);
+    tcase_add_test(tests, levels_are_one_engine);
     tcase_add_test(tests, adaptive_follows);
     tcase_add_test(tests, minimum_of_a_power_law);
     tcase_add_test(tests, minimum_at_an_end_and_where_nothing_is_finite);

@@ -1,0 +1,108 @@
+#include "unlike.hpp"
+
+#include "bodies.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace bench {
+namespace {
+
+// Frames of a body that stands at `place` and waves a little.
+void add(Scene& scene, const Solid& solid, double scale, const Vec3& place, double radius,
+         bool self = false) {
+    Body body;
+    for (int frame = 0; frame < 4; ++frame) {
+        std::vector<float> positions;
+        for (const Vec3& p : solid.positions) {
+            const double a = 0.01 * radius, k = std::numbers::pi / radius, run = 0.1 * frame;
+            positions.push_back(
+                static_cast<float>(place.x + scale * p.x + a * std::sin(k * scale * p.y + run)));
+            positions.push_back(
+                static_cast<float>(place.y + scale * p.y + a * std::sin(k * scale * p.z + run + 1)));
+            positions.push_back(
+                static_cast<float>(place.z + scale * p.z + a * std::sin(k * scale * p.x + run + 2)));
+        }
+        positions.push_back(0);
+        body.frames.push_back(std::move(positions));
+    }
+    body.positions = body.frames[0];
+    body.tets = solid.tets;
+    body.self_collision = self;
+    scene.bodies.push_back(std::move(body));
+}
+
+// A ball whose tetrahedra get smaller towards its centre.
+Solid graded_ball(double tets, double power, std::uint64_t seed) {
+    Solid ball = lattice_ball(tets, seed);
+    const double radius = ball_radius(tets);
+    for (Vec3& p : ball.positions) {
+        const double r = std::hypot(p.x, p.y, p.z);
+        if (r == 0) continue;
+        const double factor = std::pow(r / radius, power - 1);
+        p = {p.x * factor, p.y * factor, p.z * factor};
+    }
+    return ball;
+}
+
+Scene graded_pair(double tets, double power) {
+    const double radius = ball_radius(tets / 2);
+    Scene scene;
+    add(scene, graded_ball(tets / 2, power, 1), 1, {0, 0, 0}, radius);
+    add(scene, graded_ball(tets / 2, power, 2), 1, {1.8 * radius, 0.01 * radius, 0.02 * radius}, radius);
+    return scene;
+}
+
+Scene graded_self(double tets, double power) {
+    Scene scene;
+    add(scene, graded_ball(tets, power, 1), 1, {0, 0, 0}, ball_radius(tets), true);
+    return scene;
+}
+
+// A coarse ball and a fine one at its surface, with edges smaller by `ratio`.
+Scene unlike_pair(double tets, double ratio) {
+    const double coarse = ball_radius(tets / 3), fine = ball_radius(tets * 2 / 3) / ratio;
+    Scene scene;
+    const Vec3 place{0.37, 0.21, 0.73}; // not at the corner of a cell
+    add(scene, lattice_ball(tets / 3, 1), 1, place, coarse);
+    add(scene, lattice_ball(tets * 2 / 3, 2), 1 / ratio, {place.x + coarse - 0.3 * fine, place.y, place.z},
+        fine);
+    return scene;
+}
+
+// Over all tetrahedra, so that a scene's unit is that of the body with most of them.
+double mean_edge(const Scene& scene) {
+    double sum = 0, count = 0;
+    for (const Body& body : scene.bodies)
+        for (std::size_t t = 0; t < body.tets.size(); t += 4)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = 0; j < i; ++j, count += 1) {
+                    const float* a = &body.positions[3 * body.tets[t + i]];
+                    const float* b = &body.positions[3 * body.tets[t + j]];
+                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
+                }
+    return sum / count;
+}
+
+} // namespace
+
+std::vector<SceneMaker> unlike_scenes() {
+    std::vector<SceneMaker> makers;
+    const auto add_maker = [&](const char* name, const char* title, auto make) {
+        makers.push_back({name, title, true, [=](double tets, bool) {
+                              Scene scene = make(tets);
+                              scene.name = name;
+                              scene.mean_edge = mean_edge(scene);
+                              return scene;
+                          }});
+    };
+    add_maker("graded", "two balls, finer inside, 1:10", [](double n) { return graded_pair(n, 2); });
+    add_maker("graded-self", "one ball, finer inside, 1:10, self",
+              [](double n) { return graded_self(n, 2); });
+    add_maker("graded-100", "two balls, finer inside, 1:100", [](double n) { return graded_pair(n, 3); });
+    add_maker("unlike-10", "two balls, edges 1:10", [](double n) { return unlike_pair(n, 10); });
+    add_maker("unlike-100", "two balls, edges 1:100", [](double n) { return unlike_pair(n, 100); });
+    return makers;
+}
+
+} // namespace bench
