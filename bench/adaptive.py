@@ -88,7 +88,7 @@ def draw(runs, path):
                   label="a grid with cell_size 0")
         time.step(middle, [w[3] for w in found], where="mid", color=COLOURS["best"], lw=1.6,
                   label="best of 20 fixed sizes, each window")
-        time.set_ylim(0, 1.3 * sorted(float(r["chosen_ms"]) for r in rows)[int(0.99 * len(rows))])
+        time.set_ylim(0, 1.25 * max(w[3] for w in found))
         time.set_title(f"{engine} engine")
         size.plot(steps, [float(r["cell_size"]) * float(r["inflation"]) for r in rows], color=COLOURS["chosen"], lw=1.4)
         size.plot(middle, [w[4] * float(w[1][len(w[1]) // 2]["inflation"]) for w in found], ".", color=COLOURS["best"])
@@ -96,12 +96,12 @@ def draw(runs, path):
         regret.axhline(0, color="#888", lw=0.8)
         regret.axhline(10, color="#c33", lw=0.8, ls="--")
         regret.step(middle, [100 * w[2] for w in found], where="mid", color=COLOURS["chosen"], lw=1.6)
-        regret.set_ylim(-80, 30)
+        regret.set_ylim(-105, 30)
         regret.set_xlabel("step")
         for name, first, last in phases(rows):
             for axis in (time, size, regret):
                 axis.axvline(first, color="#ccc", lw=0.8, zorder=0)
-            regret.text((first + last) / 2, -76, TITLES[name].replace(" ", "\n"), ha="center", va="bottom", fontsize=7)
+            regret.text((first + last) / 2, -102, TITLES[name].replace(" ", "\n"), ha="center", va="bottom", fontsize=7)
     axes[0][0].set_ylabel("ms a step")
     axes[0][0].legend(fontsize=8, loc="upper left")
     axes[1][0].set_ylabel("cell size, first edges")

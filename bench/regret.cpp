@@ -165,6 +165,7 @@ struct Settings {
 
 struct Sample {
     double size, seconds;
+    double predicted = 0; // nanoseconds
 };
 
 constexpr double least = 0.2, most = 10;
@@ -193,7 +194,7 @@ std::vector<Sample> sweep(Grid& grid, const std::vector<double>& sizes, double s
     const auto try_size = [&](double size) {
         double seconds = grid.turn(size);
         if (seconds < 0.1) seconds = std::min(seconds, grid.turn(size));
-        samples.push_back({size, seconds});
+        samples.push_back({size, seconds, 0});
         best = std::min(best, seconds);
         return seconds <= hopeless * best;
     };
@@ -285,6 +286,17 @@ const Contender& best_of(const std::vector<Contender>& candidates, std::size_t h
         [&](const Contender& a, const Contender& b) { return beside_first(a) < beside_first(b); });
 }
 
+// The cost that a suggestion predicts at a cell size, from its curve; 0 beyond its ends.
+double predicted(const vox_suggestion& suggestion, double size) {
+    for (std::uint32_t i = 1; i < suggestion.curve_count; ++i) {
+        const vox_cost_sample &a = suggestion.curve[i - 1], &b = suggestion.curve[i];
+        if (size < a.cell_size || size > b.cell_size) continue;
+        const double part = std::log(size / a.cell_size) / std::log(b.cell_size / a.cell_size);
+        return a.cost * std::pow(b.cost / a.cost, part);
+    }
+    return 0;
+}
+
 Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vector<Sample>& curve) {
     Row row;
     row.scene = scene.name;
@@ -305,6 +317,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     Grid grid(engine, scene, 0); // contacts alone
     grid.set_turn(grid.turn(model.cell_size));
     curve = sweep(grid, sweep_sizes(scene, settings.sizes), model.cell_size);
+    for (Sample& sample : curve) sample.predicted = predicted(model, sample.size);
     std::vector<Contender> best;
     for (const double size : candidates(curve)) best.push_back({size, {}});
     std::array<Contender, rules.size()> rule = {
@@ -441,8 +454,8 @@ int run(int argc, char** argv) {
                     for (const Sample& s : curve) {
                         if (curves.empty()) break;
                         char text[120];
-                        std::snprintf(text, sizeof text, ",%.5f,%.6f\n", s.size / scene.mean_edge,
-                                      s.seconds * 1e3);
+                        std::snprintf(text, sizeof text, ",%.5f,%.6f,%.6f\n", s.size / scene.mean_edge,
+                                      s.seconds * 1e3, s.predicted * 1e-6);
                         append(curves, key(row.engine, row.scene, row.asked) + text);
                     }
                 }

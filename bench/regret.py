@@ -2,6 +2,7 @@
 """Tables of what each rule for the cell size loses, from the files that bench_regret wrote.
 
 usage: regret.py PAGE.md RESULTS.csv...   Puts them between the lines of the page that say where they go; "-" prints.
+       regret.py PICTURE.svg CURVES.csv   Draws sweeps and what the models predicted; CURVES.csv is of bench_regret --curves.
 """
 import csv
 import math
@@ -67,9 +68,48 @@ def details(rows):
     return "\n".join(lines) + "\n"
 
 
+def draw(path, curves):
+    """A panel for each engine: times over those of the best size, and the models as lines, fitted to them in height."""
+    import matplotlib
+    matplotlib.use("svg")
+    matplotlib.rcParams["svg.hashsalt"] = "vox"
+    import matplotlib.pyplot as plt
+
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
+    for panel, engine in zip(panels, ENGINES):
+        lines = {}
+        with open(curves, newline="", encoding="utf-8") as file:
+            for name, scene, _, size, ms, model in csv.reader(file):
+                if name == engine:
+                    lines.setdefault(scene, []).append((float(size), float(ms), float(model)))
+        for colour, (scene, points) in zip(("#1f5fa8", "#b0762b", "#2c7a2c", "#8a3a8a"), lines.items()):
+            points = [p for p in sorted(points) if p[2] > 0]
+            sizes, times, models = zip(*points)
+            best = statistics.median(sorted(times)[:3])
+            height = statistics.median(m / t for _, t, m in points if t < 2 * best)
+            panel.plot(sizes, [t / best for t in times], ".", color=colour, ms=5)
+            curve = [m / height / best for m in models]
+            panel.plot(sizes, curve, color=colour, lw=1.5, label=scene)
+            zone = [s for s, c in zip(sizes, curve) if c <= 1.05 * min(curve)]
+            panel.axvspan(zone[0], zone[-1], color=colour, alpha=0.08, lw=0)
+        panel.set_xscale("log")
+        panel.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["0.25", "0.5", "1", "2", "4", "8"])
+        panel.set_xticks([], minor=True)
+        panel.set_ylim(0, 4)
+        panel.set_title(f"{engine} engine")
+        panel.set_xlabel("cell size, mean edges")
+        panel.legend(fontsize=8)
+    panels[0].set_ylabel("time of a step, best = 1")
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None} if path.endswith(".svg") else None)
+
+
 def main():
     if len(sys.argv) < 3:
         raise SystemExit(__doc__)
+    if not sys.argv[1].endswith(".md") and sys.argv[1] != "-":
+        draw(sys.argv[1], sys.argv[2])
+        return
     rows = {}
     for path in sys.argv[2:]:
         with open(path, newline="", encoding="utf-8") as file:
