@@ -520,7 +520,7 @@ void vox_grid::prepare_readings() {
         if (!is_valid(id)) continue;
         Mesh& mesh = slots_[slot_of(id)].mesh;
         if (!mesh.has_positions()) continue;
-        if (mesh.topology().across.empty()) mesh.make_topology();
+        mesh.make_topology();
         reading = {mesh.body(id), &mesh.topology()};
         check_finite(reading.body);
     }

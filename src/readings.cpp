@@ -1,6 +1,7 @@
 // Contacts are taken mesh by mesh in which the vertices are, so that the tree over its surface is built once.
 #include "readings.hpp"
 
+#include "bits.hpp"
 #include "depth/vectors.hpp"
 #include "error.hpp"
 #include "parallel.hpp"
@@ -183,12 +184,14 @@ void Readings::read(const Group& group, std::span<const vox_contact> contacts, S
                 out.contact = run.contacts[i];
                 continue;
             }
-            if (!run.a->topology || contact.vertex >= run.a->body.vertex_count) continue;
+            if (!run.a->topology || contact.vertex >= run.a->body.vertex_count ||
+                has_bit(run.a->body.removed_vertices, contact.vertex))
+                continue;
             const Vec3d p = position_of(run.a->body.positions, contact.vertex);
             write(out.position, p);
             out.known |= VOX_READING_POSITION;
             Closest closest;
-            if (has_surface && contact.tet < solid.tets.size() &&
+            if (has_surface && contact.tet < solid.tets.size() && !has_bit(b.body.off, contact.tet) &&
                 tree.find_of_contact(p, contact.vertex, contact.tet, run.a == run.b, closest, visited))
                 write_surface(solid, p, closest, out);
         }

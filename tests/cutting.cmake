@@ -1,10 +1,11 @@
 # Meshes that are cut and grow.
 vox_test(cutting test_cutting.c LIBS vox::vox)
 vox_test(cutting_calls test_cutting_calls.c LIBS vox::vox)
+vox_test(cutting_cost test_cutting_cost.c LIBS vox::vox)
 vox_test(repair internal/test_repair.cpp LIBS vox_internal)
 target_include_directories(test_repair PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
 set_tests_properties(cutting_calls PROPERTIES LABELS valgrind)
-foreach(name cutting cutting_calls)
+foreach(name cutting cutting_calls cutting_cost)
   target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)
   target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)
 endforeach()

@@ -66,7 +66,7 @@ static inline void set_model(cut_mesh* m, const body* shape) {
         m->positions[i] = shape->positions[i];
         m->rest[i] = shape->positions[i];
     }
-    memcpy(m->corners, shape->tets, 4 * sizeof(uint32_t) * m->tets);
+    if (m->tets) memcpy(m->corners, shape->tets, 4 * sizeof(uint32_t) * m->tets);
     memset(m->state, tet_on, m->most_tets);
     memset(m->gone, 0, m->most_vertices);
 }

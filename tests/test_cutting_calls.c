@@ -1,46 +1,14 @@
-/* The functions that cut and grow meshes one by one: arguments, memory, what an edit costs, what else sees
- * it. */
+/* The functions that cut and grow meshes one by one: arguments, what an edit changes and what it leaves
+ * alone, what else sees it. */
 #include <string.h>
 
 #include "bodies.h"
-#include "random.h"
 #include "suite.h"
 
-/* ---- memory that is counted and may fail ---- */
-
-typedef struct ledger {
-    uint64_t bytes, calls, fail_at;
-    uint64_t taken; /* bytes, all that were ever taken */
-} ledger;
-
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    l->taken += size;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
-
-static vox_grid* make_grid(ledger* l) {
+static vox_grid* make_grid(void) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* grid = NULL;
     desc.engine = suite_engine;
-    desc.flags |= VOX_GRID_CONTACT_EVENTS;
-    if (l) {
-        memset(l, 0, sizeof *l);
-        desc.allocator.allocate = ledger_allocate;
-        desc.allocator.release = ledger_release;
-        desc.allocator.user = l;
-    }
     ck_ok(vox_grid_create(&desc, &grid));
     return grid;
 }
@@ -67,7 +35,7 @@ START_TEST(arguments) {
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
 
     ck_fails(vox_mesh_set_topology(NULL, mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -177,7 +145,7 @@ START_TEST(smaller_struct) {
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     vox_mesh mesh = 0;
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     const float place[3] = {0.5f, 0.5f, 0.5f};
     uint32_t first = 0;
     desc.flags = VOX_MESH_COPY_POSITIONS;
@@ -203,7 +171,7 @@ START_TEST(off_and_on) {
     vox_mesh solid = 0, probe = 0;
     vox_contact_view view;
     vox_touch_view events;
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     ck_ok(vox_mesh_insert(grid, &desc, &solid));
     ck_ok(vox_mesh_insert(grid, &sensor, &probe));
     ck_ok(vox_grid_step(grid));
@@ -244,7 +212,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     uint64_t user_data = 0;
     vox_touch_view events;
     vox_filter filter = vox_default_filter();
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     desc.user_data = 41;
     filter.category = 6;
     desc.filter = &filter;
@@ -300,8 +268,8 @@ START_TEST(growing_from_nothing) {
     vox_mesh grown = 0, probe = 0;
     uint64_t hash = 0, expected = 0, stride = 0;
     void* mapped = NULL;
-    vox_grid* grid = make_grid(NULL);
-    vox_grid* other = make_grid(NULL);
+    vox_grid* grid = make_grid();
+    vox_grid* other = make_grid();
     body small = make_box(2, 0.5f, 0.25f, 0.375f, 0.125f);
     vox_mesh_desc moving = body_desc(&small);
     ck_ok(vox_mesh_insert(grid, &desc, &grown));
@@ -343,7 +311,7 @@ START_TEST(positions_of_its_own) {
     void* mapped = NULL;
     double place[3] = {0.125, 0.25, 0.125};
     vox_contact_view view;
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.position_format = VOX_FORMAT_DOUBLE3;
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
@@ -390,7 +358,7 @@ START_TEST(queries_and_suggestions_see_it) {
     vox_surface_hit closest;
     uint64_t count = 0;
     const double middle[3] = {1.5, 1.5, 1.5};
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
     ck_ok(vox_grid_prepare_queries(grid));
     ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
@@ -443,7 +411,7 @@ START_TEST(cell_size_follows_a_cut) {
     vox_mesh_desc desc = array_desc(positions, vertices, corners, tets);
     vox_mesh mesh = 0;
     double before = 0, after = 0;
-    vox_grid* grid = make_grid(NULL);
+    vox_grid* grid = make_grid();
     desc.flags = VOX_MESH_SELF_COLLISION;
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
     ck_ok(vox_grid_step(grid));
@@ -464,209 +432,6 @@ START_TEST(cell_size_follows_a_cut) {
 }
 END_TEST
 
-/* ---- memory ---- */
-
-enum { edit_kinds = 8 };
-
-/* One of several edits of the first mesh of the scene below. */
-static vox_result run_edit(vox_grid* grid, vox_mesh mesh, const body* box, const float* larger, int kind) {
-    static const uint32_t tets[3] = {2, 3, 77};
-    uint32_t first = 0;
-    vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_mesh_desc desc = body_desc(box);
-    switch (kind) {
-    case 0:
-        return vox_mesh_set_tets_enabled(grid, mesh, tets, 3, 0);
-    case 1:
-        return vox_mesh_remove_tets(grid, mesh, tets, 3);
-    case 2:
-        return vox_mesh_replace_tets(grid, mesh, tets, 3, box->tets + 400);
-    case 3:
-        return vox_mesh_append_tets(grid, mesh, box->tets + 400, 3, &first);
-    case 4:
-        vertices.count = 2;
-        vertices.positions = larger;
-        vertices.copies_of = tets;
-        return vox_mesh_append_vertices(grid, mesh, &vertices, &first);
-    case 5:
-        return vox_mesh_set_tets_enabled(grid, mesh, tets, 3, 1);
-    case 6:
-        first = box->vertex_count - 1;
-        return vox_mesh_remove_vertices(grid, mesh, &first, 1);
-    default:
-        desc.tet_count = 300;
-        return vox_mesh_set_topology(grid, mesh, &desc);
-    }
-}
-
-/* Two bodies that overlap; the last vertex of the first is of no tet. */
-static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_mesh* mesh) {
-    vox_mesh_desc a = body_desc(box), b = body_desc(other);
-    vox_mesh second = 0;
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
-    filter.self_rings = 1;
-    filter.self_rest_distance = 0.01;
-    a.filter = &filter;
-    ck_ok(vox_mesh_insert(grid, &a, mesh));
-    ck_ok(vox_mesh_insert(grid, &b, &second));
-}
-
-START_TEST(allocation_n_fails) {
-    body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
-    float* larger = (float*)calloc(3 * (box.vertex_count + 3), sizeof(float));
-    const uint32_t point = box.vertex_count++;
-    float* positions = (float*)calloc(3 * box.vertex_count, sizeof(float));
-    memcpy(positions, box.positions, 3 * sizeof(float) * point);
-    free(box.positions);
-    box.positions = positions;
-    for (int axis = 0; axis < 3; ++axis) positions[3 * point + (uint32_t)axis] = 0.5f;
-    memcpy(larger, positions, 3 * sizeof(float) * box.vertex_count);
-    for (int first_edit = 0; first_edit < 2; ++first_edit)
-        for (int kind = 0; kind < edit_kinds; ++kind) {
-            uint64_t hashes[2] = {0, 0}; /* without and with the edit */
-            uint64_t failed = 0;
-            for (uint64_t n = 0;; ++n) { /* 0: none fails */
-                ledger l;
-                vox_mesh mesh = 0;
-                vox_grid* grid = make_grid(&l);
-                insert_scene(grid, &box, &other, &mesh);
-                if (!first_edit)
-                    ck_ok(run_edit(grid, mesh, &box, larger, 0)); /* so that this one is the second */
-                const uint64_t unedited = hash_of_step(grid), bytes = l.bytes;
-                if (n > 0) l.fail_at = l.calls + n;
-                const vox_result result = run_edit(grid, mesh, &box, larger, kind);
-                const int reached = l.calls >= l.fail_at;
-                l.fail_at = 0;
-                if (n == 0) {
-                    ck_ok(result);
-                    hashes[0] = unedited;
-                    hashes[1] = hash_of_step(grid);
-                    /* What was taken is given back when there is no more need of it. */
-                    const uint64_t most = l.bytes;
-                    for (int again = 0; again < 3; ++again) (void)hash_of_step(grid);
-                    ck_assert_uint_le(l.bytes, most + most / 4);
-                } else {
-                    ck_assert_msg(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY, "%s",
-                                  vox_last_error());
-                    failed += result != VOX_OK;
-                    if (result != VOX_OK) ck_assert_uint_le(l.bytes, bytes + bytes / 2);
-                    ck_assert_uint_eq(hash_of_step(grid), hashes[result == VOX_OK]);
-                }
-                vox_grid_destroy(grid);
-                ck_assert_uint_eq(l.bytes, 0);
-                if (n > 0 && !reached) break;
-            }
-            ck_assert_msg(failed > 0, "edit %d never failed", kind);
-        }
-    free(larger);
-    free_body(&box);
-    free_body(&other);
-}
-END_TEST
-
-/* What an edit takes is in proportion to it: in a body of 40,000 tets, a thousand small ones take less
- * memory, all that was ever taken counted, than making anything of the whole body anew would, even a few
- * times. */
-START_TEST(edits_cost_what_they_change) {
-    ledger l;
-    body box = make_box(20, 0.25f, 0, 0, 0);
-    vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
-    uint64_t random = 5;
-    vox_filter filter = vox_default_filter();
-    vox_grid* grid = make_grid(&l);
-    filter.self_collision = 1;
-    filter.self_rings = 1;
-    desc.filter = &filter;
-    desc.flags = VOX_MESH_COPY_POSITIONS;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_grid_step(grid));
-    const uint64_t whole = 16ull * box.tet_count; /* the tets alone */
-    for (int round = 0; round < 1000; ++round) {
-        const uint32_t v = random_below(&random, box.vertex_count);
-        uint32_t tet = random_below(&random, box.tet_count), first = 0, corners[4];
-        vox_vertices_desc vertices = vox_default_vertices_desc();
-        vertices.count = 1;
-        vertices.copies_of = &v;
-        ck_ok(vox_mesh_set_tets_enabled(grid, mesh, &tet, 1, (uint32_t)round % 3 == 2));
-        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
-        memcpy(corners, box.tets + 4 * tet, sizeof corners);
-        corners[round % 4] = first;
-        ck_ok(vox_mesh_replace_tets(grid, mesh, &tet, 1, corners));
-        if (round == 0) l.taken = 0; /* the first edit is in proportion to the mesh */
-    }
-    /* Arrays that double once or twice, and 1000 edits of a few kilobytes. */
-    ck_assert_msg(l.taken < 20 * whole, "%llu bytes, the body has %llu", (unsigned long long)l.taken,
-                  (unsigned long long)whole);
-    filter.self_collision = 0; /* contacts take memory, too */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
-    l.taken = 0;
-    ck_ok(vox_grid_step(grid)); /* to which nothing was left but buffers of more vertices */
-    ck_assert_msg(l.taken < 4 * whole, "%llu bytes in the step", (unsigned long long)l.taken);
-    vox_grid_destroy(grid);
-    ck_assert_uint_eq(l.bytes, 0);
-    free_body(&box);
-}
-END_TEST
-
-/* A body that is culled by winding numbers, cut to and fro: as the reference engine and a new grid find it.
- */
-START_TEST(compact_body) {
-    body box = make_box(22, 0.25f, 0, 0, 0);
-    vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
-    uint64_t random = 9;
-    uint8_t* off = (uint8_t*)calloc(box.tet_count, 1);
-    uint32_t* kept = (uint32_t*)malloc(4 * sizeof(uint32_t) * box.tet_count);
-    vox_grid* grid = make_grid(NULL);
-    desc.flags = VOX_MESH_SELF_COLLISION;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_grid_step(grid));
-    for (int round = 0; round < 12; ++round) {
-        for (int i = 0; i < 4; ++i) { /* a few cubes off or on, and vertices into the body or back */
-            uint32_t tets[15];
-            const uint32_t first = 5 * random_below(&random, box.tet_count / 5 - 3),
-                           on = random_below(&random, 3) == 0;
-            for (uint32_t k = 0; k < 15; ++k) {
-                tets[k] = first + k;
-                off[first + k] = !on;
-            }
-            ck_ok(vox_mesh_set_tets_enabled(grid, mesh, tets, 15, on));
-        }
-        for (int i = 0; i < 3; ++i)
-            box.positions[3 * random_below(&random, box.vertex_count)] += round % 2 ? 0.5f : -0.5f;
-        uint32_t count = 0;
-        for (uint32_t t = 0; t < box.tet_count; ++t)
-            if (!off[t]) memcpy(kept + 4 * count++, box.tets + 4 * t, 4 * sizeof(uint32_t));
-        vox_mesh_desc rest = array_desc(box.positions, box.vertex_count, kept, count);
-        vox_mesh id = 0;
-        vox_contact_view mine, expected;
-        vox_grid* other = NULL;
-        vox_grid_desc other_desc = vox_default_grid_desc();
-        rest.flags = VOX_MESH_SELF_COLLISION;
-        other_desc.engine = round % 2 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
-        ck_ok(vox_grid_create(&other_desc, &other));
-        ck_ok(vox_mesh_insert(other, &rest, &id));
-        ck_ok(vox_grid_step(other));
-        ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &mine));
-        ck_ok(vox_grid_contacts(other, &expected));
-        ck_assert_uint_eq(mine.count, expected.count);
-        for (uint64_t i = 0; i < mine.count; ++i) {
-            const uint32_t* was = box.tets + 4 * mine.data[i].tet;
-            ck_assert_uint_eq(mine.data[i].vertex, expected.data[i].vertex);
-            ck_assert_int_eq(memcmp(was, kept + 4 * expected.data[i].tet, 4 * sizeof(uint32_t)), 0);
-        }
-        vox_grid_destroy(other);
-    }
-    vox_grid_destroy(grid);
-    free(off);
-    free(kept);
-    free_body(&box);
-}
-END_TEST
-
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, arguments);
     tcase_add_test(tests, smaller_struct);
@@ -676,9 +441,6 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, positions_of_its_own);
     tcase_add_test(tests, queries_and_suggestions_see_it);
     tcase_add_test(tests, cell_size_follows_a_cut);
-    tcase_add_test(tests, allocation_n_fails);
-    tcase_add_test(tests, edits_cost_what_they_change);
-    tcase_add_test(tests, compact_body);
 }
 
 int main(void) {

@@ -400,11 +400,11 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * vox_mesh_set_topology begins anew. What an edit takes away is as if it were not there: for contacts, penetrations,
  * queries, suggestions and the rings of a filter. Contacts of the last step stay as they are until the next one,
  * whose events follow from it: a pair that still touches persists.
- * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that; the first edit of a
- * mesh, and one now and then when a quarter of its tetrahedra have changed, is in proportion to the mesh. An edit of
- * more than an eighth leaves that to the next step, as does one that finds no memory for repairs: so a step after an
- * edit may allocate. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on, 16 a tetrahedron
- * more once one was off.
+ * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that, but for the first edit
+ * of a mesh, which is in proportion to the mesh. So is the first step after an edit of more than an eighth of its
+ * tetrahedra, or after edits that together, since the last time, changed more than a quarter of them; and a step after
+ * an edit that found no memory for repairs. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on,
+ * 16 a tetrahedron more once one was off. The first step after an edit may allocate.
  * Positions must be bound, or else come before the next step, as ever. `count` 0 does nothing; an index may be named
  * several times. Errors of all: INVALID_ARGUMENT (also: an index that the mesh does not have, or that was removed),
  * INVALID_MESH ("tet 17 names vertex 900 of 812", or one that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */

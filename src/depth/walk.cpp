@@ -141,8 +141,18 @@ bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d
     const Frame frame(solid, p, q);
     Gate gate;
     if (!frame.is_usable() || !first_gate(frame, solid.tets[tet], gate)) return false;
-    for (std::size_t steps = 0; steps < solid.tets.size(); ++steps) { // never more, but for rounding
+    // Through inverted tetrahedra the line may lead back to where it was. Then it goes round for ever: the
+    // facet by which it leaves decides all that follows (R. P. Brent, "An improved Monte Carlo factorization
+    // algorithm", BIT 20, 1980: a place is remembered after 1, 2, 4, ... steps).
+    std::uint32_t remembered_tet = ~0u, remembered_behind = 0;
+    for (std::size_t steps = 1, remember_at = 1;; ++steps) {
         ++visited;
+        if (tet == remembered_tet && gate.behind == remembered_behind) return false;
+        if (steps == remember_at) {
+            remembered_tet = tet;
+            remembered_behind = gate.behind;
+            remember_at *= 2;
+        }
         const Tet& from = solid.tets[tet];
         int facet = 0;
         while (from.v[facet] != gate.behind) ++facet;
@@ -161,7 +171,6 @@ bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d
         gate = next;
         tet = across;
     }
-    return false;
 }
 
 } // namespace vox::depth

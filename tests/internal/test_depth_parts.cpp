@@ -236,6 +236,30 @@ START_TEST(walks_through_inverted_tets) {
 }
 END_TEST
 
+START_TEST(walks_do_not_go_round) {
+    // All five tetrahedra of five vertices: every facet has one on either side of it, so there is no surface,
+    // and a line that leaves one of them is in another, for ever.
+    Mesh box = block(12, 12, 12, {0, 0, 0}, 1);
+    const auto first = static_cast<std::uint32_t>(box.positions.size());
+    for (const Vec3f& v : {Vec3f{20, 0, 0}, {24, 0, 0}, {20, 4, 0}, {20, 0, 4}, {23, 3, 3}})
+        box.positions.push_back(v);
+    for (std::uint32_t left_out = 0; left_out < 5; ++left_out) {
+        Tet tet{};
+        for (std::uint32_t i = 0, n = 0; i < 5; ++i)
+            if (i != left_out) tet.v[n++] = first + i;
+        box.tets.push_back(tet);
+    }
+    const auto tet = static_cast<std::uint32_t>(box.tets.size() - 1); // the first four vertices
+    const Prepared p(std::move(box));
+    for (const Vec3d& to : {Vec3d{90, 1, 1}, {21, 90, 1}, {21, 1, 90}, {90, 90, 90}}) {
+        SurfacePoint out{};
+        std::uint64_t visited = 0;
+        ck_assert(!walk_out(p.solid(), tet, {21, 1, 1}, to, out, visited));
+        ck_assert_uint_le(visited, 16);
+    }
+}
+END_TEST
+
 // ---- normals --------------------------------------------------------------------------------------
 
 START_TEST(normals_on_a_sphere) {
@@ -376,6 +400,7 @@ int main() {
     tcase_add_test(tests, walks_along_facets_edges_and_through_vertices);
     tcase_add_test(tests, walks_that_lead_nowhere);
     tcase_add_test(tests, walks_through_inverted_tets);
+    tcase_add_test(tests, walks_do_not_go_round);
     tcase_add_test(tests, normals_on_a_sphere);
     tcase_add_test(tests, normals_of_a_box_are_those_of_its_faces);
     tcase_add_test(tests, normals_of_a_tetrahedron_are_those_of_its_faces);

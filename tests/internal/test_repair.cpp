@@ -48,7 +48,7 @@ struct Edited {
         mesh.tets[tet] = given[tet] = corners;
     }
 
-    void append(const Tet& corners) {
+    void append(Tet corners) {
         const auto tet = static_cast<std::uint32_t>(given.size());
         given.push_back(corners);
         mesh.tets.push_back(corners);
