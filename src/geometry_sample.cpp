@@ -51,8 +51,8 @@ struct Means {
 // least.
 template <class Visit>
 void for_some(std::size_t count, double wanted, double all, Visit&& visit) {
-    if (count == 0) return;
-    const double part = wanted * static_cast<double>(count) / all;
+    if (count == 0 || !(all > 0)) return; // all > 0 unless every tetrahedron is off
+    const double part = std::min(wanted / all, 1.0) * static_cast<double>(count);
     const std::size_t samples = std::min(count, static_cast<std::size_t>(part) + 1);
     const double each = static_cast<double>(count) / static_cast<double>(samples);
     for (std::size_t i = 0; i < samples; ++i)

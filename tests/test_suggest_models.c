@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const vox_cost_model models[] = {VOX_COST_MODEL_PAPER, VOX_COST_MODEL_REFERENCE, VOX_COST_MODEL_FAST};
@@ -244,6 +245,38 @@ START_TEST(bodies_at_rest_cost_nothing) {
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &resting));
     ck_assert_double_eq_tol(term(&resting, "bin a vertex"), (double)counters_of(grid).entries, 0.5);
+    vox_grid_destroy(grid);
+    free_pair(&p);
+}
+END_TEST
+
+/* What is off counts for nothing; where all is, there is no size to suggest. */
+START_TEST(cut_bodies_are_what_is_left_of_them) {
+    pair p = make_pair(0.5f);
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    vox_grid* grid = NULL;
+    vox_mesh meshes[2];
+    vox_suggestion whole, part;
+    whole.struct_size = part.struct_size = sizeof whole;
+    ck_ok(vox_grid_create(&desc, &grid));
+    for (int b = 0; b < 2; ++b) ck_ok(vox_mesh_insert(grid, &p.meshes[b], &meshes[b]));
+    ck_ok(vox_grid_suggest_cell_size(grid, NULL, &whole));
+    const uint32_t count = p.boxes[0].tet_count;
+    uint32_t* tets = (uint32_t*)malloc(count * sizeof *tets);
+    for (uint32_t t = 0; t < count; ++t) tets[t] = t;
+    ck_ok(vox_mesh_set_tets_enabled(grid, meshes[0], tets, count / 2, 0));
+    ck_ok(vox_grid_suggest_cell_size(grid, NULL, &part));
+    ck_assert_uint_eq(part.stats.tets, whole.stats.tets - count / 2);
+    ck_assert_uint_lt(part.stats.edges, whole.stats.edges);
+    ck_assert_double_eq_tol(part.stats.mean_edge, whole.stats.mean_edge, 0.1 * whole.stats.mean_edge);
+    ck_assert_double_gt(part.cell_size, 0.7 * whole.cell_size);
+    ck_assert_double_lt(part.cell_size, 1.4 * whole.cell_size);
+    ck_ok(vox_grid_step(grid));
+    for (int b = 0; b < 2; ++b) ck_ok(vox_mesh_set_tets_enabled(grid, meshes[b], tets, count, 0));
+    ck_fails(vox_grid_suggest_cell_size(grid, NULL, &part), VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra");
+    ck_ok(vox_grid_step(grid));
+    free(tets);
     vox_grid_destroy(grid);
     free_pair(&p);
 }
@@ -534,6 +567,7 @@ int main(void) {
     tcase_add_loop_test(tests, a_sliver_does_not_matter, 0, 3);
     tcase_add_loop_test(tests, the_grid_suggests_by_its_engine, 0, 2);
     tcase_add_test(tests, bodies_at_rest_cost_nothing);
+    tcase_add_loop_test(tests, cut_bodies_are_what_is_left_of_them, 0, 2);
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
     tcase_add_test(tests, the_grid_follows_its_bodies);
