@@ -213,7 +213,7 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         for (const Reach& r : own) look(r.b, r.region);
     }
     for (Pool& pool : pools_) {
-        pool.profile.count_points(pool.points);
+        pool.profile.count_points(pool.points, Occupied::not_counted);
         pool.smallest_cell /= pool.windows;
     }
 }

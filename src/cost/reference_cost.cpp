@@ -52,7 +52,8 @@ Effort quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
     return {std::clamp<std::size_t>(t / 8, 512, 1u << 15),
             {std::clamp<std::size_t>(t / 256, 64, 256), 256, std::clamp<std::size_t>(t / 64, 64, 256)},
-            64};
+            64,
+            true};
 }
 
 ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
@@ -132,7 +133,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         const fast::Box box = fast::bounds(points);
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
-    profile_.count_points(points);
+    profile_.count_points(points, Occupied::counted);
 }
 
 bool ReferenceCost::range(double& min, double& max) const noexcept {
