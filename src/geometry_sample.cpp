@@ -61,11 +61,12 @@ void for_some(std::size_t count, double wanted, double all, Visit&& visit) {
         visit(static_cast<std::size_t>((static_cast<double>(i) + 0.5) * each), each);
 }
 
-void sample_tet(const Body& body, const depth::Topology& topology, std::size_t t, double weight,
+// at(v) is the exact position of a vertex, here and below.
+template <class At>
+void sample_tet(const Body& body, const depth::Topology& topology, const At& at, std::size_t t, double weight,
                 Means& means) {
     const Tet& tet = body.tets[t];
-    const Vec3d p[4] = {body.positions.exact(tet.v[0]), body.positions.exact(tet.v[1]),
-                        body.positions.exact(tet.v[2]), body.positions.exact(tet.v[3])};
+    const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
     const Vector a = between(p[0], p[1]), b = between(p[0], p[2]), c = between(p[0], p[3]);
     const auto extent = [](double first, double second, double third) { // of three numbers and 0
         return std::max(std::max(first, second), std::max(third, 0.0)) -
@@ -100,22 +101,39 @@ void sample_tet(const Body& body, const depth::Topology& topology, std::size_t t
 }
 
 // Some edges at each of some vertices, at places in its list that go round by the golden ratio (Weyl).
-void sample_edges(const Body& body, const depth::Topology& topology, double wanted, double all, Mean& edge) {
+template <class At>
+void sample_edges(const Body& body, const depth::Topology& topology, const At& at, double wanted, double all,
+                  Mean& edge) {
     constexpr std::size_t most = 2; // of a vertex
     double place = 0.5;
     for_some(body.vertex_count, wanted / most, all, [&](std::size_t v, double weight) {
         const auto neighbours = topology.neighbours_of(static_cast<std::uint32_t>(v));
         const std::size_t count = std::min(most, neighbours.size());
-        const Vec3d p = body.positions.exact(v);
+        const Vec3d p = at(v);
         for (std::size_t i = 0; i < count; ++i) {
             place += 0.6180339887498949;
             place -= std::floor(place);
             const auto n = static_cast<std::size_t>(place * static_cast<double>(neighbours.size()));
             // Each edge is met from both of its ends.
-            edge.add(length(between(p, body.positions.exact(neighbours[n]))),
+            edge.add(length(between(p, at(neighbours[n]))),
                      weight / 2 * static_cast<double>(neighbours.size()) / static_cast<double>(count));
         }
     });
+}
+
+// Its share of so many of all; `stats` has how many there are.
+template <class At>
+void sample_body(const Body& body, const depth::Topology& topology, const At& at, double wanted,
+                 const vox_geometry_stats& stats, Means& means) {
+    for_some(body.tets.size(), wanted, static_cast<double>(stats.tets), [&](std::size_t t, double weight) {
+        if (!has_bit(body.off, t)) sample_tet(body, topology, at, t, weight, means);
+    });
+    sample_edges(body, topology, at, wanted, static_cast<double>(stats.vertices), means.edge);
+    for_some(topology.triangles.size(), wanted / 2, static_cast<double>(stats.boundary_facets),
+             [&](std::size_t i, double weight) {
+                 const std::uint32_t* v = topology.triangles[i].v;
+                 means.boundary_facet.add(area(at(v[0]), at(v[1]), at(v[2])), weight);
+             });
 }
 
 // By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights.
@@ -209,20 +227,15 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
     const auto wanted = static_cast<double>(samples);
     means.box_sides.reserve(samples + bodies.size());
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const Body& body = bodies[b];
-        const depth::Topology& topology = *topologies[b];
-        for_some(body.tets.size(), wanted, static_cast<double>(stats.tets),
-                 [&](std::size_t t, double weight) {
-                     if (!has_bit(body.off, t)) sample_tet(body, topology, t, weight, means);
-                 });
-        sample_edges(body, topology, wanted, static_cast<double>(stats.vertices), means.edge);
-        for_some(topology.triangles.size(), wanted / 2, static_cast<double>(stats.boundary_facets),
-                 [&](std::size_t i, double weight) {
-                     const std::uint32_t* v = topology.triangles[i].v;
-                     means.boundary_facet.add(area(body.positions.exact(v[0]), body.positions.exact(v[1]),
-                                                   body.positions.exact(v[2])),
-                                              weight);
-                 });
+        const Positions& positions = bodies[b].positions;
+        if (positions.rounded())
+            sample_body(
+                bodies[b], *topologies[b], [&](std::size_t v) { return positions.exact(v); }, wanted, stats,
+                means);
+        else
+            sample_body(
+                bodies[b], *topologies[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, wanted,
+                stats, means);
     }
     // Each facet of a tetrahedron is on the surface or shared by two, but for the odd one of more.
     stats.facets = (4 * stats.tets + stats.boundary_facets) / 2;

@@ -10,9 +10,9 @@ namespace vox {
 
 namespace {
 
-constexpr double per_octave = 3;
+constexpr double per_octave = 2;
 // Nodes beyond either end of the range: a curve goes on for three octaves from the best size.
-constexpr int margin = 12;
+constexpr int margin = 8;
 // Sizes further apart than any floats are.
 constexpr double most_octaves = 512;
 constexpr double near = 1e-3; // no model is as good as that

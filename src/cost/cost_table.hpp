@@ -10,7 +10,7 @@ namespace vox {
 
 class CostTable {
 public:
-    // Sizes from `range.min` on, three an octave. The function is called where somebody asks nearby, once for
+    // Sizes from `range.min` on, two an octave. The function is called where somebody asks nearby, once for
     // each of them, and directly for sizes far outside the range.
     CostTable(const CostFunction& cost, const CellSizeRange& range);
 

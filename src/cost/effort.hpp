@@ -20,7 +20,8 @@ inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024}, 4096,
 
 // Within a step, where choosing has to cost less than that step.
 Effort quick(std::uint64_t tets) noexcept;
-// The same for the model of the fast engine, whose lookups are fewer and more alike and whose cost is flat.
-inline constexpr Effort quick_tiles{0, {16, 48, 16}, 16, true};
+// The same for the model of the fast engine, whose steps are shorter; its lookups are fewer and more alike
+// and its cost is flat.
+Effort quick_tiles(std::uint64_t tets) noexcept;
 
 } // namespace vox

@@ -78,7 +78,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
         return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
     };
     const std::size_t rows_y = hi[1] - lo[1] + 1, rows = rows_y * (hi[2] - lo[2] + 1);
-    const std::size_t row_stride = (rows + most_rows - 1) / most_rows;
+    const std::size_t most = std::min(most_rows, in.most_near), row_stride = (rows + most - 1) / most;
     const auto row_of = [&](std::size_t r) {
         const std::size_t y = lo[1] + r % rows_y, z = lo[2] + r / rows_y;
         return (z * lattice.cells[1] + y) * lattice.cells[0];
