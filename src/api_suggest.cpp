@@ -87,7 +87,7 @@ public:
           activity_(std::move(known.activity)) {
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
-        const std::size_t samples = std::clamp<std::size_t>(tets / 32, 128, 256);
+        const std::size_t samples = std::clamp<std::size_t>(tets / 48, 96, 256);
         const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
         geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
         effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles(tets) : quick(tets);

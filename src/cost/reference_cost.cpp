@@ -51,7 +51,7 @@ bool has_volume(const std::array<Corner, 4>& p) {
 Effort quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
     return {std::clamp<std::size_t>(t / 8, 512, 1u << 15),
-            {std::clamp<std::size_t>(t / 256, 64, 256), 256, std::clamp<std::size_t>(t / 64, 64, 256)},
+            {std::clamp<std::size_t>(t / 400, 64, 256), 128, std::clamp<std::size_t>(t / 256, 64, 192)},
             64,
             true};
 }
