@@ -162,8 +162,10 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 cost.profile().candidates() * weights.reference_test_tet;
             timings.push_back(
                 {time,
-                 {fixed, static_cast<double>(counters.visited_cells),
-                  static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
+                 {fixed, static_cast<double>(counters.visited_cells) * cost.visit_factor(cell_size),
+                  static_cast<double>(counters.visited_entries) +
+                      ReferenceCost::fetch_factor * cost.profile().fetched(cell_size),
+                  cost.profile().tested(cell_size)}});
         }
     }
     const std::array<double, unknowns> x =

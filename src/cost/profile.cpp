@@ -181,6 +181,7 @@ void Profile::add(const Lookup& lookup, double weight) {
     const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
                          lookup.hi[2] - lookup.lo[2]};
     c.count += weight;
+    if (lookup.jumps) c.jumped += weight;
     c.added += 1;
     c.cells.add(cells_met(w), weight);
     c.rows.add(rows_met(w), weight);
@@ -285,6 +286,11 @@ double Profile::read(double cell_size) const noexcept {
 double Profile::tested(double cell_size) const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.tested.at(cell_size);
+    return sum;
+}
+double Profile::fetched(double cell_size) const noexcept {
+    double sum = 0;
+    for (const SizeClass& c : classes_) sum += c.passed.at(cell_size) * c.jumped / c.count;
     return sum;
 }
 double Profile::candidates() const noexcept {

@@ -68,6 +68,7 @@ struct Lookup {
     std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
     bool may_meet = true; // points that it tests may be near it: such lookups are sampled for themselves
+    bool jumps = false;   // it is away from the one before, so that what it meets was not looked at just now
 };
 
 // Lookups whose longest side is at least 2^exponent and less than twice that, and that may meet something, or
@@ -78,6 +79,7 @@ struct SizeClass {
     int exponent;
     bool may_meet;
     double count = 0;        // of lookups
+    double jumped = 0;       // of them, those that jump
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
@@ -110,6 +112,7 @@ public:
     double rows(double cell_size) const noexcept;
     double read(double cell_size) const noexcept;
     double tested(double cell_size) const noexcept;
+    double fetched(double cell_size) const noexcept;  // passed points of lookups that jump
     double candidates() const noexcept;               // tested points that are in the boxes themselves
     double occupied(double cell_size) const noexcept; // cells with a point in them, in all the world, about
     // Sides of lookups that have any, to within a factor of two; false: none has.

@@ -35,6 +35,13 @@ struct Corner {
     double c[3];
 };
 
+// A second-level cache, less what passes through it: positions, boxes, tetrahedra.
+constexpr double cache_bytes = 512 << 10;
+// A visit beyond it costs so much more, in parts of one: fitted, as the weights are.
+constexpr double far_visit = 0.3;
+// Of the engine's tables: a bucket's head, an occupied cell, a particle.
+constexpr double bucket_bytes = 4, cell_bytes = 24, particle_bytes = 16;
+
 // A flat one holds nothing, and the engine gives it no box.
 bool has_volume(const std::array<Corner, 4>& p) {
     double e[3][3];
@@ -44,6 +51,21 @@ bool has_volume(const std::array<Corner, 4>& p) {
                e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
                e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) !=
            0;
+}
+
+// From the box of the tetrahedron before.
+bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
+    if (tet == 0) return true;
+    bool below[3] = {true, true, true}, above[3] = {true, true, true};
+    for (const std::uint32_t v : body.tets[tet - 1].v) {
+        const Vec3f p = body.positions[v];
+        const double x[3] = {p.x, p.y, p.z};
+        for (int a = 0; a < 3; ++a) {
+            below[a] = below[a] && x[a] < box.lo[a];
+            above[a] = above[a] && x[a] > box.hi[a];
+        }
+    }
+    return below[0] || below[1] || below[2] || above[0] || above[1] || above[2];
 }
 
 } // namespace
@@ -115,6 +137,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
+            lookup.jumps = is_apart(body, t, lookup);
             // Also through cells as large as it is itself.
             const double margin = std::max(
                 {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]});
@@ -172,6 +195,16 @@ double ReferenceCost::occupied(double cell_size) const noexcept {
     return std::min(profile_.occupied(cell_size), vertices_);
 }
 
+double ReferenceCost::share_beyond(double cell_size) const noexcept {
+    const double bytes =
+        buckets(cell_size) * bucket_bytes + occupied(cell_size) * cell_bytes + vertices_ * particle_bytes;
+    return std::max(1 - cache_bytes / bytes, 0.0);
+}
+
+double ReferenceCost::visit_factor(double cell_size) const noexcept {
+    return 1 + far_visit * share_beyond(cell_size);
+}
+
 // A box that meets more cells than are occupied goes through those instead.
 ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
     const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
@@ -190,8 +223,11 @@ CostTerms ReferenceCost::terms(double cell_size) const {
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
     terms.add("visit a cell", cells.visited, weights_.reference_visit_cell);
+    terms.add("go far for a cell", cells.visited * share_beyond(cell_size),
+              far_visit * weights_.reference_visit_cell);
     terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
     terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
+    terms.add("fetch a vertex", profile_.fetched(cell_size), fetch_factor * weights_.reference_read_vertex);
     terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
     terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
@@ -205,9 +241,10 @@ double ReferenceCost::of_grid(double cell_size) const noexcept {
 
 double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
     const Visits cells = visits(c, cell_size, occupied);
-    const double tested = c.tested.at(cell_size);
-    return cells.visited * weights_.reference_visit_cell + cells.scanned * weights_.reference_scan_cell +
-           (c.passed.at(cell_size) + tested) * weights_.reference_read_vertex +
+    const double tested = c.tested.at(cell_size), passed = c.passed.at(cell_size);
+    return cells.visited * visit_factor(cell_size) * weights_.reference_visit_cell +
+           cells.scanned * weights_.reference_scan_cell +
+           (passed + tested + fetch_factor * passed * c.jumped / c.count) * weights_.reference_read_vertex +
            tested * weights_.reference_test_box;
 }
 

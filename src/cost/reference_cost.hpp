@@ -3,7 +3,9 @@
 //   T(d) = c_bin n                        classify every vertex
 //        + c_prepare m                    box of every tetrahedron
 //        + c_visit sum over tets of the cells their boxes meet
+//        + c_far   those visits that find their bucket and cell beyond the caches
 //        + c_read  sum over tets of the vertices in these cells
+//        + c_fetch those of them that are only passed over, and that no tetrahedron just before has read
 //        + c_box   those of them that are another body's, or any where the body collides with itself
 //        + c_tet   those of them that are in the box, corners of the tet itself included: independent of d
 //        + c_scan  occupied cells gone through, for boxes that meet more cells than are occupied
@@ -53,12 +55,18 @@ public:
     double shared() const noexcept;
     double occupied(double cell_size) const noexcept;
 
+    // In parts of the weights: how much dearer a visit is, the farther ones beyond the caches ...
+    double visit_factor(double cell_size) const noexcept;
+    // ... and what fetching a vertex costs beside reading it.
+    static constexpr double fetch_factor = 0.65;
+
 private:
     struct Visits {
         double visited, scanned;
     };
     static Visits visits(const SizeClass& c, double cell_size, double occupied) noexcept;
     double buckets(double cell_size) const noexcept;
+    double share_beyond(double cell_size) const noexcept; // of what is looked at at random, beyond the caches
 
     Profile profile_;
     vox_cost_weights weights_;

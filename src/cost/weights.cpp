@@ -49,11 +49,11 @@ vox_cost_weights shipped_weights() noexcept {
     weights.struct_size = sizeof weights;
     weights.measured = 0;
     weights.reference_classify_vertex = 30;
-    weights.reference_prepare_tet = 40;
-    weights.reference_visit_cell = 10;
+    weights.reference_prepare_tet = 15;
+    weights.reference_visit_cell = 13;
     weights.reference_scan_cell = 1.3;
     weights.reference_read_vertex = 1.5;
-    weights.reference_test_box = 0.35;
+    weights.reference_test_box = 0.8;
     weights.reference_test_tet = 25;
     weights.reference_clear_bucket = 0.2;
     weights.fast_bin_vertex = 5;
