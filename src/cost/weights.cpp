@@ -53,7 +53,7 @@ vox_cost_weights shipped_weights() noexcept {
     weights.reference_visit_cell = 13;
     weights.reference_scan_cell = 1.3;
     weights.reference_read_vertex = 1.5;
-    weights.reference_test_box = 0.8;
+    weights.reference_test_box = 1.1;
     weights.reference_test_tet = 25;
     weights.reference_clear_bucket = 0.2;
     weights.fast_bin_vertex = 5;
