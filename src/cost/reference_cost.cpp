@@ -37,8 +37,9 @@ struct Corner {
 
 // A second-level cache, less what passes through it: positions, boxes, tetrahedra.
 constexpr double cache_bytes = 512 << 10;
-// A visit beyond it costs so much more, in parts of one: fitted, as the weights are.
-constexpr double far_visit = 0.3;
+// What a visit beyond it costs more, and what a cell with vertices costs more than an empty one, in visits:
+// fitted, as the weights are.
+constexpr double far_visit = 0.8, open_cell = 1.6;
 // Of the engine's tables: a bucket's head, an occupied cell, a particle.
 constexpr double bucket_bytes = 4, cell_bytes = 24, particle_bytes = 16;
 
@@ -201,33 +202,50 @@ double ReferenceCost::share_beyond(double cell_size) const noexcept {
     return std::max(1 - cache_bytes / bytes, 0.0);
 }
 
-double ReferenceCost::visit_factor(double cell_size) const noexcept {
-    return 1 + far_visit * share_beyond(cell_size);
+double ReferenceCost::fetch_factor(double cell_size) const noexcept {
+    return 0.9 * (1 + share_beyond(cell_size));
 }
 
-// A box that meets more cells than are occupied goes through those instead.
+double ReferenceCost::Visits::units(double share_beyond) const noexcept {
+    return visited * (1 + far_visit * share_beyond) + opened * open_cell;
+}
+
+double ReferenceCost::visit_units(double cell_size) const noexcept {
+    const double occupied_cells = occupied(cell_size), beyond = share_beyond(cell_size);
+    double sum = 0;
+    for (const SizeClass& c : profile_.classes()) sum += visits(c, cell_size, occupied_cells).units(beyond);
+    return sum;
+}
+
+// A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex,
+// as if these were thrown in at random (Poisson).
 ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
     const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
-    return cells > scanned ? Visits{0, scanned} : Visits{cells, 0};
+    if (cells > scanned) return {0, scanned, 0};
+    const double read = c.passed.at(cell_size) + c.tested.at(cell_size);
+    return {cells, 0, cells * -std::expm1(-read / cells)};
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
     const double occupied_cells = occupied(cell_size);
-    Visits cells{0, 0};
+    Visits cells{0, 0, 0};
     for (const SizeClass& c : profile_.classes()) {
         const Visits own = visits(c, cell_size, occupied_cells);
         cells.visited += own.visited;
         cells.scanned += own.scanned;
+        cells.opened += own.opened;
     }
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
     terms.add("visit a cell", cells.visited, weights_.reference_visit_cell);
+    terms.add("open a cell's list", cells.opened, open_cell * weights_.reference_visit_cell);
     terms.add("go far for a cell", cells.visited * share_beyond(cell_size),
               far_visit * weights_.reference_visit_cell);
     terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
     terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
-    terms.add("fetch a vertex", profile_.fetched(cell_size), fetch_factor * weights_.reference_read_vertex);
+    terms.add("fetch a vertex", profile_.fetched(cell_size),
+              fetch_factor(cell_size) * weights_.reference_read_vertex);
     terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
     terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
@@ -242,9 +260,10 @@ double ReferenceCost::of_grid(double cell_size) const noexcept {
 double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
     const Visits cells = visits(c, cell_size, occupied);
     const double tested = c.tested.at(cell_size), passed = c.passed.at(cell_size);
-    return cells.visited * visit_factor(cell_size) * weights_.reference_visit_cell +
+    return cells.units(share_beyond(cell_size)) * weights_.reference_visit_cell +
            cells.scanned * weights_.reference_scan_cell +
-           (passed + tested + fetch_factor * passed * c.jumped / c.count) * weights_.reference_read_vertex +
+           (passed + tested + fetch_factor(cell_size) * passed * c.jumped / c.count) *
+               weights_.reference_read_vertex +
            tested * weights_.reference_test_box;
 }
 

@@ -3,6 +3,7 @@
 //   T(d) = c_bin n                        classify every vertex
 //        + c_prepare m                    box of every tetrahedron
 //        + c_visit sum over tets of the cells their boxes meet
+//        + c_open  those of them that hold a vertex: a list to go to, and to come back from
 //        + c_far   those visits that find their bucket and cell beyond the caches
 //        + c_read  sum over tets of the vertices in these cells
 //        + c_fetch those of them that are only passed over, and that no tetrahedron just before has read
@@ -55,14 +56,16 @@ public:
     double shared() const noexcept;
     double occupied(double cell_size) const noexcept;
 
-    // In parts of the weights: how much dearer a visit is, the farther ones beyond the caches ...
-    double visit_factor(double cell_size) const noexcept;
+    // In parts of the weights: all that visits cost, in visits of empty cells nearby, ...
+    double visit_units(double cell_size) const noexcept;
     // ... and what fetching a vertex costs beside reading it.
-    static constexpr double fetch_factor = 0.65;
+    double fetch_factor(double cell_size) const noexcept;
 
 private:
     struct Visits {
-        double visited, scanned;
+        double visited, scanned, opened;
+
+        double units(double share_beyond) const noexcept;
     };
     static Visits visits(const SizeClass& c, double cell_size, double occupied) noexcept;
     double buckets(double cell_size) const noexcept;

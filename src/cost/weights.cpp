@@ -50,7 +50,7 @@ vox_cost_weights shipped_weights() noexcept {
     weights.measured = 0;
     weights.reference_classify_vertex = 30;
     weights.reference_prepare_tet = 15;
-    weights.reference_visit_cell = 13;
+    weights.reference_visit_cell = 5;
     weights.reference_scan_cell = 1.3;
     weights.reference_read_vertex = 1.5;
     weights.reference_test_box = 1.1;
