@@ -161,9 +161,7 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 tets * weights.reference_prepare_tet +
                 cost.profile().candidates() * weights.reference_test_tet;
             timings.push_back({time,
-                               {fixed, cost.visit_units(cell_size),
-                                static_cast<double>(counters.visited_entries) +
-                                    cost.fetch_factor(cell_size) * cost.profile().fetched(cell_size),
+                               {fixed, cost.visit_units(cell_size), cost.read_units(cell_size),
                                 cost.profile().tested(cell_size)}});
         }
     }

@@ -28,8 +28,9 @@ double CostTable::size(int node) const noexcept { return range_.min * std::exp2(
 
 double CostTable::value(int node) {
     double& known = values_[static_cast<std::size_t>(node + margin)];
-    if (std::isnan(known)) known = std::log2(cost_(size(node)));
-    return known;
+    if (!std::isnan(known)) return known;
+    const double cost = cost_(size(node));
+    return known = std::isfinite(cost) ? std::log2(cost) : std::numeric_limits<double>::infinity();
 }
 
 double CostTable::operator()(double cell_size) {

@@ -288,11 +288,6 @@ double Profile::tested(double cell_size) const noexcept {
     for (const SizeClass& c : classes_) sum += c.tested.at(cell_size);
     return sum;
 }
-double Profile::fetched(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.passed.at(cell_size) * c.jumped / c.count;
-    return sum;
-}
 double Profile::candidates() const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.tested.inside();

@@ -112,7 +112,6 @@ public:
     double rows(double cell_size) const noexcept;
     double read(double cell_size) const noexcept;
     double tested(double cell_size) const noexcept;
-    double fetched(double cell_size) const noexcept;  // passed points of lookups that jump
     double candidates() const noexcept;               // tested points that are in the boxes themselves
     double occupied(double cell_size) const noexcept; // cells with a point in them, in all the world, about
     // Sides of lookups that have any, to within a factor of two; false: none has.

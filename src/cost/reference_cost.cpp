@@ -37,9 +37,9 @@ struct Corner {
 
 // A second-level cache, less what passes through it: positions, boxes, tetrahedra.
 constexpr double cache_bytes = 512 << 10;
-// What a visit beyond it costs more, and what a cell with vertices costs more than an empty one, in visits:
-// fitted, as the weights are.
-constexpr double far_visit = 0.8, open_cell = 1.6;
+// What a visit beyond it costs more, and what a cell with vertices costs more than an empty one, in visits;
+// and what fetching a vertex costs beside reading it, in readings. Fitted, as the weights are.
+constexpr double far_visit = 0.8, open_cell = 1.6, fetch = 0.9;
 // Of the engine's tables: a bucket's head, an occupied cell, a particle.
 constexpr double bucket_bytes = 4, cell_bytes = 24, particle_bytes = 16;
 
@@ -196,57 +196,70 @@ double ReferenceCost::occupied(double cell_size) const noexcept {
     return std::min(profile_.occupied(cell_size), vertices_);
 }
 
-double ReferenceCost::share_beyond(double cell_size) const noexcept {
+// Of what is looked at at random, the part beyond the caches.
+double ReferenceCost::share_beyond(double cell_size, double occupied) const noexcept {
     const double bytes =
-        buckets(cell_size) * bucket_bytes + occupied(cell_size) * cell_bytes + vertices_ * particle_bytes;
+        buckets(cell_size) * bucket_bytes + occupied * cell_bytes + vertices_ * particle_bytes;
     return std::max(1 - cache_bytes / bytes, 0.0);
 }
 
-double ReferenceCost::fetch_factor(double cell_size) const noexcept {
-    return 0.9 * (1 + share_beyond(cell_size));
-}
-
-double ReferenceCost::Visits::units(double share_beyond) const noexcept {
-    return visited * (1 + far_visit * share_beyond) + opened * open_cell;
-}
-
-double ReferenceCost::visit_units(double cell_size) const noexcept {
-    const double occupied_cells = occupied(cell_size), beyond = share_beyond(cell_size);
-    double sum = 0;
-    for (const SizeClass& c : profile_.classes()) sum += visits(c, cell_size, occupied_cells).units(beyond);
-    return sum;
-}
+double ReferenceCost::fetch_factor(double share_beyond) noexcept { return fetch * (1 + share_beyond); }
 
 // A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex,
 // as if these were thrown in at random (Poisson).
-ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
-    const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
-    if (cells > scanned) return {0, scanned, 0};
-    const double read = c.passed.at(cell_size) + c.tested.at(cell_size);
-    return {cells, 0, cells * -std::expm1(-read / cells)};
+ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, double occupied) noexcept {
+    Work work;
+    const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
+    work.tested = c.tested.at(cell_size);
+    work.read = passed + work.tested;
+    work.fetched = passed * c.jumped / c.count;
+    if (cells > scanned) {
+        work.scanned = scanned;
+    } else {
+        work.visited = cells;
+        work.opened = cells * -std::expm1(-work.read / cells);
+    }
+    return work;
+}
+
+ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
+    const double occupied_cells = occupied(cell_size);
+    Work sum;
+    for (const SizeClass& c : profile_.classes()) {
+        const Work own = work(c, cell_size, occupied_cells);
+        sum.visited += own.visited;
+        sum.opened += own.opened;
+        sum.scanned += own.scanned;
+        sum.read += own.read;
+        sum.fetched += own.fetched;
+        sum.tested += own.tested;
+    }
+    return sum;
+}
+
+double ReferenceCost::visit_units(double cell_size) const noexcept {
+    const Work w = work(cell_size);
+    return w.visited * (1 + far_visit * share_beyond(cell_size, occupied(cell_size))) + w.opened * open_cell;
+}
+
+double ReferenceCost::read_units(double cell_size) const noexcept {
+    const Work w = work(cell_size);
+    return w.read + w.fetched * fetch_factor(share_beyond(cell_size, occupied(cell_size)));
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
-    const double occupied_cells = occupied(cell_size);
-    Visits cells{0, 0, 0};
-    for (const SizeClass& c : profile_.classes()) {
-        const Visits own = visits(c, cell_size, occupied_cells);
-        cells.visited += own.visited;
-        cells.scanned += own.scanned;
-        cells.opened += own.opened;
-    }
+    const Work w = work(cell_size);
+    const double beyond = share_beyond(cell_size, occupied(cell_size));
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
-    terms.add("visit a cell", cells.visited, weights_.reference_visit_cell);
-    terms.add("open a cell's list", cells.opened, open_cell * weights_.reference_visit_cell);
-    terms.add("go far for a cell", cells.visited * share_beyond(cell_size),
-              far_visit * weights_.reference_visit_cell);
-    terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
-    terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
-    terms.add("fetch a vertex", profile_.fetched(cell_size),
-              fetch_factor(cell_size) * weights_.reference_read_vertex);
-    terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
+    terms.add("visit a cell", w.visited, weights_.reference_visit_cell);
+    terms.add("open a cell's list", w.opened, open_cell * weights_.reference_visit_cell);
+    terms.add("go far for a cell", w.visited * beyond, far_visit * weights_.reference_visit_cell);
+    terms.add("scan an occupied cell", w.scanned, weights_.reference_scan_cell);
+    terms.add("read a vertex", w.read, weights_.reference_read_vertex);
+    terms.add("fetch a vertex", w.fetched, fetch_factor(beyond) * weights_.reference_read_vertex);
+    terms.add("test a box", w.tested, weights_.reference_test_box);
     terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
     return terms;
@@ -258,13 +271,12 @@ double ReferenceCost::of_grid(double cell_size) const noexcept {
 }
 
 double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
-    const Visits cells = visits(c, cell_size, occupied);
-    const double tested = c.tested.at(cell_size), passed = c.passed.at(cell_size);
-    return cells.units(share_beyond(cell_size)) * weights_.reference_visit_cell +
-           cells.scanned * weights_.reference_scan_cell +
-           (passed + tested + fetch_factor(cell_size) * passed * c.jumped / c.count) *
-               weights_.reference_read_vertex +
-           tested * weights_.reference_test_box;
+    const Work w = work(c, cell_size, occupied);
+    const double beyond = share_beyond(cell_size, occupied);
+    return (w.visited * (1 + far_visit * beyond) + w.opened * open_cell) * weights_.reference_visit_cell +
+           w.scanned * weights_.reference_scan_cell +
+           (w.read + w.fetched * fetch_factor(beyond)) * weights_.reference_read_vertex +
+           w.tested * weights_.reference_test_box;
 }
 
 double ReferenceCost::shared() const noexcept {

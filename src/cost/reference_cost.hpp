@@ -56,20 +56,22 @@ public:
     double shared() const noexcept;
     double occupied(double cell_size) const noexcept;
 
-    // In parts of the weights: all that visits cost, in visits of empty cells nearby, ...
+    // All that visits cost, in visits of empty cells nearby, and all that reading costs, in readings of
+    // vertices at hand.
     double visit_units(double cell_size) const noexcept;
-    // ... and what fetching a vertex costs beside reading it.
-    double fetch_factor(double cell_size) const noexcept;
+    double read_units(double cell_size) const noexcept;
 
 private:
-    struct Visits {
-        double visited, scanned, opened;
-
-        double units(double share_beyond) const noexcept;
+    // How often each piece is done that depends on the cell size.
+    struct Work {
+        double visited = 0, opened = 0, scanned = 0; // cells
+        double read = 0, fetched = 0, tested = 0;    // vertices
     };
-    static Visits visits(const SizeClass& c, double cell_size, double occupied) noexcept;
+    static Work work(const SizeClass& c, double cell_size, double occupied) noexcept;
+    Work work(double cell_size) const noexcept;
+    static double fetch_factor(double share_beyond) noexcept;
+    double share_beyond(double cell_size, double occupied) const noexcept;
     double buckets(double cell_size) const noexcept;
-    double share_beyond(double cell_size) const noexcept; // of what is looked at at random, beyond the caches
 
     Profile profile_;
     vox_cost_weights weights_;
