@@ -205,8 +205,9 @@ double ReferenceCost::share_beyond(double cell_size, double occupied) const noex
 
 double ReferenceCost::fetch_factor(double share_beyond) noexcept { return fetch * (1 + share_beyond); }
 
-// A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex,
-// as if these were thrown in at random (Poisson).
+// A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex:
+// m of them in a cell leave exp(-m) of the cells empty where they lie at random (Poisson), and fewer where
+// they keep apart, as in a mesh: the square fits lattices and what generators write.
 ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, double occupied) noexcept {
     Work work;
     const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
@@ -217,7 +218,8 @@ ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, do
         work.scanned = scanned;
     } else {
         work.visited = cells;
-        work.opened = cells * -std::expm1(-work.read / cells);
+        const double m = work.read / cells;
+        work.opened = cells * -std::expm1(-m * (1 + m / 2));
     }
     return work;
 }
