@@ -3,32 +3,9 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "random.h"
 #include "suite.h"
-
-/* ---- memory that is counted and may fail ---- */
-
-typedef struct ledger {
-    uint64_t bytes, calls, fail_at;
-    uint64_t taken; /* bytes, all that were ever taken */
-} ledger;
-
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    l->taken += size;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
 
 static vox_grid* make_grid(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();
@@ -37,9 +14,7 @@ static vox_grid* make_grid(ledger* l) {
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     if (l) {
         memset(l, 0, sizeof *l);
-        desc.allocator.allocate = ledger_allocate;
-        desc.allocator.release = ledger_release;
-        desc.allocator.user = l;
+        desc.allocator = ledger_allocator(l);
     }
     ck_ok(vox_grid_create(&desc, &grid));
     return grid;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "oracle.h"
 #include "random.h"
 #include "suite.h"
@@ -484,33 +485,20 @@ END_TEST
 
 /* ---- memory and arguments --------------------------------------------------------------------- */
 
-static void* counted_allocate(size_t size, size_t alignment, void* user) {
-    uint64_t* calls = (uint64_t*)user; /* how many there were, and the one that fails */
-    void* memory = NULL;
-    if (++calls[0] == calls[1]) return NULL;
-    return posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) ? NULL : memory;
-}
-
-static void counted_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)size, (void)alignment, (void)user;
-    free(memory);
-}
-
-static vox_grid* counted_grid(uint64_t* calls) {
+static vox_grid* counted_grid(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* grid = NULL;
     desc.engine = suite_engine;
     desc.flags = 0;
-    desc.allocator.allocate = counted_allocate;
-    desc.allocator.release = counted_release;
-    desc.allocator.user = calls;
+    desc.allocator = ledger_allocator(l);
     ck_ok(vox_grid_create(&desc, &grid));
     return grid;
 }
 
 START_TEST(steps_with_filters_allocate_nothing) {
-    uint64_t calls[2] = {0, 0}, random = 9;
-    vox_grid* grid = counted_grid(calls);
+    ledger l = {0};
+    uint64_t random = 9;
+    vox_grid* grid = counted_grid(&l);
     shape s = crumpled(4, 0, &random);
     body others[3] = {make_box(3, 1, 0, 0, 0), make_box(3, 1, 0.5f, 0.5f, 0.5f), make_box(3, 1, 1, 1, 1)};
     vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count);
@@ -532,12 +520,12 @@ START_TEST(steps_with_filters_allocate_nothing) {
     ck_ok(vox_grid_set_pair_enabled(grid, meshes[1], meshes[2], 0));
     uint64_t before = 0;
     for (int frame = 0; frame < 12; ++frame) {
-        if (frame == 4) before = calls[0];
+        if (frame == 4) before = l.calls;
         for (uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.positions[i] *= frame % 2 ? 0.5f : 2;
         ck_assert_uint_gt(stepped(grid).count, 0);
         ck_assert_uint_gt(counters_of(grid).filtered, 0);
     }
-    ck_assert_uint_eq(calls[0], before);
+    ck_assert_uint_eq(l.calls, before);
     vox_grid_destroy(grid);
     free_shape(&s);
     for (int i = 0; i < 3; ++i) free_body(&others[i]);
@@ -546,11 +534,12 @@ END_TEST
 
 /* Out of memory at every call: nothing has changed then. */
 START_TEST(failing_filters_change_nothing) {
-    uint64_t calls[2] = {0, 0}, random = 2;
+    ledger l = {0}, fresh_l = {0};
+    uint64_t random = 2;
     shape s = crumpled(2, 1, &random);
     body box = make_box(2, 1, 0, 0, 0);
     const vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count), other = body_desc(&box);
-    vox_grid* grid = counted_grid(calls);
+    vox_grid* grid = counted_grid(&l);
     const vox_mesh mesh = insert(grid, &desc), second = insert(grid, &other);
     const uint64_t count = stepped(grid).count;
     vox_filter filter = vox_default_filter();
@@ -559,9 +548,9 @@ START_TEST(failing_filters_change_nothing) {
     filter.self_rest_distance = 1;
     uint64_t failures = 0;
     for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK; ++failures) {
-        calls[1] = calls[0] + 1 + failures;
+        l.fail_at = l.calls + 1 + failures;
         result = vox_mesh_set_filter(grid, mesh, &filter);
-        calls[1] = 0;
+        l.fail_at = 0;
         if (result == VOX_OK) break;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
         ck_assert_uint_eq(filter_of(grid, mesh).self_collision, 0);
@@ -571,8 +560,7 @@ START_TEST(failing_filters_change_nothing) {
     const uint64_t filtered = stepped(grid).count;
 
     /* Nor has a rest pose been taken: here every failing call sees another one, in which all is close to all. */
-    uint64_t fresh_calls[2] = {0, 0};
-    vox_grid* fresh = counted_grid(fresh_calls);
+    vox_grid* fresh = counted_grid(&fresh_l);
     const size_t bytes = 3 * sizeof(float) * s.vertex_count;
     float* kept = (float*)malloc(bytes);
     memcpy(kept, s.positions, bytes);
@@ -581,20 +569,20 @@ START_TEST(failing_filters_change_nothing) {
     ck_ok(vox_grid_step(fresh));
     memset(s.positions, 0, bytes);
     for (uint64_t failure = 1; failure <= failures; ++failure) {
-        fresh_calls[1] = fresh_calls[0] + failure;
+        fresh_l.fail_at = fresh_l.calls + failure;
         ck_assert_int_eq(vox_mesh_set_filter(fresh, again, &filter), VOX_ERROR_OUT_OF_MEMORY);
     }
     memcpy(s.positions, kept, bytes);
-    fresh_calls[1] = 0;
+    fresh_l.fail_at = 0;
     ck_ok(vox_mesh_set_filter(fresh, again, &filter));
     ck_assert_uint_eq(stepped(fresh).count, filtered);
     vox_grid_destroy(fresh);
     free(kept);
     for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK;) {
         static uint64_t at = 0;
-        calls[1] = calls[0] + ++at;
+        l.fail_at = l.calls + ++at;
         result = vox_grid_set_pair_enabled(grid, mesh, second, 0);
-        calls[1] = 0;
+        l.fail_at = 0;
         const uint64_t between = contacts_between(stepped(grid), mesh, second);
         ck_assert_int_eq(between == 0, result == VOX_OK);
     }

@@ -1,5 +1,6 @@
 /* The life of readings: what is gone by the time they are asked for, copies of a part of them, errors,
  * memory. */
+#include "ledger.h"
 #include "reading_checks.h"
 
 /* ---- what is gone, and what there never was ---- */
@@ -259,29 +260,9 @@ START_TEST(changed_positions) {
 }
 END_TEST
 
-typedef struct heap {
-    uint64_t calls, fail_at, live;
-} heap;
-
-static void* take(size_t size, size_t alignment, void* user) {
-    heap* h = (heap*)user;
-    void* memory = NULL;
-    if (++h->calls == h->fail_at ||
-        posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) != 0)
-        return NULL;
-    ++h->live;
-    return memory;
-}
-static void give(void* memory, size_t size, size_t alignment, void* user) {
-    (void)size;
-    (void)alignment;
-    --((heap*)user)->live;
-    free(memory);
-}
-
 START_TEST(memory) {
     world w;
-    heap h = {0, 0, 0};
+    ledger l = {0};
     memset(&w, 0, sizeof w);
     two_in_each_other(&w, 2, 0);
     vox_grid_destroy(w.grid);
@@ -291,15 +272,13 @@ START_TEST(memory) {
         desc.engine = suite_engine;
         desc.flags = 0; /* so that the surfaces are made here, too */
         desc.worker_count = 3;
-        desc.allocator.allocate = take;
-        desc.allocator.release = give;
-        desc.allocator.user = &h;
-        h.fail_at = 0;
+        desc.allocator = ledger_allocator(&l);
+        l.fail_at = 0;
         ck_ok(vox_grid_create(&desc, &w.grid));
         insert(&w, w.grid);
         ck_ok(vox_grid_step(w.grid));
-        h.calls = 0;
-        h.fail_at = failures + 1;
+        l.calls = 0;
+        l.fail_at = failures + 1;
         const vox_result result = vox_grid_prepare_readings(w.grid);
         done = result == VOX_OK;
         if (!done) {
@@ -308,16 +287,16 @@ START_TEST(memory) {
             ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
             ck_fails(vox_grid_readings(w.grid, &view), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
         }
-        h.fail_at = 0;
+        l.fail_at = 0;
         ck_assert_uint_ge(check_readings(&w, 0), 4);
         /* Again, and after another step: no memory any more. */
         ck_ok(vox_grid_step(w.grid));
-        h.calls = 0;
+        l.calls = 0;
         ck_ok(vox_grid_prepare_readings(w.grid));
         ck_ok(vox_grid_prepare_readings(w.grid));
-        ck_assert_uint_eq(h.calls, 0);
+        ck_assert_uint_eq(l.calls, 0);
         vox_grid_destroy(w.grid);
-        ck_assert_uint_eq(h.live, 0);
+        ck_assert_uint_eq(l.bytes, 0);
     }
     ck_assert_uint_gt(failures, 5);
     w.grid = NULL;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "suite.h"
 
 /* ---- bytes ---- */
@@ -608,32 +609,9 @@ END_TEST
 
 /* ---- memory ---- */
 
-typedef struct ledger {
-    uint64_t bytes, peak, calls, fail_at;
-} ledger;
-
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    if (l->bytes > l->peak) l->peak = l->bytes;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
-
 static vox_grid_desc ledger_desc(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.allocator.allocate = ledger_allocate;
-    desc.allocator.release = ledger_release;
-    desc.allocator.user = l;
+    desc.allocator = ledger_allocator(l);
     return desc;
 }
 
@@ -642,7 +620,7 @@ START_TEST(allocation_n_fails) {
     make_scene(&s, suite_engine, 0);
     const file f = save(s.grid);
     ck_ok(vox_grid_step(s.grid));
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     const vox_grid_desc desc = ledger_desc(&l);
     vox_grid* grid = NULL;
     uint64_t n = 0;
@@ -683,7 +661,7 @@ START_TEST(every_word_turned_hostile) {
         if (at == 12) continue; /* the checksum */
         const uint64_t old = get(f.bytes + at, 4);
         for (size_t v = 0; v < sizeof values / sizeof *values; ++v) {
-            ledger l = {0, 0, 0, 0};
+            ledger l = {0};
             const vox_grid_desc desc = ledger_desc(&l);
             vox_grid* grid = NULL;
             put(f.bytes + at, 4, values[v]);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "random.h"
 #include "suite.h"
 
@@ -19,10 +20,6 @@ enum {
 };
 
 /* ---- the model ---- */
-
-typedef struct ledger {
-    uint64_t bytes, calls, fail_at;
-} ledger;
 
 /* A mesh that is in both grids. */
 typedef struct member {
@@ -83,29 +80,11 @@ static uint64_t soak_seed = 1;
 
 static uint32_t below(soak* s, uint32_t count) { return random_below(&s->random, count); }
 
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
-
 static vox_grid_desc grid_desc(soak* s, int g) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = g == 0 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
-    desc.allocator.allocate = ledger_allocate;
-    desc.allocator.release = ledger_release;
-    desc.allocator.user = &s->ledgers[g];
+    desc.allocator = ledger_allocator(&s->ledgers[g]);
     return desc;
 }
 
