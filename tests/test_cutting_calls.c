@@ -13,13 +13,6 @@ static vox_grid* make_grid(void) {
     return grid;
 }
 
-static uint64_t hash_of_step(vox_grid* grid) {
-    uint64_t hash = 0;
-    ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
-    return hash;
-}
-
 static vox_counters counters_of(const vox_grid* grid) {
     vox_counters counters = {.struct_size = sizeof counters};
     ck_ok(vox_grid_counters(grid, &counters));

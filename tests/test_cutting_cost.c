@@ -20,13 +20,6 @@ static vox_grid* make_grid(ledger* l) {
     return grid;
 }
 
-static uint64_t hash_of_step(vox_grid* grid) {
-    uint64_t hash = 0;
-    ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
-    return hash;
-}
-
 /* ---- edits ---- */
 
 enum { edit_kinds = 8 };
