@@ -686,12 +686,13 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 /* Which parts of a vox_reading there are; what belongs to others is all zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* not of a vertex that is gone by now, with its mesh or from it */
-    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b or the tetrahedron is gone or mesh_b has no surface */
+    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b is gone or has no surface, or all of its tetrahedra that held
+                                 the vertex are gone or off */
     VOX_READING_DEPTH = 4,    /* not of grids without VOX_GRID_PENETRATIONS */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_reading_flags;
 
-/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same, the first two fields aside.
+/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same but for the first field.
  * The surface of mesh_b, the facets of exactly one of its tetrahedra, doubled ones taken once, is looked at from the
  * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally
  * far the one with the lowest corners, compared in ascending order. For self-contact it is one of the fold that the
