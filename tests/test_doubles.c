@@ -163,8 +163,8 @@ START_TEST(exact_for_the_doubles_given) {
             vox_mesh ids[3];
             for (uint32_t m = 0; m < count; ++m) {
                 solids[m] = make_solid(1 + random_below(&state, 3));
-                place(&solids[m], &kinds[i], random_double(-1, 1), random_double(-1, 1),
-                      random_double(-1, 1));
+                const double x = random_double(-1, 1), y = random_double(-1, 1), z = random_double(-1, 1);
+                place(&solids[m], &kinds[i], x, y, z);
                 write_solid(&solids[m], VOX_FORMAT_DOUBLE3, 24 + random_below(&state, 3) * 4);
                 ids[m] = insert(grid, &solids[m], VOX_MESH_SELF_COLLISION);
             }
@@ -193,7 +193,8 @@ START_TEST(floats_and_doubles_in_one_grid) {
         vox_mesh ids[3];
         for (uint32_t m = 0; m < 3; ++m) {
             solids[m] = make_solid(1 + random_below(&state, 3));
-            place(&solids[m], scene % 2 ? &far : &here, random_double(-1, 1), random_double(-1, 1), 0);
+            const double x = random_double(-1, 1), y = random_double(-1, 1);
+            place(&solids[m], scene % 2 ? &far : &here, x, y, 0);
             const int floats = m < 2 ? (int)m : (int)random_below(&state, 2);
             write_solid(&solids[m], floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3,
                         (floats ? 12 : 24) + random_below(&state, 3) * 4);

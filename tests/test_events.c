@@ -444,9 +444,11 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
             actors[i].mesh = 0;
         }
         break;
-    case 7:
-        ck_ok(vox_grid_reserve(grid, random_below(random, 20), random_below(random, 2000)));
+    case 7: {
+        const uint32_t meshes = random_below(random, 20), contacts = random_below(random, 2000);
+        ck_ok(vox_grid_reserve(grid, meshes, contacts));
         break;
+    }
     case 8: { /* a step that fails */
         if (!one->mesh) break;
         const float kept = one->shape.positions[0];

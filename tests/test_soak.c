@@ -370,7 +370,8 @@ static void nothing_left(soak* s, int g) {
 static void step_over_nan(soak* s) {
     if (s->count == 0) return;
     member* m = &s->members[below(s, s->count)];
-    float* coordinate = &m->positions[m->stride * below(s, m->shape.vertex_count) + below(s, 3)];
+    const uint32_t v = below(s, m->shape.vertex_count), axis = below(s, 3);
+    float* coordinate = &m->positions[m->stride * v + axis];
     const float old = *coordinate;
     if (!m->enabled) return;
     *coordinate = below(s, 2) ? NAN : INFINITY;
