@@ -93,8 +93,10 @@ START_TEST(tiles_hold_every_tet_once) {
     Mesh mesh = ball(5000);
     renumber(mesh, r);
     check_tiles(mesh, "a renumbered ball");
-    for (int i = 0; i < 30; ++i)
-        check_tiles(soup(r, 1 + r.below(300), r.below(600), 3, i % 2 != 0), "a soup");
+    for (int i = 0; i < 30; ++i) {
+        const std::uint32_t vertices = 1 + r.below(300), tets = r.below(600);
+        check_tiles(soup(r, vertices, tets, 3, i % 2 != 0), "a soup");
+    }
     Mesh star; // more than 64 tets around one vertex, more than 64 vertices among 64 tets
     star.positions.resize(301);
     for (std::uint32_t i = 0; i < 100; ++i) star.tets.push_back({{0, 3 * i + 1, 3 * i + 2, 3 * i + 3}});
@@ -437,7 +439,9 @@ START_TEST(windows_of_sparse_space) {
             Mesh one = block(4, 4, 4);
             jitter(one, 0.2, r);
             const double far = kind == 0 ? 1e6 : kind == 1 ? std::ldexp(4.0, clump) : kind == 2 ? 1e30 : 0;
-            move(one, 1, r.uniform(-far, far), kind == 2 ? 0 : r.uniform(-far, far), r.uniform(-far, far));
+            const double x = r.uniform(-far, far), y = kind == 2 ? 0 : r.uniform(-far, far),
+                         z = r.uniform(-far, far);
+            move(one, 1, x, y, z);
             append(mesh, one);
         }
         const std::size_t count = mesh.positions.size();
@@ -590,8 +594,8 @@ START_TEST(query_misses_nothing) {
         std::vector<Mesh> meshes;
         for (int i = 0; i < 3; ++i) {
             const bool snapped = round % 4 == 3;
-            Mesh mesh =
-                round % 2 ? soup(r, 40 + r.below(120), 30 + r.below(150), 3, snapped) : block(4, 4, 4);
+            const std::uint32_t vertices = 40 + r.below(120), tets = 30 + r.below(150);
+            Mesh mesh = round % 2 ? soup(r, vertices, tets, 3, snapped) : block(4, 4, 4);
             if (round % 2 == 0) {
                 jitter(mesh, round % 4 == 0 ? 0.2 : 0, r);
                 move(mesh, 1, i * 1.5 - 2, i * 0.5 - 2, -2);
