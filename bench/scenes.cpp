@@ -1,6 +1,7 @@
 #include "scenes.hpp"
 
 #include "bodies.hpp"
+#include "program.hpp"
 
 #include <vox/vox.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 namespace bench {
 namespace {
@@ -79,10 +79,6 @@ double bisect(double low, double high, double target, const std::function<double
         (f(middle) > target ? low : high) = middle;
     }
     return (low + high) / 2;
-}
-
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
 }
 
 // The distance, in [0, far], at which `share` of the tetrahedra of two bodies hold a vertex of the other one.

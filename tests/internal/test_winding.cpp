@@ -123,7 +123,10 @@ START_TEST(surface_of_good_meshes) {
         check_surface(mesh, "a block", true);
         jitter(mesh, 0.1, r);
         for (Tet& tet : mesh.tets)
-            if (r.below(2)) std::swap(tet.v[r.below(2)], tet.v[2 + r.below(2)]);
+            if (r.below(2)) {
+                const std::uint32_t one = r.below(2), other = 2 + r.below(2);
+                std::swap(tet.v[one], tet.v[other]);
+            }
         renumber(mesh, r);
         check_surface(mesh, "a block of both windings", true);
         for (int i = 0; i < 7; ++i) mesh.positions.push_back({1, 1, 1});
@@ -163,7 +166,8 @@ START_TEST(surface_of_bad_meshes) {
         check_surface(flat, "a tet with a corner named twice", true);
     }
     for (int round = 0; round < 300; ++round) { // whatever comes
-        const Mesh mesh = soup(r, 5 + r.below(12), 1 + r.below(12), 2, false);
+        const std::uint32_t vertices = 5 + r.below(12), tets = 1 + r.below(12);
+        const Mesh mesh = soup(r, vertices, tets, 2, false);
         bool closed = true;
         std::map<std::set<std::uint32_t>, std::vector<int>> sides;
         for (const Tet& tet : mesh.tets)
