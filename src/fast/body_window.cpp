@@ -66,8 +66,8 @@ void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& s
 // `certificate`.
 bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
                            std::uint64_t& exact_tests, Workers* helpers) {
-    const FastMesh& mesh = *step.prepared[b];
-    if (!step.settings.winding || !mesh.surface.is_closed) return false;
+    if (!may_certify(step, b)) return false;
+    FastMesh& mesh = *step.prepared[b];
     const BodyState& state = states_[b];
     fast::TileSides sides;
     sample_tiles(step, b, sides);
@@ -76,8 +76,10 @@ bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate&
                                  state.positions,
                                  body_boxes_[b],
                                  winding_cells_per_tile * sides.mean(),
+                                 super_boxes_.data() + state.first_super,
                                  tile_boxes_.data() + state.first_tile,
                                  tile_known_.data() + state.first_tile,
+                                 mesh.turning,
                                  helpers,
                                  state.rounded,
                                  step.origin,

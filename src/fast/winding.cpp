@@ -20,8 +20,10 @@
 
 #include "parallel.hpp"
 #include "predicates.hpp"
+#include "query.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -49,55 +51,6 @@ struct TriangleBatch {
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
-
-// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
-// does not find positive.
-void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
-            std::size_t first, std::size_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known,
-            std::uint64_t* HWY_RESTRICT bad) {
-    const Floats d;
-    const Words du;
-    const hn::Rebind<std::uint8_t, Floats> db;
-    TileVertices vertices;
-    for (std::size_t t = first; t < last; ++t) {
-        const Tile& tile = tiles.tiles.data()[t];
-        LoadTile(tiles, positions, tile, vertices, boxes[t]);
-        known[t] = 1;
-        const std::uint8_t* corners = tiles.corners.data() + t * 4 * tile_size;
-        const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
-        const FilterConstants constants = MakeConstants(boxes[t], rounded);
-        std::uint64_t not_positive = 0, not_negative = 0;
-        for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
-            const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
-            const auto ib = hn::PromoteTo(du, hn::LoadU(db, corners + tile_size + i));
-            const auto ic = hn::PromoteTo(du, hn::LoadU(db, corners + 2 * tile_size + i));
-            const auto id = hn::PromoteTo(du, hn::LoadU(db, corners + 3 * tile_size + i));
-            V e1[3], e2[3], e3[3], side[3], bound = hn::Set(d, 256 * 0x1p-24f);
-            for (int a = 0; a < 3; ++a) {
-                const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
-                e1[a] = hn::Sub(vb, va);
-                e2[a] = hn::Sub(vc, va);
-                e3[a] = hn::Sub(vd, va);
-                // The filter's box: here it is enough that no edge at the first corner is longer.
-                side[a] = hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a]));
-                bound = hn::Mul(bound, side[a]);
-            }
-            V n[3];
-            Cross(e2, e3, n);
-            const V volume = Dot(e1, n);
-            bound = hn::Add(bound, hn::Set(d, constants.underflow));
-            if (rounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::Not(hn::Gt(volume, bound)), bits);
-            not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
-            hn::StoreMaskBits(d, hn::Not(hn::Lt(volume, hn::Neg(bound))), bits);
-            not_negative |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
-        }
-        const std::uint64_t mirrored = surface.mirrored.data()[t];
-        bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & ~surface.ignored.data()[t] &
-                 tile.all_tets();
-    }
-}
 
 // The directions that the normals of triangles surely have a positive product with. The components of a
 // normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
@@ -177,6 +130,7 @@ public:
         : body_(body), out_(out), exact_tests_(exact_tests) {}
 
     bool run() {
+        body_.turning.is_wanted = false;
         const std::size_t most_cells =
             2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64;
         Box around = body_.box;
@@ -198,8 +152,9 @@ public:
         // First as if all that is not outside were covered once: cheap, and tells whether it is worth more.
         judge(false);
         if (!worthwhile()) return false;
+        body_.turning.is_wanted = true;
         out_.bad.resize(body_.tiles.tiles.size());
-        orient();
+        orient_tets();
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
         bool as_assumed = !any_bad;
@@ -222,16 +177,32 @@ private:
         return {double{p[0]}, double{p[1]}, double{p[2]}};
     }
 
-    void orient() {
-        const auto part = [&, function = VOX_SIMD_DISPATCH(Orient)](std::size_t first, std::size_t last,
-                                                                    std::uint32_t) {
-            function(body_.tiles, body_.surface, body_.positions, body_.rounded, first, last,
-                     body_.tile_boxes, body_.tile_known, out_.bad.data());
+    using Vertices = std::array<std::uint32_t, 4>;
+    Vertices corners_of(std::size_t tile, std::uint32_t tet) const {
+        const Tiles& tiles = body_.tiles;
+        Vertices corners;
+        for (std::size_t c = 0; c < 4; ++c)
+            corners[c] = tiles.vertices[tiles.tiles[tile].first_vertex +
+                                        tiles.corners[(tile * 4 + c) * tile_size + tet]];
+        return corners;
+    }
+
+    // Looks at the tets of super-tiles that have no slack left.
+    void orient_tets() {
+        const Tiles& tiles = body_.tiles;
+        const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t s = begin; s < end; ++s) {
+                float& slack = body_.turning.slack[s];
+                if (slack > 0) continue;
+                slack = orient(tiles, body_.surface, body_.positions, body_.rounded, tiles.super_first[s],
+                               tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data());
+            }
         };
+        const std::size_t supers = tiles.super_tile_count();
         if (body_.workers)
-            body_.workers->for_ranges(body_.tiles.tiles.size(), 256, part);
+            body_.workers->for_ranges(supers, 16, part);
         else
-            part(0, body_.tiles.tiles.size(), 0);
+            part(0, supers, 0);
     }
 
     // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
@@ -297,27 +268,26 @@ private:
     }
 
     bool mark_bad_tets(bool& any) {
+        const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
-        for (std::size_t t = 0; t < out_.bad.size(); ++t) {
-            const Tile& tile = body_.tiles.tiles[t];
-            for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
-                const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
-                Box box = empty_box;
-                Vec3d q[4];
-                for (std::uint32_t c = 0; c < 4; ++c) {
-                    const std::uint32_t v =
-                        body_.tiles
-                            .vertices[tile.first_vertex + body_.tiles.corners[(t * 4 + c) * tile_size + i]];
-                    const float* p = body_.positions + std::size_t{v} * 3;
-                    add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
-                    q[c] = exact(v);
+        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
+            if (body_.turning.slack[s] > 0) continue; // there are none
+            for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
+                for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
+                    const Vertices corners =
+                        corners_of(t, static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left)));
+                    int sign = orientation(exact(corners[0]), exact(corners[1]), exact(corners[2]),
+                                           exact(corners[3]), exact_tests_);
+                    if (body_.surface.mirrored[t] & (left & (~left + 1))) sign = -sign;
+                    if (sign > 0) continue;
+                    any = true;
+                    Box box = empty_box;
+                    for (const std::uint32_t v : corners) {
+                        const float* p = body_.positions + std::size_t{v} * 3;
+                        add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
+                    }
+                    if (++bad > tiles.tets.size() / 16 || !mark(box, 0)) return false;
                 }
-                int sign = orientation(q[0], q[1], q[2], q[3], exact_tests_);
-                if (body_.surface.mirrored[t] >> i & 1) sign = -sign;
-                if (sign > 0) continue;
-                any = true;
-                if (++bad > body_.tiles.tets.size() / 16 || !mark(box, 0)) return false;
-            }
         }
         return true;
     }
@@ -363,6 +333,17 @@ private:
         }
     }
 
+    int count_holding(std::uint32_t tile, const Vec3d& at) {
+        int holding = 0;
+        for (std::uint32_t i = 0; i < body_.tiles.tiles[tile].tet_count; ++i) {
+            const Vertices corners = corners_of(tile, i);
+            const Containment where = locate(at, exact(corners[0]), exact(corners[1]), exact(corners[2]),
+                                             exact(corners[3]), exact_tests_);
+            holding += where == Containment::interior || where == Containment::boundary;
+        }
+        return holding;
+    }
+
     bool covered_at_most_once(std::size_t cell) {
         const Lattice& l = out_.lattice;
         const std::uint32_t index[3] = {static_cast<std::uint32_t>(cell % nx_),
@@ -380,18 +361,14 @@ private:
             l.cell(static_cast<float>(at.z - body_.origin.z), 2) != index[2])
             return false;
         const Box point_box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+        const Tiles& tiles = body_.tiles;
         int covering = 0;
-        for (std::size_t t = 0; t < body_.tiles.tiles.size() && covering < 2; ++t) {
-            if (!overlap(body_.tile_boxes[t], point_box)) continue;
-            const Tile& tile = body_.tiles.tiles[t];
-            for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-                Vec3d q[4];
-                for (std::uint32_t c = 0; c < 4; ++c)
-                    q[c] = exact(body_.tiles.vertices[tile.first_vertex +
-                                                      body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
-                const Containment where = locate(at, q[0], q[1], q[2], q[3], exact_tests_);
-                covering += where == Containment::interior || where == Containment::boundary;
-            }
+        for (std::uint32_t s = 0; s < tiles.super_tile_count() && covering < 2; ++s) {
+            if (!overlap(body_.super_boxes[s], point_box)) continue;
+            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+            tile_boxes(tiles, body_.positions, first, last, body_.tile_boxes, body_.tile_known);
+            for (std::uint32_t t = first; t < last; ++t)
+                if (overlap(body_.tile_boxes[t], point_box)) covering += count_holding(t, at);
         }
         return covering <= 1;
     }

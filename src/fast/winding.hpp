@@ -3,6 +3,7 @@
 #pragma once
 
 #include "surface.hpp"
+#include "turning.hpp"
 #include "window.hpp"
 
 #include <cstdint>
@@ -53,10 +54,12 @@ struct WindingBody {
     const Surface& surface;
     const float* positions; // packed
     Box box;
-    double cell_size; // of the lattice
-    Box* tile_boxes;  // all known afterwards, unless certify() returned false
+    double cell_size;       // of the lattice
+    const Box* super_boxes; // boxes that hold the super-tiles
+    Box* tile_boxes;        // those that were looked at are known afterwards
     std::uint8_t* tile_known;
-    Workers* workers; // not null: share the pass over all tiles, as one task
+    Turning& turning; // its slack is that of `positions`; renewed where tets are looked at
+    Workers* workers; // not null: share the pass over the tiles, as one task
     // The packed positions are those in `exact` less `origin`, rounded to floats.
     bool rounded = false;
     Vec3d origin{};

@@ -346,6 +346,20 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
     return window;
 }
 
+bool may_hold_points(const Window& window, const Box& box) noexcept {
+    const Lattice& lattice = window.lattice;
+    const std::uint32_t* begin = window.bins->begin.data() + window.first_cell;
+    const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
+    const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
+    const std::uint32_t z0 = lattice.cell(box.lo[2], 2), z1 = lattice.cell(box.hi[2], 2);
+    for (std::uint32_t z = z0; z <= z1; ++z)
+        for (std::uint32_t y = y0; y <= y1; ++y) {
+            const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
+            if (begin[row + x0] != begin[row + x1 + 1]) return true;
+        }
+    return false;
+}
+
 std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
                        Bins& bins) {
     const auto root = static_cast<std::uint32_t>(bins.windows.size());

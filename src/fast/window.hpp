@@ -99,6 +99,9 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
 // Returns the root.
 std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
 
+// Whether cells that meet `box` hold points.
+bool may_hold_points(const Window& window, const Box& box) noexcept;
+
 // Calls function(window) for each window with points of the tree at `root` whose box meets `box`.
 template <class Function>
 void for_windows(const Bins& bins, std::uint32_t root, const Box& box, Function&& function) {
