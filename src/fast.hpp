@@ -35,7 +35,7 @@ struct FastMesh : fast::Tiles {
 
     fast::Surface surface; // of bodies with self-collision
     fast::Rest rest;       // the positions of the last step
-    fast::Turning turning; // which tets may have turned over since then
+    fast::Turning turning; // which tets may have turned over
     fast::Places places;   // for edits
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
@@ -104,8 +104,7 @@ private:
         bool moved;                // or may have, since the last step
         bool reached;           // by others: super_boxes_ and the tile_boxes_ are made where they meet them
         bool supers_known;      // super_boxes_ are
-        bool tracked;           // how far its vertices moved is wanted
-        bool slack_known;       // FastMesh::turning was up to date when the step began
+        bool tracked;           // block_moves_ are made
         bool self;              // some vertices of the window may be in tets of the same body
         std::uint32_t binned;   // vertices in the windows
         fast::Box own;          // where vertices of the window may be in tets of the same body
@@ -155,10 +154,9 @@ private:
     void prepare(Step& step);
     void stream(Step& step);
     bool stream(const Step& step, const Piece& piece, fast::Box& box, std::uint8_t& moved);
-    bool stream_strided(const Piece& piece, const Positions& positions, fast::Rest& rest,
-                        std::span<const std::uint32_t> first, fast::Box& box, std::uint8_t& moved);
     bool may_certify(const Step& step, std::uint32_t body) const noexcept;
     void follow_turning(Step& step);
+    void follow_turning(const Step& step, const Piece& piece);
     void find_reaches(Step& step);
     void shrink_to_blocks(const Step& step, Reach& reach) const;
     void shrink_to_tiles(const Step& step, Reach& reach) const;
@@ -180,10 +178,11 @@ private:
 
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
-    std::pmr::vector<fast::Box> block_moves_;     // around the displacements of vertices since the last step
-    std::pmr::vector<std::uint8_t> tile_known_;   // tile_boxes_ is of this step
-    std::pmr::vector<fast::Box> reached_regions_; // of each body, around the regions where others reach it
-    std::pmr::vector<std::uint8_t> block_sides_;  // of block_boxes_, from there: sides_of()
+    std::pmr::vector<fast::Box> block_moves_;      // around displacements from the reference of the body
+    std::pmr::vector<std::uint8_t> super_upright_; // all tets of a super-tile are surely positive
+    std::pmr::vector<std::uint8_t> tile_known_;    // tile_boxes_ is of this step
+    std::pmr::vector<fast::Box> reached_regions_;  // of each body, around the regions where others reach it
+    std::pmr::vector<std::uint8_t> block_sides_;   // of block_boxes_, from there: sides_of()
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
     std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
     std::pmr::vector<std::uint8_t> piece_moved_;

@@ -79,7 +79,6 @@ void FastMesh::prepare(const Body& body) {
         std::erase_if(made.surface.loose, [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
     made.expect_vertices(body.vertex_count);
-    made.turning.slack.resize(made.super_tile_count());
     made.places.first_young_super = made.super_tile_count();
     made.places.first_young_vertex = body.vertex_count;
     *this = std::move(made);
@@ -92,9 +91,11 @@ void FastMesh::expect_vertices(std::uint32_t vertex_count) {
 
 bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of) {
     if (!fast::repair(*this, surface, places, body, changes, tets_of)) return false;
-    turning.slack.resize(super_tile_count());
-    for (const TetChange& change : changes)
-        if (change.is_on) turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
+    if (turning.is_known) {
+        turning.slack.resize(super_tile_count());
+        for (const TetChange& change : changes)
+            if (change.is_on) turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
+    }
     return true;
 }
 
@@ -102,6 +103,8 @@ bool FastMesh::follow_vertices(const Body& body, std::uint32_t count_before) {
     if (count_before == 0) return false;
     fast::add_vertices(*this, surface, places, count_before, body.vertex_count);
     expect_vertices(body.vertex_count);
+    if (turning.is_known)
+        turning.reference.resize(rest.positions.size()); // no matter what: their tets are new
     return true;
 }
 
@@ -179,11 +182,11 @@ Fast::Worker::Worker(std::pmr::memory_resource* memory)
 
 Fast::Fast(std::pmr::memory_resource* memory)
     : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
-      block_moves_(memory), tile_known_(memory), reached_regions_(memory), block_sides_(memory),
-      block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory), piece_moved_(memory),
-      pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory), first_of_b_(memory),
-      first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory), large_buffers_(memory),
-      degenerate_(memory) {}
+      block_moves_(memory), super_upright_(memory), tile_known_(memory), reached_regions_(memory),
+      block_sides_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
+      piece_moved_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
+      first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
+      large_buffers_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -268,9 +271,7 @@ void Fast::prepare(Step& step) {
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
-        states_[b].tracked = may_certify(step, b) && mesh.turning.is_wanted && !states_[b].rounded;
-        states_[b].slack_known = mesh.turning.is_current;
-        mesh.turning.is_current = false; // until the step has followed it
+        states_[b].tracked = may_certify(step, b) && mesh.turning.is_known && !states_[b].rounded;
         states_[b].first_move = static_cast<std::uint32_t>(moves);
         if (states_[b].tracked) moves += mesh.block_count();
         blocks += mesh.block_count();
@@ -301,6 +302,7 @@ void Fast::prepare(Step& step) {
     block_moves_.resize(moves);
     block_sides_.resize(blocks);
     super_boxes_.resize(supers);
+    super_upright_.resize(supers);
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
 }
@@ -354,52 +356,23 @@ void Fast::stream(Step& step) {
 bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
     const Positions& positions = step.bodies[piece.body].positions;
     const BodyState& state = states_[piece.body];
-    fast::Rest& rest = step.prepared[piece.body]->rest;
+    FastMesh& mesh = *step.prepared[piece.body];
     const std::span<const std::uint32_t> first =
-        std::span(step.prepared[piece.body]->block_first).subspan(piece.first, piece.last - piece.first + 1);
+        std::span(mesh.block_first).subspan(piece.first, piece.last - piece.first + 1);
     const std::uint32_t begin = first.front(), end = first.back();
     const std::size_t part = piece.first / piece_blocks;
     const bool packed = !state.rounded && fast::is_packed(positions);
-    Box* boxes = block_boxes_.data() + state.first_block + piece.first;
-    Box* moves = state.tracked ? block_moves_.data() + state.first_move + piece.first : nullptr;
-    if (moves && !rest.parts[part].copied) {
-        std::fill_n(moves, first.size() - 1, fast::everything);
-        moves = nullptr;
-    }
-    if (moves && !packed) return stream_strided(piece, positions, rest, first, box, moved);
     if (state.rounded)
-        fast::round_positions(positions, step.origin, begin, end, rest.positions.data());
+        fast::round_positions(positions, step.origin, begin, end, mesh.rest.positions.data());
     else if (!packed)
-        moved = !fast::copy_strided(rest, part, positions, begin, end);
-    const float* before = rest.positions.data() + std::size_t{begin} * 3;
-    const bool finite = moves ? fast::stream_boxes(state.positions, before, first, boxes, moves, box)
-                              : fast::stream_boxes(state.positions, first, boxes, box);
-    if (packed) moved = !fast::compare_packed(rest, part, state.positions, begin, end, box, state.tracked);
-    if (state.rounded) moved = !fast::compare_exact(rest, part, positions, begin, end, box);
-    return finite;
-}
-
-// Where how far vertices moved is wanted, and the copy with the old positions will hold the new ones: a few
-// blocks at a time.
-bool Fast::stream_strided(const Piece& piece, const Positions& positions, fast::Rest& rest,
-                          std::span<const std::uint32_t> first, Box& box, std::uint8_t& moved) {
-    constexpr std::size_t few = 32;
-    float before[few * fast::block_size * 3];
-    const BodyState& state = states_[piece.body];
-    bool finite = true;
-    moved = 0;
-    box = fast::empty_box;
-    for (std::size_t i = 0; i + 1 < first.size(); i += few) {
-        const std::span<const std::uint32_t> some = first.subspan(i, std::min(few + 1, first.size() - i));
-        const std::uint32_t begin = some.front(), end = some.back();
-        std::copy_n(rest.positions.data() + std::size_t{begin} * 3, std::size_t{end - begin} * 3, before);
-        moved |= !fast::copy_strided(rest, piece.first / piece_blocks, positions, begin, end);
-        Box part_box;
-        finite &= fast::stream_boxes(state.positions, before, some,
-                                     block_boxes_.data() + state.first_block + piece.first + i,
-                                     block_moves_.data() + state.first_move + piece.first + i, part_box);
-        fast::add(box, part_box);
-    }
+        moved = !fast::copy_strided(mesh.rest, part, positions, begin, end);
+    Box* boxes = block_boxes_.data() + state.first_block + piece.first;
+    const bool finite = state.tracked
+                            ? fast::stream_boxes(state.positions, mesh.turning.reference.data(), first, boxes,
+                                                 block_moves_.data() + state.first_move + piece.first, box)
+                            : fast::stream_boxes(state.positions, first, boxes, box);
+    if (packed) moved = !fast::compare_packed(mesh.rest, part, state.positions, begin, end, box);
+    if (state.rounded) moved = !fast::compare_exact(mesh.rest, part, positions, begin, end, box);
     return finite;
 }
 
@@ -409,34 +382,33 @@ bool Fast::may_certify(const Step& step, std::uint32_t body) const noexcept {
            step.prepared[body]->surface.is_closed;
 }
 
-// The boxes of the super-tiles of such bodies, and in which of those tets may have turned over.
+// The boxes of the super-tiles of such bodies, and which of these hold no tet that may have turned over.
 void Fast::follow_turning(Step& step) {
     std::size_t tiles = 0;
-    for (std::uint32_t b = 0; b < step.bodies.size(); ++b)
-        if (states_[b].moved && may_certify(step, b)) tiles += step.prepared[b]->tiles.size();
-    step.for_ranges(super_pieces_.size(), tiles, 256, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t p = begin; p < end; ++p) {
-            const Piece& piece = super_pieces_[p];
-            const BodyState& state = states_[piece.body];
-            if (!state.moved || !may_certify(step, piece.body)) continue;
-            know_super_tiles(step, piece);
-            FastMesh& mesh = *step.prepared[piece.body];
-            const Box* moves = block_moves_.data() + state.first_move;
-            for (std::uint32_t s = piece.first; s < piece.last; ++s) {
-                float& slack = mesh.turning.slack[s];
-                if (!state.tracked || !state.slack_known) slack = 0;
-                if (!(slack > 0)) continue;
-                Box box = fast::empty_box;
-                for (const std::uint32_t block : std::as_const(mesh.blocks)[s]) fast::add(box, moves[block]);
-                slack = fast::spend(slack, box);
-            }
-        }
-    });
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
-        BodyState& state = states_[b];
-        const bool known = state.moved && may_certify(step, b);
-        state.supers_known = known;
-        if (state.tracked) step.prepared[b]->turning.is_current = known || state.slack_known;
+        states_[b].supers_known = states_[b].moved && may_certify(step, b);
+        if (states_[b].supers_known) tiles += step.prepared[b]->tiles.size();
+    }
+    if (tiles == 0) return;
+    step.for_ranges(super_pieces_.size(), tiles, 256, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t p = begin; p < end; ++p)
+            if (states_[super_pieces_[p].body].supers_known) follow_turning(step, super_pieces_[p]);
+    });
+}
+
+void Fast::follow_turning(const Step& step, const Piece& piece) {
+    know_super_tiles(step, piece);
+    const BodyState& state = states_[piece.body];
+    const FastMesh& mesh = *step.prepared[piece.body];
+    const Box* moves = block_moves_.data() + state.first_move;
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) {
+        bool upright = state.tracked && mesh.turning.slack[s] > 0;
+        if (upright) {
+            Box box = fast::empty_box;
+            for (const std::uint32_t block : mesh.blocks[s]) fast::add(box, moves[block]);
+            upright = fast::diagonal(box) < mesh.turning.slack[s];
+        }
+        super_upright_[state.first_super + s] = upright;
     }
 }
 

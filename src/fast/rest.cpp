@@ -22,12 +22,12 @@ namespace {
 
 // Compares with the copy; copies where that is due.
 template <class IsSame, class Copy>
-bool compare(Rest::Part& part, const Box& box, bool keep, IsSame&& is_same, Copy&& copy) {
+bool compare(Rest::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
     const bool same = part.copied && is_same();
     const bool same_box =
         std::equal(box.lo, box.lo + 3, part.box.lo) && std::equal(box.hi, box.hi + 3, part.box.hi);
     if (!same) {
-        part.copied = keep || same_box || is_empty(part.box);
+        part.copied = same_box || is_empty(part.box);
         if (part.copied) copy();
     }
     part.box = box;
@@ -37,12 +37,12 @@ bool compare(Rest::Part& part, const Box& box, bool keep, IsSame&& is_same, Copy
 } // namespace
 
 bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
-                    std::uint32_t last, const Box& box, bool keep) noexcept {
+                    std::uint32_t last, const Box& box) noexcept {
     const float* from = positions + std::size_t{first} * 3;
     float* copy = rest.positions.data() + std::size_t{first} * 3;
     const std::size_t bytes = std::size_t{last - first} * sizeof(Vec3f);
     return compare(
-        rest.parts[part], box, keep, [&] { return std::memcmp(copy, from, bytes) == 0; },
+        rest.parts[part], box, [&] { return std::memcmp(copy, from, bytes) == 0; },
         [&] { std::memcpy(copy, from, bytes); });
 }
 
@@ -55,7 +55,7 @@ bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std
         }
         return true;
     };
-    return compare(rest.parts[part], box, false, is_same, [&] {
+    return compare(rest.parts[part], box, is_same, [&] {
         for (std::uint32_t v = first; v < last; ++v) rest.exact[v] = positions.exact(v);
     });
 }

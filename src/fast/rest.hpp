@@ -41,9 +41,9 @@ bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std:
 
 // Returns whether the packed vertices [first, last) of a part, `box` around them, are those of the last step,
 // bit by bit. That is known of parts that were copied: when they are new, and when their box stays the same,
-// so that what moves in every step is not copied in every step; or always, if `keep`.
+// so that what moves in every step is not copied in every step.
 bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
-                    std::uint32_t last, const Box& box, bool keep) noexcept;
+                    std::uint32_t last, const Box& box) noexcept;
 
 // The same for positions that were rounded into rest.positions.
 bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,

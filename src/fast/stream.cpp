@@ -72,7 +72,7 @@ HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec
 }
 
 template <bool kMoves>
-HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT before,
+HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
                        const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
                        Box* HWY_RESTRICT moves, Box& all) {
     const Four d;
@@ -88,7 +88,7 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
             checked = next;
         }
         const float* p = positions + std::size_t{first[b]} * 3;
-        const float* q = kMoves ? before + std::size_t{first[b] - first[0]} * 3 : nullptr;
+        const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
         std::uint32_t left = end - first[b];
         auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity), move_lo = lo, move_hi = hi;
         if (end == count) {
@@ -121,10 +121,10 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
     return Stream<false>(positions, nullptr, first, blocks, boxes, nullptr, all);
 }
 
-bool StreamMoves(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT before,
+bool StreamMoves(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
                  const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
                  Box* HWY_RESTRICT moves, Box& all) {
-    return Stream<true>(positions, before, first, blocks, boxes, moves, all);
+    return Stream<true>(positions, reference, first, blocks, boxes, moves, all);
 }
 
 // nearest_float() of doubles that are three to a position.
@@ -188,9 +188,9 @@ bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, 
     return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
 }
 
-bool stream_boxes(const float* positions, const float* before, std::span<const std::uint32_t> first,
+bool stream_boxes(const float* positions, const float* reference, std::span<const std::uint32_t> first,
                   Box* boxes, Box* moves, Box& all) {
-    return VOX_SIMD_DISPATCH(StreamMoves)(positions, before, first.data(), first.size() - 1, boxes, moves,
+    return VOX_SIMD_DISPATCH(StreamMoves)(positions, reference, first.data(), first.size() - 1, boxes, moves,
                                           all);
 }
 

@@ -43,9 +43,10 @@ HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longes
     return hn::IfThenElseZero(ordinary, width);
 }
 
-float Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
-             std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
-             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+template <bool kMeasure>
+HWY_INLINE float OrientTiles(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+                             bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+                             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
     const Words du;
     const hn::Rebind<std::uint8_t, Floats> db;
@@ -86,7 +87,7 @@ float Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRI
             not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
             hn::StoreMaskBits(d, hn::Not(hn::Lt(volume, hn::Neg(bound))), bits);
             not_negative |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
-            if (rounded) continue;
+            if constexpr (!kMeasure) continue;
             const V longest = hn::Max(side[0], hn::Max(side[1], side[2]));
             const V width = Width(e1, e2, e3, n, longest, hn::Sub(hn::Abs(volume), bound));
             for (std::size_t byte = 0; byte < 8; ++byte)
@@ -97,7 +98,19 @@ float Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRI
         bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & counted;
         any_bad |= bad[t];
     }
-    return any_bad || rounded ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
+    return any_bad ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
+            std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+            std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    (void)OrientTiles<false>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+}
+
+float OrientAndMeasure(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+                       std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+                       std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    return OrientTiles<true>(tiles, surface, positions, false, first, last, boxes, known, bad);
 }
 
 } // namespace HWY_NAMESPACE
@@ -107,20 +120,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-// A difference x - y of floats is off by at most u |x - y|; so is what is computed here, a few times.
-float spend(float slack, const Box& moves) noexcept {
+// A difference x - y of floats is off by at most u |x - y|; so is what is computed here, a few times; and
+// underflow takes away less than what is added.
+float diagonal(const Box& moves) noexcept {
     float square = 0;
     for (int a = 0; a < 3; ++a) {
         const float side = (moves.hi[a] - moves.lo[a]) + std::max(-moves.lo[a], moves.hi[a]) * (4 * 0x1p-24f);
         square += side * side;
     }
-    const float left = (slack - std::sqrt(square) * (1 + 0x1p-20f)) * (1 - 0x1p-20f);
-    return left > 0x1p-60f ? left : 0; // far above what underflow takes away
+    return std::sqrt(square) * (1 + 0x1p-20f) + 0x1p-60f;
 }
 
-float orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
-             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
-    return VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+            std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
+    VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+}
+
+float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions,
+                         std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
+                         std::uint64_t* bad) {
+    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, first, last, boxes, known, bad);
 }
 
 } // namespace vox::fast

@@ -124,13 +124,37 @@ constexpr int directions[direction_count][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1
 constexpr std::uint32_t all_directions = (1u << 2 * direction_count) - 1; // and no triangle: bit 31
 constexpr std::uint32_t untouched = 0x80000000u | all_directions;
 
+// Whether to take a new reference when `doubtful` of all super-tiles may hold a tet that turned over.
+bool needs_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t supers) {
+    constexpr std::uint32_t young = 4, pause = 32; // steps
+    ++turning.age;
+    if (turning.wait > 0) {
+        --turning.wait;
+        return false;
+    }
+    if (turning.is_known && doubtful <= supers / 4) return false;
+    if (turning.is_known && turning.age < young) { // the body deforms too fast
+        turning.is_known = false;
+        turning.wait = pause;
+        return false;
+    }
+    turning.age = 0;
+    return true;
+}
+
 class Certifier {
 public:
     Certifier(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests)
         : body_(body), out_(out), exact_tests_(exact_tests) {}
 
     bool run() {
-        body_.turning.is_wanted = false;
+        const bool certified = certify();
+        if (!oriented_) body_.turning.is_known = false; // no use for it
+        return certified;
+    }
+
+private:
+    bool certify() {
         const std::size_t most_cells =
             2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64;
         Box around = body_.box;
@@ -152,8 +176,8 @@ public:
         // First as if all that is not outside were covered once: cheap, and tells whether it is worth more.
         judge(false);
         if (!worthwhile()) return false;
-        body_.turning.is_wanted = true;
         out_.bad.resize(body_.tiles.tiles.size());
+        oriented_ = true;
         orient_tets();
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
@@ -170,7 +194,6 @@ public:
         return true;
     }
 
-private:
     Vec3d exact(std::uint32_t v) const {
         if (body_.rounded) return body_.exact.exact(v);
         const float* p = body_.positions + std::size_t{v} * 3;
@@ -187,22 +210,37 @@ private:
         return corners;
     }
 
-    // Looks at the tets of super-tiles that have no slack left.
+    // Looks at the tets that may have turned over.
     void orient_tets() {
         const Tiles& tiles = body_.tiles;
+        Turning& turning = body_.turning;
+        const std::uint32_t supers = tiles.super_tile_count();
+        const auto upright = static_cast<std::uint32_t>(
+            std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
+        measure_ = !body_.rounded && needs_reference(turning, supers - upright, supers);
+        if (measure_) {
+            const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
+            turning.is_known = false;
+            turning.reference.assign(body_.positions, body_.positions + coordinates);
+            turning.slack.resize(supers);
+        }
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t s = begin; s < end; ++s) {
-                float& slack = body_.turning.slack[s];
-                if (slack > 0) continue;
-                slack = orient(tiles, body_.surface, body_.positions, body_.rounded, tiles.super_first[s],
-                               tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data());
+                const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+                if (measure_)
+                    turning.slack[s] =
+                        orient_and_measure(tiles, body_.surface, body_.positions, first, last,
+                                           body_.tile_boxes, body_.tile_known, out_.bad.data());
+                else if (!body_.super_upright[s])
+                    orient(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                           body_.tile_boxes, body_.tile_known, out_.bad.data());
             }
         };
-        const std::size_t supers = tiles.super_tile_count();
         if (body_.workers)
             body_.workers->for_ranges(supers, 16, part);
         else
             part(0, supers, 0);
+        if (measure_) turning.is_known = true;
     }
 
     // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
@@ -271,7 +309,7 @@ private:
         const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            if (body_.turning.slack[s] > 0) continue; // there are none
+            if (!measure_ && body_.super_upright[s]) continue; // there are none
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                     const Vertices corners =
@@ -448,6 +486,7 @@ private:
     std::uint64_t& exact_tests_;
     std::uint32_t nx_ = 0, nxy_ = 0;
     std::size_t cells_ = 0, work_left_ = 0;
+    bool oriented_ = false, measure_ = false;
     std::size_t components_ = 0;
     std::size_t component_[most_components],
         component_size_[most_components]; // a cell, and how many there are

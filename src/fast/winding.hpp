@@ -53,12 +53,14 @@ struct WindingBody {
     const Tiles& tiles;
     const Surface& surface;
     const float* positions; // packed
+    std::uint32_t vertex_count;
     Box box;
-    double cell_size;       // of the lattice
-    const Box* super_boxes; // boxes that hold the super-tiles
-    Box* tile_boxes;        // those that were looked at are known afterwards
+    double cell_size;                  // of the lattice
+    const Box* super_boxes;            // boxes that hold the super-tiles
+    const std::uint8_t* super_upright; // super-tiles whose tets are known to be positive
+    Box* tile_boxes;                   // those that were looked at are known afterwards
     std::uint8_t* tile_known;
-    Turning& turning; // its slack is that of `positions`; renewed where tets are looked at
+    Turning& turning; // renewed where that pays
     Workers* workers; // not null: share the pass over the tiles, as one task
     // The packed positions are those in `exact` less `origin`, rounded to floats.
     bool rounded = false;
