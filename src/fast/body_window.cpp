@@ -104,15 +104,7 @@ void Fast::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buf
     if (certificate.complete) return;
     const Box* blocks = block_boxes_.data() + state.first_block;
     for (std::uint32_t i = 0; i < count; ++i) {
-        std::uint32_t lo[3], hi[3];
-        bool near = true;
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = certificate.lattice.cell(blocks[i].lo[a], a);
-            hi[a] = certificate.lattice.cell(blocks[i].hi[a], a);
-            near = near && lo[a] <= certificate.last[a] && hi[a] >= certificate.first[a];
-        }
-        // A block is in few cells, as a rule: all of them certified is enough.
-        if (!near || certificate.holds(lo, hi)) continue;
+        if (certificate.holds(blocks[i])) continue;
         for (std::uint32_t v = first[i]; v < first[i + 1] && !active[i]; ++v)
             active[i] = !certificate.holds(state.positions + std::size_t{v} * 3);
     }

@@ -17,8 +17,6 @@ struct alignas(16) Box {
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr Box empty_box{{infinity, infinity, infinity, infinity},
                                {-infinity, -infinity, -infinity, -infinity}};
-inline constexpr Box everything{{-infinity, -infinity, -infinity, -infinity},
-                                {infinity, infinity, infinity, infinity}};
 
 inline void add(Box& a, const Box& b) noexcept {
     for (int i = 0; i < 4; ++i) a.lo[i] = b.lo[i] < a.lo[i] ? b.lo[i] : a.lo[i];

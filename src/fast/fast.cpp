@@ -93,6 +93,7 @@ bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, cons
     if (!fast::repair(*this, surface, places, body, changes, tets_of)) return false;
     if (turning.is_known) {
         turning.slack.resize(super_tile_count());
+        turning.boxes.resize(super_tile_count());
         for (const TetChange& change : changes)
             if (change.is_on) turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
     }
@@ -331,6 +332,7 @@ void Fast::level_buffers() {
     level([](Worker & w) -> auto& { return w.windows.certificate.touched; });
     level([](Worker & w) -> auto& { return w.windows.certificate.bad; });
     level([](Worker & w) -> auto& { return w.windows.certificate.certified; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.with_next; });
 }
 
 // Packed positions of the bodies, their boxes, and which of them moved.
@@ -397,18 +399,21 @@ void Fast::follow_turning(Step& step) {
 }
 
 void Fast::follow_turning(const Step& step, const Piece& piece) {
-    know_super_tiles(step, piece);
     const BodyState& state = states_[piece.body];
     const FastMesh& mesh = *step.prepared[piece.body];
     const Box* moves = block_moves_.data() + state.first_move;
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
-        bool upright = state.tracked && mesh.turning.slack[s] > 0;
-        if (upright) {
-            Box box = fast::empty_box;
-            for (const std::uint32_t block : mesh.blocks[s]) fast::add(box, moves[block]);
-            upright = fast::diagonal(box) < mesh.turning.slack[s];
+        Box& box = super_boxes_[state.first_super + s];
+        std::uint8_t& upright = super_upright_[state.first_super + s];
+        upright = 0;
+        if (!state.tracked || !(mesh.turning.slack[s] > 0)) {
+            know_super_tiles(step, {piece.body, s, s + 1});
+            continue;
         }
-        super_upright_[state.first_super + s] = upright;
+        Box move = fast::empty_box;
+        for (const std::uint32_t block : mesh.blocks[s]) fast::add(move, moves[block]);
+        upright = fast::diagonal(move) < mesh.turning.slack[s];
+        box = fast::moved(mesh.turning.boxes[s], move);
     }
 }
 
@@ -606,7 +611,7 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
         for (const fast::Source& source : sources) {
             Box met = super_boxes[s];
             fast::intersect(met, source.region);
-            if (!fast::is_empty(met) && fast::may_hold_points(source.window, met)) near.push_back(source);
+            if (!fast::is_empty(met) && fast::holds_point(source.window, met)) near.push_back(source);
         }
         if (near.empty()) continue;
         query.stamps = near[0].body == b ? worker.stamps.data() : nullptr;

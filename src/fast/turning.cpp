@@ -131,6 +131,18 @@ float diagonal(const Box& moves) noexcept {
     return std::sqrt(square) * (1 + 0x1p-20f) + 0x1p-60f;
 }
 
+// A displacement that is off by u |x - y|, added to a coordinate, and rounded.
+Box moved(const Box& box, const Box& moves) noexcept {
+    Box out;
+    for (int a = 0; a < 4; ++a) {
+        const float margin =
+            (std::max(-box.lo[a], box.hi[a]) + std::max(-moves.lo[a], moves.hi[a])) * 0x1p-21f;
+        out.lo[a] = (box.lo[a] + moves.lo[a]) - margin;
+        out.hi[a] = (box.hi[a] + moves.hi[a]) + margin;
+    }
+    return out;
+}
+
 void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
     VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);

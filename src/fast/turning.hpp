@@ -19,19 +19,24 @@ namespace vox::fast {
 
 // Kept of a body from step to step.
 struct Turning {
-    explicit Turning(std::pmr::memory_resource* memory) noexcept : reference(memory), slack(memory) {}
+    explicit Turning(std::pmr::memory_resource* memory) noexcept
+        : reference(memory), slack(memory), boxes(memory) {}
 
     std::pmr::vector<float> reference; // positions of some step, packed
     // Of each super-tile, a lower bound on the widths of its tets in these positions; 0: not all are
     // positive.
     std::pmr::vector<float> slack;
-    bool is_known = false;  // both are
-    std::uint32_t age = 0;  // steps since the reference was taken
-    std::uint32_t wait = 0; // steps to go without one
+    std::pmr::vector<Box> boxes; // around the vertices of each super-tile that has slack
+    bool is_known = false;       // all these are
+    std::uint32_t age = 0;       // steps since the reference was taken
+    std::uint32_t wait = 0;      // steps to go without one
 };
 
 // The diagonal of a box around differences of floats, or more.
 float diagonal(const Box& moves) noexcept;
+
+// A box around all that was in `box` before displacements within `moves`.
+Box moved(const Box& box, const Box& moves) noexcept;
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
 // does not find positive.

@@ -37,12 +37,13 @@
 #define VOX_FAST_WINDING_ONCE
 namespace vox::fast {
 
-// Triangles as a structure of arrays: coordinates of corner a, b, c.
+// Some triangles of a surface.
 struct TriangleBatch {
     static constexpr std::size_t size = 64;
-    alignas(64) float corner[3][3][size]; // [corner][axis]
-    alignas(64) float lo[3][size], hi[3][size];
-    alignas(64) std::uint32_t facing[size];
+    alignas(64) float corner[3][3][size];   // [corner][axis]
+    alignas(64) std::uint32_t facing[size]; // directions that their normals have a positive product with
+    // The cells that meet the box: one of them, and how many more there are along each axis.
+    alignas(64) std::uint32_t first[3][size], more[3][size];
 };
 
 } // namespace vox::fast
@@ -52,20 +53,51 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
+// Corners of `count` triangles; of so many that a register is full, the last one again and again.
+void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_vertex,
+                   const std::array<std::uint32_t, 3>* HWY_RESTRICT triangles, std::size_t count,
+                   TriangleBatch& batch) {
+    const auto load = [&](const std::uint32_t* triangle, std::size_t c) HWY_ATTR {
+        const std::uint32_t v = triangle[c];
+        return v == last_vertex ? LoadLastVertex(positions, v) : LoadVertex(positions, v);
+    };
+    const auto* corners = reinterpret_cast<const std::uint32_t*>(triangles);
+    const std::size_t last = 3 * (count - 1);
+    for (std::size_t i = 0; i < (count + 15) / 16 * 16; i += 4) {
+        const std::uint32_t* four[4];
+        for (std::size_t j = 0; j < 4; ++j) four[j] = corners + (3 * (i + j) < last ? 3 * (i + j) : last);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto p0 = load(four[0], c), p1 = load(four[1], c);
+            const auto p2 = load(four[2], c), p3 = load(four[3], c);
+            StoreTransposed(p0, p1, p2, p3, batch.corner[c][0] + i, batch.corner[c][1] + i,
+                            batch.corner[c][2] + i);
+        }
+    }
+}
+
 // The directions that the normals of triangles surely have a positive product with. The components of a
 // normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
 // them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
-// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the boxes.
-void Facing(TriangleBatch& batch, std::size_t count, float e_of_rounding) {
+// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and
+// the cells that meet the boxes.
+void Facing(TriangleBatch& batch, std::size_t count, const Lattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
+    const hn::RebindToSigned<Floats> di;
+    const V inverse = hn::Set(d, lattice.inverse);
+    const auto cell = [&](V c, int axis) HWY_ATTR { // as Lattice::cell()
+        const V t = hn::Mul(hn::Sub(c, hn::Set(d, lattice.origin[axis])), inverse);
+        return hn::BitCast(
+            du, hn::ConvertTo(di, hn::Min(hn::Max(t, hn::Zero(d)), hn::Set(d, lattice.last[axis]))));
+    };
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         V e[2][3], longest = hn::Zero(d);
         for (int axis = 0; axis < 3; ++axis) {
             const V a = hn::Load(d, batch.corner[0][axis] + i), b = hn::Load(d, batch.corner[1][axis] + i);
             const V c = hn::Load(d, batch.corner[2][axis] + i);
-            hn::Store(hn::Min(a, hn::Min(b, c)), d, batch.lo[axis] + i);
-            hn::Store(hn::Max(a, hn::Max(b, c)), d, batch.hi[axis] + i);
+            const auto first = cell(hn::Min(a, hn::Min(b, c)), axis);
+            hn::Store(first, du, batch.first[axis] + i);
+            hn::Store(hn::Sub(cell(hn::Max(a, hn::Max(b, c)), axis), first), du, batch.more[axis] + i);
             e[0][axis] = hn::Sub(b, a);
             e[1][axis] = hn::Sub(c, a);
             longest = hn::Max(longest, hn::Max(hn::Abs(e[0][axis]), hn::Abs(e[1][axis])));
@@ -190,7 +222,7 @@ private:
             if (out_.directions[0] != untouched) return false;
             judge(true);
         }
-        find_range();
+        find_with_next();
         return true;
     }
 
@@ -222,6 +254,7 @@ private:
             const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
             turning.is_known = false;
             turning.reference.assign(body_.positions, body_.positions + coordinates);
+            turning.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
             turning.slack.resize(supers);
         }
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
@@ -243,49 +276,53 @@ private:
         if (measure_) turning.is_known = true;
     }
 
-    // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
-    bool mark(const Box& box, std::uint32_t set) {
-        const Lattice& l = out_.lattice;
-        std::uint32_t lo[3], hi[3];
-        std::size_t work = 1;
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = l.cell(box.lo[a], a);
-            hi[a] = l.cell(box.hi[a], a);
-            work *= hi[a] - lo[a] + 1;
+    // Keeps of the sets of some cells only `set`; false when that becomes too much work.
+    bool mark(const std::uint32_t (&first)[3], const std::uint32_t (&more)[3], std::uint32_t set) {
+        std::uint32_t* sets =
+            out_.directions.data() + std::size_t{first[2]} * nxy_ + std::size_t{first[1]} * nx_ + first[0];
+        if ((more[0] | more[1] | more[2]) <= 1) { // the same cell once more costs less than a branch
+            const std::size_t x = more[0], y = std::size_t{more[1]} * nx_, z = std::size_t{more[2]} * nxy_;
+            for (const std::size_t c : {std::size_t{0}, x, y, x + y, z, x + z, y + z, x + y + z})
+                sets[c] &= set;
+            return true;
         }
+        const std::size_t work = (std::size_t{more[0]} + 1) * (more[1] + 1) * (more[2] + 1);
         if (work > work_left_) return false;
         work_left_ -= work;
-        std::uint32_t* sets = out_.directions.data();
-        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
-            for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
-                for (std::size_t c = std::size_t{z} * nxy_ + std::size_t{y} * nx_ + lo[0],
-                                 end = c + (hi[0] - lo[0]);
-                     c <= end; ++c)
-                    sets[c] &= set;
+        for (std::size_t z = 0; z <= more[2]; ++z)
+            for (std::size_t y = 0; y <= more[1]; ++y)
+                for (std::size_t x = 0; x <= more[0]; ++x) sets[z * nxy_ + y * nx_ + x] &= set;
         return true;
     }
 
+    // Nothing is safe where the box is.
+    bool mark_unsafe(const Box& box) {
+        const Lattice& l = out_.lattice;
+        std::uint32_t first[3], more[3];
+        for (int a = 0; a < 3; ++a) {
+            first[a] = l.cell(box.lo[a], a);
+            more[a] = l.cell(box.hi[a], a) - first[a];
+        }
+        return mark(first, more, 0);
+    }
+
     bool mark_surface() {
+        const auto load = VOX_SIMD_DISPATCH(LoadTriangles);
         const auto facing = VOX_SIMD_DISPATCH(Facing);
         float e_of_rounding = 0; // 2 u M and a little more, M the largest magnitude; see query.cpp
         for (int a = 0; a < 3 && body_.rounded; ++a)
             e_of_rounding = std::max({e_of_rounding, -body_.box.lo[a] * (1.125f * 0x1p-23f),
                                       body_.box.hi[a] * (1.125f * 0x1p-23f)});
         const std::span<const std::array<std::uint32_t, 3>> triangles = body_.surface.triangles;
-        TriangleBatch batch{};
+        TriangleBatch batch;
         for (std::size_t first = 0; first < triangles.size(); first += TriangleBatch::size) {
             const std::size_t count = std::min(TriangleBatch::size, triangles.size() - first);
+            load(body_.positions, body_.vertex_count - 1, triangles.data() + first, count, batch);
+            facing(batch, count, out_.lattice, e_of_rounding);
             for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const float* p = body_.positions + std::size_t{triangles[first + i][c]} * 3;
-                    for (std::size_t axis = 0; axis < 3; ++axis) batch.corner[c][axis][i] = p[axis];
-                }
-            facing(batch, count, e_of_rounding);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Box box{{batch.lo[0][i], batch.lo[1][i], batch.lo[2][i], 0},
-                              {batch.hi[0][i], batch.hi[1][i], batch.hi[2][i], 0}};
-                if (!mark(box, batch.facing[i])) return false;
-            }
+                if (!mark({batch.first[0][i], batch.first[1][i], batch.first[2][i]},
+                          {batch.more[0][i], batch.more[1][i], batch.more[2][i]}, batch.facing[i]))
+                    return false;
         }
         return true;
     }
@@ -324,7 +361,7 @@ private:
                         const float* p = body_.positions + std::size_t{v} * 3;
                         add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
                     }
-                    if (++bad > tiles.tets.size() / 16 || !mark(box, 0)) return false;
+                    if (++bad > tiles.tets.size() / 16 || !mark_unsafe(box)) return false;
                 }
         }
         return true;
@@ -461,21 +498,13 @@ private:
         }
     }
 
-    void find_range() {
-        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1];
-        const std::pmr::vector<std::uint32_t>& touched = out_.touched;
-        out_.complete = touched.empty();
-        for (int a = 0; a < 3; ++a) {
-            out_.first[a] = ~0u;
-            out_.last[a] = 0;
-        }
-        for (const std::uint32_t c : touched) {
-            const std::uint32_t index[3] = {c % nx, c / nx % ny, c / nxy_};
-            for (int a = 0; a < 3; ++a) {
-                out_.first[a] = std::min(out_.first[a], index[a]);
-                out_.last[a] = std::max(out_.last[a], index[a]);
-            }
-        }
+    // At the far end of a row the next cell is the first of another row: one more that has to be certified.
+    void find_with_next() {
+        out_.complete = out_.touched.empty();
+        std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
+        with_next = out_.certified;
+        for (const std::size_t step : {std::size_t{1}, std::size_t{nx_}, std::size_t{nxy_}})
+            for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
     static constexpr std::uint32_t seen = 0x40000000u; // untouched, and its component is known
