@@ -156,7 +156,6 @@ private:
     bool stream(const Step& step, const Piece& piece, fast::Box& box, std::uint8_t& moved);
     bool may_certify(const Step& step, std::uint32_t body) const noexcept;
     void follow_turning(Step& step);
-    void follow_turning(const Step& step, const Piece& piece);
     void find_reaches(Step& step);
     void shrink_to_blocks(const Step& step, Reach& reach) const;
     void shrink_to_tiles(const Step& step, Reach& reach) const;

@@ -393,28 +393,17 @@ void Fast::follow_turning(Step& step) {
     }
     if (tiles == 0) return;
     step.for_ranges(super_pieces_.size(), tiles, 256, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t p = begin; p < end; ++p)
-            if (states_[super_pieces_[p].body].supers_known) follow_turning(step, super_pieces_[p]);
-    });
-}
-
-void Fast::follow_turning(const Step& step, const Piece& piece) {
-    const BodyState& state = states_[piece.body];
-    const FastMesh& mesh = *step.prepared[piece.body];
-    const Box* moves = block_moves_.data() + state.first_move;
-    for (std::uint32_t s = piece.first; s < piece.last; ++s) {
-        Box& box = super_boxes_[state.first_super + s];
-        std::uint8_t& upright = super_upright_[state.first_super + s];
-        upright = 0;
-        if (!state.tracked || !(mesh.turning.slack[s] > 0)) {
-            know_super_tiles(step, {piece.body, s, s + 1});
-            continue;
+        for (std::size_t p = begin; p < end; ++p) {
+            const Piece& piece = super_pieces_[p];
+            const BodyState& state = states_[piece.body];
+            if (!state.supers_known) continue;
+            const FastMesh& mesh = *step.prepared[piece.body];
+            fast::follow(mesh, mesh.turning, block_boxes_.data() + state.first_block,
+                         state.tracked ? block_moves_.data() + state.first_move : nullptr, piece.first,
+                         piece.last, super_boxes_.data() + state.first_super,
+                         super_upright_.data() + state.first_super);
         }
-        Box move = fast::empty_box;
-        for (const std::uint32_t block : mesh.blocks[s]) fast::add(move, moves[block]);
-        upright = fast::diagonal(move) < mesh.turning.slack[s];
-        box = fast::moved(mesh.turning.boxes[s], move);
-    }
+    });
 }
 
 // Which vertices may be in tets of which other bodies.

@@ -120,8 +120,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-// A difference x - y of floats is off by at most u |x - y|; so is what is computed here, a few times; and
-// underflow takes away less than what is added.
+namespace {
+
+// The diagonal of a box around differences of floats, or more. Such a difference x - y is off by at most u |x
+// - y|; so is what is computed here, a few times; and underflow takes away less than what is added.
 float diagonal(const Box& moves) noexcept {
     float square = 0;
     for (int a = 0; a < 3; ++a) {
@@ -131,7 +133,7 @@ float diagonal(const Box& moves) noexcept {
     return std::sqrt(square) * (1 + 0x1p-20f) + 0x1p-60f;
 }
 
-// A displacement that is off by u |x - y|, added to a coordinate, and rounded.
+// A box around all that was in `box` before displacements within `moves`, which are differences of floats.
 Box moved(const Box& box, const Box& moves) noexcept {
     Box out;
     for (int a = 0; a < 4; ++a) {
@@ -141,6 +143,45 @@ Box moved(const Box& box, const Box& moves) noexcept {
         out.hi[a] = (box.hi[a] + moves.hi[a]) + margin;
     }
     return out;
+}
+
+Box box_of(std::span<const std::uint32_t> items, const Box* boxes) noexcept {
+    Box box = empty_box;
+    for (const std::uint32_t i : items) add(box, boxes[i]);
+    return box;
+}
+
+} // namespace
+
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves,
+            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright) {
+    for (std::uint32_t s = first; s < last; ++s) {
+        upright[s] = 0;
+        if (!moves || !(turning.slack[s] > 0)) {
+            super_boxes[s] = box_of(tiles.blocks[s], blocks);
+            continue;
+        }
+        const Box move = box_of(tiles.blocks[s], moves);
+        upright[s] = diagonal(move) < turning.slack[s];
+        super_boxes[s] = moved(turning.boxes[s], move);
+    }
+}
+
+bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
+    constexpr std::uint32_t young = 4, pause = 32; // steps
+    ++turning.age;
+    if (turning.wait > 0) {
+        --turning.wait;
+        return false;
+    }
+    if (turning.is_known && doubtful <= super_tiles / 4) return false;
+    if (turning.is_known && turning.age < young) { // the body deforms too fast
+        turning.is_known = false;
+        turning.wait = pause;
+        return false;
+    }
+    turning.age = 0;
+    return true;
 }
 
 void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,

@@ -17,26 +17,28 @@
 
 namespace vox::fast {
 
-// Kept of a body from step to step.
+// Kept of a body from step to step: its positions in some earlier one, and what was found then.
 struct Turning {
     explicit Turning(std::pmr::memory_resource* memory) noexcept
         : reference(memory), slack(memory), boxes(memory) {}
 
-    std::pmr::vector<float> reference; // positions of some step, packed
-    // Of each super-tile, a lower bound on the widths of its tets in these positions; 0: not all are
-    // positive.
+    std::pmr::vector<float> reference; // the positions, packed
+    // Of each super-tile, a lower bound on the widths of its tets then; 0: not all of them were positive.
     std::pmr::vector<float> slack;
-    std::pmr::vector<Box> boxes; // around the vertices of each super-tile that has slack
+    std::pmr::vector<Box> boxes; // around the vertices of those that have slack
     bool is_known = false;       // all these are
-    std::uint32_t age = 0;       // steps since the reference was taken
-    std::uint32_t wait = 0;      // steps to go without one
+    std::uint32_t age = 0;       // steps since then
+    std::uint32_t wait = 0;      // steps to go without
 };
 
-// The diagonal of a box around differences of floats, or more.
-float diagonal(const Box& moves) noexcept;
+// Of the super-tiles [first, last): boxes that hold them, and which hold no tet that may have turned over.
+// `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null.
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves,
+            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright);
 
-// A box around all that was in `box` before displacements within `moves`.
-Box moved(const Box& box, const Box& moves) noexcept;
+// Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
+// reference is worth its while.
+bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
 // does not find positive.

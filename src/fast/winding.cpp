@@ -156,24 +156,6 @@ constexpr int directions[direction_count][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1
 constexpr std::uint32_t all_directions = (1u << 2 * direction_count) - 1; // and no triangle: bit 31
 constexpr std::uint32_t untouched = 0x80000000u | all_directions;
 
-// Whether to take a new reference when `doubtful` of all super-tiles may hold a tet that turned over.
-bool needs_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t supers) {
-    constexpr std::uint32_t young = 4, pause = 32; // steps
-    ++turning.age;
-    if (turning.wait > 0) {
-        --turning.wait;
-        return false;
-    }
-    if (turning.is_known && doubtful <= supers / 4) return false;
-    if (turning.is_known && turning.age < young) { // the body deforms too fast
-        turning.is_known = false;
-        turning.wait = pause;
-        return false;
-    }
-    turning.age = 0;
-    return true;
-}
-
 class Certifier {
 public:
     Certifier(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests)
@@ -249,7 +231,7 @@ private:
         const std::uint32_t supers = tiles.super_tile_count();
         const auto upright = static_cast<std::uint32_t>(
             std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
-        measure_ = !body_.rounded && needs_reference(turning, supers - upright, supers);
+        measure_ = !body_.rounded && wants_reference(turning, supers - upright, supers);
         if (measure_) {
             const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
             turning.is_known = false;
