@@ -78,8 +78,8 @@ void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_verte
 // The directions that the normals of triangles surely have a positive product with. The components of a
 // normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
 // them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
-// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and
-// the cells that meet the boxes.
+// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the cells that
+// meet the boxes.
 void Facing(TriangleBatch& batch, std::size_t count, const Lattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
