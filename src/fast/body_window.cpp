@@ -16,7 +16,7 @@ constexpr double cells_per_tile = 0.6;
 // every vertex.
 constexpr double largest_factor = 16;
 // The same as cells_per_tile for the winding numbers of self-collision.
-constexpr double winding_cells_per_tile = 0.8;
+constexpr double winding_cells_per_tile = 0.55;
 // A body with self-collision of so many tets is worth sharing among the workers; so many such bodies are at
 // most, to stay below VOX_MAX_TASKS.
 constexpr std::size_t many_tets = 1u << 17;

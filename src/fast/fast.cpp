@@ -328,7 +328,8 @@ void Fast::level_buffers() {
     level([](Worker & w) -> auto& { return w.windows.points.z; });
     level([](Worker & w) -> auto& { return w.windows.points.id; });
     level([](Worker & w) -> auto& { return w.windows.certificate.directions; });
-    level([](Worker & w) -> auto& { return w.windows.certificate.queue; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.components.runs; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.components.rows; });
     level([](Worker & w) -> auto& { return w.windows.certificate.touched; });
     level([](Worker & w) -> auto& { return w.windows.certificate.bad; });
     level([](Worker & w) -> auto& { return w.windows.certificate.certified; });

@@ -169,8 +169,8 @@ public:
 
 private:
     bool certify() {
-        const std::size_t most_cells =
-            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64;
+        const std::size_t most_cells = std::min<std::size_t>(
+            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64, 1u << 31);
         Box around = body_.box;
         for (int a = 0; a < 3; ++a) {
             around.lo[a] -= static_cast<float>(1.5 * body_.cell_size);
@@ -196,11 +196,9 @@ private:
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
         bool as_assumed = !any_bad;
-        for (std::size_t i = 0; i < components_ && as_assumed; ++i)
-            as_assumed = covered_at_most_once(component_[i]);
-        if (!as_assumed || components_ == most_components) {
-            for (std::uint32_t& set : out_.directions)
-                if (set == seen) set = untouched;
+        for (std::size_t i = 1; i < known_ && as_assumed; ++i)
+            as_assumed = covered_at_most_once(first_cell_[i]);
+        if (!as_assumed) {
             if (out_.directions[0] != untouched) return false;
             judge(true);
         }
@@ -309,18 +307,39 @@ private:
         return true;
     }
 
+    // The untouched cells: those outside are safe; the others too, or, if they are to be counted, by the
+    // winding number at one point of each component. Then the touched ones.
     void judge(bool count) {
+        const Components& components = find_components();
+        bool safe[most_components + 1];
+        for (std::size_t i = 0; i <= most_components; ++i)
+            safe[i] = i == 0 || (i < known_ && (!count || covered_at_most_once(first_cell_[i])));
         out_.certified.assign(cells_, 0);
-        spread(0, true);
-        judge_components(count);
+        for (const Components::Run& run : components.runs)
+            std::fill(out_.certified.begin() + run.first, out_.certified.begin() + run.end,
+                      std::uint8_t{safe[std::min<std::size_t>(run.component, most_components)]});
         judge_touched();
+    }
+
+    // The first of them is outside. Each of the others may have to be looked at among all tets: no more than
+    // a few count.
+    const Components& find_components() {
+        Components& components = out_.components;
+        components.find(out_.directions.data(), untouched, out_.lattice.cells);
+        known_ = std::min<std::size_t>(components.count, most_components);
+        inside_ = 0;
+        std::size_t found = 0;
+        for (const Components::Run& run : components.runs) {
+            if (run.component == found && found < known_) first_cell_[found++] = run.first;
+            if (run.component > 0 && run.component < known_) inside_ += run.end - run.first;
+        }
+        return components;
     }
 
     // A thin body has surface everywhere, facing both ways; so has one that lies on itself.
     bool worthwhile() const {
-        std::size_t inside = 0;
-        for (const std::uint32_t set : out_.directions) inside += set < seen;
-        for (std::size_t i = 0; i < components_; ++i) inside += component_size_[i];
+        std::size_t inside = inside_;
+        for (const std::uint32_t set : out_.directions) inside += set != untouched;
         return out_.touched.size() * 6 < inside;
     }
 
@@ -347,47 +366,6 @@ private:
                 }
         }
         return true;
-    }
-
-    // From an untouched cell to all that can be reached through untouched ones; safe ones are certified.
-    // Returns how many.
-    std::size_t spread(std::size_t from, bool safe) {
-        std::pmr::vector<std::uint32_t>& queue = out_.queue;
-        const auto visit = [&](std::size_t c) {
-            if (out_.directions[c] != untouched) return;
-            out_.directions[c] = seen;
-            out_.certified[c] = safe;
-            queue.push_back(static_cast<std::uint32_t>(c));
-        };
-        std::size_t size = 0;
-        queue.clear();
-        visit(from);
-        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1], nz = out_.lattice.cells[2];
-        while (!queue.empty()) {
-            const std::uint32_t c = queue.back();
-            queue.pop_back();
-            ++size;
-            const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
-            if (x > 0) visit(c - 1);
-            if (x + 1 < nx) visit(c + 1);
-            if (y > 0) visit(c - nx);
-            if (y + 1 < ny) visit(c + nx);
-            if (z > 0) visit(c - nxy_);
-            if (z + 1 < nz) visit(c + nxy_);
-        }
-        return size;
-    }
-
-    // The untouched cells that are not outside: all safe, or by the winding number at one point of each
-    // component.
-    void judge_components(bool count) {
-        components_ = 0; // each count looks at all tiles: no more than a few
-        for (std::size_t c = 0; c < cells_ && components_ < most_components; ++c) {
-            if (out_.directions[c] != untouched) continue;
-            const std::size_t size = spread(c, !count || covered_at_most_once(c));
-            component_[components_] = c;
-            component_size_[components_++] = size;
-        }
     }
 
     int count_holding(std::uint32_t tile, const Vec3d& at) {
@@ -458,7 +436,7 @@ private:
             for (const std::uint32_t c : touched) {
                 const std::uint32_t set = out_.directions[c];
                 bool now_safe = false;
-                if (set != 0 && set < seen) {
+                if (set != 0 && set != untouched) {
                     const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
                     std::uint32_t n = 0;
                     n |= std::uint32_t{x > 0 && safe[c - 1]} << 0 | std::uint32_t{x + 1 < nx && safe[c + 1]}
@@ -489,7 +467,6 @@ private:
             for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
-    static constexpr std::uint32_t seen = 0x40000000u; // untouched, and its component is known
     static constexpr std::size_t most_components = 64;
 
     const WindingBody& body_;
@@ -498,9 +475,8 @@ private:
     std::uint32_t nx_ = 0, nxy_ = 0;
     std::size_t cells_ = 0, work_left_ = 0;
     bool oriented_ = false, measure_ = false;
-    std::size_t components_ = 0;
-    std::size_t component_[most_components],
-        component_size_[most_components]; // a cell, and how many there are
+    std::size_t known_ = 0, inside_ = 0; // components; untouched cells that are not outside
+    std::size_t first_cell_[most_components];
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 // body that does not touch itself: none, and next to nothing but its surface was looked at to know.
 #pragma once
 
+#include "components.hpp"
 #include "surface.hpp"
 #include "turning.hpp"
 #include "window.hpp"
@@ -20,12 +21,13 @@ namespace vox::fast {
 // Cells of a lattice around a body, and in which of them a point is covered by at most one tet.
 struct Certificate {
     explicit Certificate(std::pmr::memory_resource* memory)
-        : directions(memory), queue(memory), touched(memory), bad(memory), certified(memory),
+        : directions(memory), touched(memory), bad(memory), components(memory), certified(memory),
           with_next(memory) {}
 
     // Buffers.
-    std::pmr::vector<std::uint32_t> directions, queue, touched;
+    std::pmr::vector<std::uint32_t> directions, touched;
     std::pmr::vector<std::uint64_t> bad;
+    Components components;
 
     Lattice lattice;
     std::pmr::vector<std::uint8_t> certified; // per cell
