@@ -174,7 +174,7 @@ bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t sup
         --turning.wait;
         return false;
     }
-    if (turning.is_known && doubtful <= super_tiles / 4) return false;
+    if (turning.is_known && doubtful <= super_tiles / 8) return false;
     if (turning.is_known && turning.age < young) { // the body deforms too fast
         turning.is_known = false;
         turning.wait = pause;

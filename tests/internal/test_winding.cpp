@@ -20,6 +20,52 @@ fast::Surface surface_of(const Mesh& mesh, const fast::Tiles& tiles) {
 
 fast::Surface surface_of(const Mesh& mesh) { return surface_of(mesh, tiles_of(mesh)); }
 
+// ---- components -----------------------------------------------------------------------------------
+
+// Against a flood from each cell that has no number yet.
+START_TEST(components_are_what_is_connected) {
+    Random r{5};
+    fast::Components components(std::pmr::get_default_resource());
+    for (int round = 0; round < 400; ++round) {
+        const std::uint32_t cells[3] = {1 + r.below(9), 1 + r.below(9), 1 + r.below(9)};
+        const std::uint32_t nx = cells[0], ny = cells[1], count = nx * ny * cells[2];
+        const std::uint32_t share = r.below(101); // per cent of cells that are wanted
+        std::vector<std::uint32_t> values(count);
+        for (std::uint32_t& value : values) value = r.below(100) < share ? 7 : r.below(7);
+        constexpr std::uint32_t none = ~0u;
+        std::vector<std::uint32_t> expected(count, none);
+        std::uint32_t expected_count = 0;
+        for (std::uint32_t from = 0; from < count; ++from) {
+            if (values[from] != 7 || expected[from] != none) continue;
+            std::vector<std::uint32_t> stack{from};
+            expected[from] = expected_count;
+            while (!stack.empty()) {
+                const std::uint32_t c = stack.back(), x = c % nx, y = c / nx % ny, z = c / nx / ny;
+                stack.pop_back();
+                const auto visit = [&](bool is_there, std::uint32_t next) {
+                    if (!is_there || values[next] != 7 || expected[next] != none) return;
+                    expected[next] = expected_count;
+                    stack.push_back(next);
+                };
+                visit(x > 0, c - 1);
+                visit(x + 1 < nx, c + 1);
+                visit(y > 0, c - nx);
+                visit(y + 1 < ny, c + nx);
+                visit(z > 0, c - nx * ny);
+                visit(z + 1 < cells[2], c + nx * ny);
+            }
+            ++expected_count;
+        }
+        components.find(values.data(), 7, cells);
+        ck_assert_uint_eq(components.count, expected_count);
+        std::vector<std::uint32_t> found(count, none);
+        for (const fast::Components::Run& run : components.runs)
+            for (std::uint32_t c = run.first; c < run.end; ++c) found[c] = run.component;
+        ck_assert(found == expected);
+    }
+}
+END_TEST
+
 // ---- surface --------------------------------------------------------------------------------------
 
 using Facet = std::array<std::uint32_t, 3>;
@@ -352,6 +398,7 @@ int main() {
     Suite* suite = suite_create("winding");
     TCase* tests = tcase_create("winding");
     tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, components_are_what_is_connected);
     tcase_add_test(tests, surface_of_good_meshes);
     tcase_add_test(tests, surface_of_bad_meshes);
     tcase_add_test(tests, certificate_of_compact_bodies);
