@@ -599,9 +599,13 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         near.clear();
         for (const fast::Source& source : sources) {
-            Box met = super_boxes[s];
-            fast::intersect(met, source.region);
-            if (!fast::is_empty(met) && fast::holds_point(source.window, met)) near.push_back(source);
+            if (!fast::overlap(super_boxes[s], source.region)) continue;
+            if (source.body == b) { // where most of a body is certified, few meet what is left
+                Box met = super_boxes[s];
+                fast::intersect(met, source.region);
+                if (!fast::holds_point(source.window, met)) continue;
+            }
+            near.push_back(source);
         }
         if (near.empty()) continue;
         query.stamps = near[0].body == b ? worker.stamps.data() : nullptr;
