@@ -82,8 +82,8 @@ struct Bodies {
         upright.resize(super_boxes.size());
         moves.resize(blocks.size());
         bad.resize(tiles.tiles.size());
-        fast::follow(tiles, turning, blocks.data(), nullptr, 0, tiles.super_tile_count(), super_boxes.data(),
-                     upright.data());
+        fast::follow(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+                     super_boxes.data(), upright.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.assign(super_boxes.size(), 0.1f);
         turning.is_known = true;
@@ -205,7 +205,7 @@ std::vector<Stage> stages_of(Bodies& s) {
              const auto supers = s.tiles.super_tile_count();
              fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
                                 s.moves.data(), s.box_a);
-             fast::follow(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, supers,
+             fast::follow(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
                           s.super_boxes.data(), s.upright.data());
          }},
         {"orient", "tet", tets,

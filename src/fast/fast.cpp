@@ -272,7 +272,7 @@ void Fast::prepare(Step& step) {
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
-        states_[b].tracked = may_certify(step, b) && mesh.turning.is_known && !states_[b].rounded;
+        states_[b].tracked = may_certify(step, b) && mesh.turning.is_known;
         states_[b].first_move = static_cast<std::uint32_t>(moves);
         if (states_[b].tracked) moves += mesh.block_count();
         blocks += mesh.block_count();
@@ -400,7 +400,8 @@ void Fast::follow_turning(Step& step) {
             if (!state.supers_known) continue;
             const FastMesh& mesh = *step.prepared[piece.body];
             fast::follow(mesh, mesh.turning, block_boxes_.data() + state.first_block,
-                         state.tracked ? block_moves_.data() + state.first_move : nullptr, piece.first,
+                         state.tracked ? block_moves_.data() + state.first_move : nullptr,
+                         state.rounded ? fast::slack_of_rounding(body_boxes_[piece.body]) : 0, piece.first,
                          piece.last, super_boxes_.data() + state.first_super,
                          super_upright_.data() + state.first_super);
         }

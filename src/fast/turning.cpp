@@ -108,9 +108,9 @@ void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRIC
 }
 
 float OrientAndMeasure(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
-                       std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+                       bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
                        std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
-    return OrientTiles<true>(tiles, surface, positions, false, first, last, boxes, known, bad);
+    return OrientTiles<true>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
 }
 
 } // namespace HWY_NAMESPACE
@@ -153,7 +153,16 @@ Box box_of(std::span<const std::uint32_t> items, const Box* boxes) noexcept {
 
 } // namespace
 
-void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves,
+// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a
+// coordinate: two of them, the extents of tets, and so widths, by 2 sqrt(3) r; the sides of boxes around
+// displacements by 2 r for either end, their diagonals by 2 sqrt(3) r.
+float slack_of_rounding(const Box& box) noexcept {
+    float largest = 0;
+    for (int a = 0; a < 3; ++a) largest = std::max({largest, -box.lo[a], box.hi[a]});
+    return largest * (8 * 1.125f * 0x1p-24f) + 0x1p-100f;
+}
+
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
             std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright) {
     for (std::uint32_t s = first; s < last; ++s) {
         upright[s] = 0;
@@ -162,7 +171,7 @@ void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const
             continue;
         }
         const Box move = box_of(tiles.blocks[s], moves);
-        upright[s] = diagonal(move) < turning.slack[s];
+        upright[s] = diagonal(move) + rounding < turning.slack[s];
         super_boxes[s] = moved(turning.boxes[s], move);
     }
 }
@@ -189,10 +198,11 @@ void orient(const Tiles& tiles, const Surface& surface, const float* positions, 
     VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
 }
 
-float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions,
+float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad) {
-    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, first, last, boxes, known, bad);
+    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, rounded, first, last, boxes, known,
+                                               bad);
 }
 
 } // namespace vox::fast

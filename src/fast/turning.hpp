@@ -23,7 +23,8 @@ struct Turning {
         : reference(memory), slack(memory), boxes(memory) {}
 
     std::pmr::vector<float> reference; // the positions, packed
-    // Of each super-tile, a lower bound on the widths of its tets then; 0: not all of them were positive.
+    // Of each super-tile, a lower bound on the widths of its tets then, less slack_of_rounding() where the
+    // positions were rounded. Not above 0: nothing is known, or some of them were not positive.
     std::pmr::vector<float> slack;
     std::pmr::vector<Box> boxes; // around the vertices of those that have slack
     bool is_known = false;       // all these are
@@ -31,9 +32,14 @@ struct Turning {
     std::uint32_t wait = 0;      // steps to go without
 };
 
+// What rounding positions in `box` takes from the slack: when they become the reference, and again when they
+// are compared with it.
+float slack_of_rounding(const Box& box) noexcept;
+
 // Of the super-tiles [first, last): boxes that hold them, and which hold no tet that may have turned over.
-// `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null.
-void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves,
+// `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null;
+// `rounding` is slack_of_rounding(), or 0 where positions are not rounded.
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
             std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright);
 
 // Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
@@ -45,9 +51,9 @@ bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t sup
 void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
 
-// The same where positions are not rounded. Returns a lower bound on the widths of the tets; 0 where some are
-// in a set.
-float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions,
+// Returns a lower bound on the widths of the tets, too, with their positions as they are rounded; 0 where
+// some are in a set.
+float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad);
 

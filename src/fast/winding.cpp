@@ -229,7 +229,7 @@ private:
         const std::uint32_t supers = tiles.super_tile_count();
         const auto upright = static_cast<std::uint32_t>(
             std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
-        measure_ = !body_.rounded && wants_reference(turning, supers - upright, supers);
+        measure_ = wants_reference(turning, supers - upright, supers);
         if (measure_) {
             const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
             turning.is_known = false;
@@ -237,13 +237,15 @@ private:
             turning.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
             turning.slack.resize(supers);
         }
+        const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t s = begin; s < end; ++s) {
                 const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
                 if (measure_)
                     turning.slack[s] =
-                        orient_and_measure(tiles, body_.surface, body_.positions, first, last,
-                                           body_.tile_boxes, body_.tile_known, out_.bad.data());
+                        orient_and_measure(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                                           body_.tile_boxes, body_.tile_known, out_.bad.data()) -
+                        rounding;
                 else if (!body_.super_upright[s])
                     orient(tiles, body_.surface, body_.positions, body_.rounded, first, last,
                            body_.tile_boxes, body_.tile_known, out_.bad.data());

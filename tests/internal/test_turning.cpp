@@ -29,7 +29,7 @@ struct Followed {
     }
 
     float measure(std::uint32_t super) {
-        return fast::orient_and_measure(tiles, surface, packed(mesh), tiles.super_first[super],
+        return fast::orient_and_measure(tiles, surface, packed(mesh), false, tiles.super_first[super],
                                         tiles.super_first[super + 1], tile_boxes.data(), known.data(),
                                         bad.data());
     }
@@ -38,8 +38,8 @@ struct Followed {
         Box all;
         fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all);
         turning.reference.assign(packed(mesh), packed(mesh) + 3 * mesh.positions.size());
-        fast::follow(tiles, turning, blocks.data(), nullptr, 0, tiles.super_tile_count(), super_boxes.data(),
-                     upright.data());
+        fast::follow(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+                     super_boxes.data(), upright.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.resize(tiles.super_tile_count());
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) turning.slack[s] = measure(s);
@@ -50,7 +50,7 @@ struct Followed {
         Box all;
         fast::stream_boxes(packed(mesh), turning.reference.data(), tiles.block_first, blocks.data(),
                            moves.data(), all);
-        fast::follow(tiles, turning, blocks.data(), moves.data(), 0, tiles.super_tile_count(),
+        fast::follow(tiles, turning, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
                      super_boxes.data(), upright.data());
         std::size_t count = 0;
         std::uint64_t exact_tests = 0;
@@ -207,7 +207,8 @@ END_TEST
 // The engine and what it keeps, step after step.
 START_TEST(engine_follows_deforming_bodies) {
     Random r{3};
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < 6; ++round) { // the last two: doubles, the last one far away
+        const double far = round == 5 ? 1e7 : 0;
         Mesh mesh = block(12, 12, 12);
         jitter(mesh, 0.1, r);
         if (round % 2) renumber(mesh, r);
@@ -230,6 +231,12 @@ START_TEST(engine_follows_deforming_bodies) {
             if (step % 7 == 6)
                 for (int i = 0; i < 3; ++i)
                     scene.meshes()[0].positions[r.below(vertex_count(mesh))].x += r.uniform(-2, 2);
+            std::vector<Vec3d> doubles;
+            for (const Vec3f& p : scene.meshes()[0].positions)
+                doubles.push_back({far + p.x + 1e-9 * r.unit(), p.y + 1e-9 * r.unit(), far + p.z});
+            if (round >= 4)
+                scene.bodies()[0].positions = {reinterpret_cast<const std::byte*>(doubles.data()),
+                                               sizeof(Vec3d), true};
             simd::force_level(levels[step % 4]);
             const std::vector<Key> found = run_fast(engine, scene, 0), expected = run_reference(scene, 1);
             ck_assert_msg(found == expected, "round %d, step %d: %zu hits, expected %zu", round, step,
