@@ -137,15 +137,20 @@ HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Sca
     }
 }
 
-// For each candidate the set of tets whose quantised box it meets.
-HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t valid) {
+// For each candidate the set of tets whose quantised box it meets, less those that `own` it. Candidates that
+// meet none are dropped; returns how many are left. Nothing branches: what a candidate meets is hard to
+// predict.
+template <class Own>
+HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::uint32_t end,
+                                   std::uint32_t left, std::uint64_t valid, Own own) {
     const Bytes d;
     constexpr std::size_t lanes = hn::MaxLanes(Bytes());
     const std::uint8_t *HWY_RESTRICT qx = s.candidate_quantised[0],
                                      *HWY_RESTRICT qy = s.candidate_quantised[1],
                                      *HWY_RESTRICT qz = s.candidate_quantised[2];
     std::uint64_t* HWY_RESTRICT masks = s.masks;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint32_t* HWY_RESTRICT meeting = s.meeting;
+    for (std::uint32_t i = begin; i < end; ++i) {
         const auto x = hn::Set(d, qx[i]), y = hn::Set(d, qy[i]), z = hn::Set(d, qz[i]);
         std::uint64_t mask = 0;
         for (std::size_t j = 0; j < tile_size; j += lanes) {
@@ -162,9 +167,18 @@ HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t va
             std::memcpy(&part, bits, lanes / 8);
             mask |= part << j;
         }
-        masks[i] = mask & valid;
+        mask &= valid & ~own(i);
+        masks[left] = mask;
+        meeting[left] = i;
+        s.candidate_x[left] = s.candidate_x[i];
+        s.candidate_y[left] = s.candidate_y[i];
+        s.candidate_z[left] = s.candidate_z[i];
+        left += mask != 0;
     }
+    return left;
 }
+
+constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
 
 // Decides `count` pairs.
 template <bool kRounded>
@@ -175,20 +189,25 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
     const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const Table table[3] = {Table(s.x), Table(s.y), Table(s.z)};
+    const WordTable corner_table(s.corners);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
     const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
-    for (std::uint32_t i = 0; i < 64; ++i) s.pairs[count + i] = s.pairs[0]; // a whole register past the end
+    for (std::uint32_t i = 0; i < lanes; ++i) s.pairs[count + i] = s.pairs[count - 1]; // whole registers
+    std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
         const auto pair = hn::LoadU(du, s.pairs + i);
-        const auto candidate = hn::BitCast(di, hn::ShiftRight<6>(pair));
-        const auto corners = hn::GatherIndex(du, s.corners, hn::BitCast(di, hn::And(pair, low6)));
+        // Pairs go by candidates, none of which is left out: those of a register are next to each other.
+        const std::uint32_t first = s.pairs[i] >> 6;
+        const auto candidate =
+            hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
+        const auto corners = corner_table(hn::And(pair, low6));
         const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
         const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
             const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
-            const V p = hn::GatherIndex(d, candidates[a], candidate);
+            const V p = hn::TableLookupLanes(hn::LoadU(d, candidates[a] + first), candidate);
             const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
                     hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
@@ -214,23 +233,20 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const auto positive = hn::Gt(least, bound), negative = hn::Lt(most, hn::Neg(bound));
         const auto outside = hn::And(hn::Lt(least, hn::Neg(bound)), hn::Gt(most, bound));
         const auto certain = hn::Or(positive, negative);
-        const auto kept = hn::AndNot(outside, inside);
-        if (hn::AllFalse(d, kept)) continue;
-        std::uint8_t bits[8] = {}, certain_bits[8] = {};
-        hn::StoreMaskBits(d, kept, bits);
-        hn::StoreMaskBits(d, certain, certain_bits);
-        std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
-        const std::uint32_t sure = certain_bits[0] | static_cast<std::uint32_t>(certain_bits[1]) << 8;
-        for (; left; left &= left - 1) {
-            const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-            const std::uint32_t p = s.pairs[i + lane];
-            Finding& finding = s.findings[s.finding_count++];
-            finding.body = s.candidate_body[p >> 6];
-            finding.vertex = s.candidate_id[p >> 6];
-            finding.tet = tets[p & 63] & 0x7fffffffu;
-            finding.certain = (sure >> lane) & 1u;
-        }
-        if (s.finding_count >= QueryScratch::most_findings) hand_over(s, out);
+        const Compressor kept(hn::AndNot(outside, inside));
+        const auto marked =
+            hn::Or(pair, hn::IfThenElseZero(hn::RebindMask(du, certain), hn::Set(du, certain_pair)));
+        hn::StoreU(kept(marked), du, s.pairs + kept_count); // behind what is still to be read
+        kept_count += kept.count();
+    }
+    for (std::uint32_t i = 0; i < kept_count; ++i) {
+        const std::uint32_t pair = s.pairs[i] & ~certain_pair, candidate = s.meeting[pair >> 6];
+        Finding& finding = s.findings[s.finding_count++];
+        finding.body = s.candidate_body[candidate];
+        finding.vertex = s.candidate_id[candidate];
+        finding.tet = tets[pair & 63] & 0x7fffffffu;
+        finding.certain = (s.pairs[i] & certain_pair) != 0;
+        if (s.finding_count == QueryScratch::most_findings) hand_over(s, out);
     }
 }
 
@@ -285,31 +301,20 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    TestBoxes(s, count, tile.all_tets());
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
     const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
     const std::uint32_t* stamps = w.query.stamps;
-    // Without the tets that own the candidate; then without the candidates that are left with none. Neither
-    // branches: what a candidate meets is hard to predict.
-    std::uint32_t left = 0, i = 0;
-    for (; i < own_count; ++i) {
-        const std::uint32_t stamp = stamps[s.candidate_id[i]];
-        const std::uint64_t mine = stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
-        const std::uint64_t mask = s.masks[i] & ~mine;
-        s.masks[left] = mask;
-        s.meeting[left] = i;
-        left += mask != 0;
-    }
-    for (; i < count; ++i) {
-        const std::uint64_t mask = s.masks[i];
-        s.masks[left] = mask;
-        s.meeting[left] = i;
-        left += mask != 0;
-    }
+    const std::uint32_t left_of_own =
+        TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
+            const std::uint32_t stamp = stamps[s.candidate_id[i]];
+            return stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
+        });
+    const std::uint32_t left = TestBoxes(s, own_count, count, left_of_own, tile.all_tets(),
+                                         [](std::uint32_t) { return std::uint64_t{0}; });
     std::uint32_t pairs = 0;
     for (std::uint32_t k = 0; k < left; ++k) {
         std::uint64_t mask = s.masks[k];
-        const std::uint32_t candidate = s.meeting[k] << 6;
+        const std::uint32_t candidate = k << 6;
         std::uint32_t* to = s.pairs + pairs;
         pairs += static_cast<std::uint32_t>(hwy::PopCount(mask));
         do {

@@ -54,9 +54,10 @@ struct alignas(64) QueryScratch : TileVertices {
     alignas(64) std::uint32_t candidate_id[most_candidates + 64];
     alignas(64) std::uint32_t candidate_body[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
-    alignas(64) std::uint64_t masks[most_candidates + 64];   // tets whose box the candidate meets
-    alignas(64) std::uint32_t meeting[most_candidates + 64]; // candidates whose mask is not empty
-    // pairs: candidate << 6 | tet
+    // candidates in the box of some tet: their coordinates move up to these places in candidate_x, _y, _z
+    alignas(64) std::uint64_t masks[most_candidates + 64]; // the tets whose box the candidate meets: not none
+    alignas(64) std::uint32_t meeting[most_candidates + 64]; // where its other properties stayed
+    // pairs: place of the candidate << 6 | tet
     alignas(64) std::uint32_t pairs[most_pairs + 64];
     Finding findings[most_findings + 64];
     std::uint32_t finding_count = 0;

@@ -86,7 +86,7 @@ HWY_INLINE void LoadTile(const Tiles& tiles, const float* positions, const Tile&
         LoadTile(positions, vertices, padded, LoadVertex, s, box);
 }
 
-// A table of 64 floats, looked up by lane.
+// A table of 64 floats, looked up by lane: indices below 64.
 #if HWY_TARGET == HWY_AVX3
 struct Table {
     __m512 part[4];
@@ -100,12 +100,29 @@ struct Table {
         return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
     }
 };
+
+// The same of words.
+struct WordTable {
+    Table floats;
+    explicit WordTable(const std::uint32_t* values) : floats(reinterpret_cast<const float*>(values)) {}
+    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
+        return hn::BitCast(Words(), floats(index));
+    }
+};
 #else
 struct Table {
     const float* values;
     explicit Table(const float* from) : values(from) {}
     HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
         return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
+    }
+};
+
+struct WordTable {
+    const std::uint32_t* values;
+    explicit WordTable(const std::uint32_t* from) : values(from) {}
+    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
+        return hn::GatherIndex(Words(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
     }
 };
 #endif
