@@ -105,36 +105,56 @@ HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
 #endif
 }
 
-// Local indices of the corners, and the quantised boxes of the tets: a table of 64 bytes looked up 16 at a
-// time, a lookup giving 0 where an index is not in that quarter (its top bit is set by the sum then).
-HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
-                             std::uint32_t vertex_count, QueryScratch& s) {
+constexpr std::uint32_t few_vertices = 48; // most tiles have no more
+
+// A table of bytes looked up 16 at a time, a lookup giving 0 where an index is not in that quarter (its top
+// bit is set by the sum then).
+template <std::uint32_t kQuarters>
+struct ByteTable {
+    hn::Vec<Bytes> quarter[kQuarters];
+
+    HWY_INLINE explicit ByteTable(const std::uint8_t* values) {
+        for (std::uint32_t q = 0; q < kQuarters; ++q)
+            quarter[q] = hn::LoadDup128(Bytes(), values + std::size_t{16} * q);
+    }
+    HWY_INLINE hn::Vec<Bytes> operator()(hn::Vec<Bytes> index) const {
+        const Bytes d;
+        auto found = hn::TableLookupBytesOr0(quarter[0], QuarterIndex(index));
+        for (std::uint32_t q = 1; q < kQuarters; ++q) {
+            const auto in_quarter = hn::Xor(index, hn::Set(d, static_cast<std::uint8_t>(16 * q)));
+            found = hn::Or(found, hn::TableLookupBytesOr0(quarter[q], QuarterIndex(in_quarter)));
+        }
+        return found;
+    }
+};
+
+// Local indices of the corners, and the quantised boxes of the tets; of at most 16 kQuarters vertices.
+template <std::uint32_t kQuarters>
+HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScratch& s) {
     const Bytes d;
-    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
-    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
-    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
-    const auto q1 = hn::Set(d, 16), q2 = hn::Set(d, 32), q3 = hn::Set(d, 48);
     for (std::size_t j = 0; j < tile_size; j += hn::Lanes(d)) {
         const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
         const auto c2 = hn::LoadU(d, corners + 2 * tile_size + j),
                    c3 = hn::LoadU(d, corners + 3 * tile_size + j);
         hn::StoreInterleaved4(c0, c1, c2, c3, d, reinterpret_cast<std::uint8_t*>(s.corners) + 4 * j);
         for (std::size_t a = 0; a < 3; ++a) {
-            const auto t0 = hn::LoadDup128(d, s.quantised[a]), t1 = hn::LoadDup128(d, s.quantised[a] + 16);
-            const auto t2 = hn::LoadDup128(d, s.quantised[a] + 32),
-                       t3 = hn::LoadDup128(d, s.quantised[a] + 48);
-            const auto look_up = [&](hn::Vec<Bytes> c) HWY_ATTR {
-                const auto r0 = hn::TableLookupBytesOr0(t0, QuarterIndex(c));
-                const auto r1 = hn::TableLookupBytesOr0(t1, QuarterIndex(hn::Xor(c, q1)));
-                const auto r2 = hn::TableLookupBytesOr0(t2, QuarterIndex(hn::Xor(c, q2)));
-                const auto r3 = hn::TableLookupBytesOr0(t3, QuarterIndex(hn::Xor(c, q3)));
-                return hn::Or(hn::Or(r0, r1), hn::Or(r2, r3));
-            };
-            const auto v0 = look_up(c0), v1 = look_up(c1), v2 = look_up(c2), v3 = look_up(c3);
+            const ByteTable<kQuarters> table(s.quantised[a]);
+            const auto v0 = table(c0), v1 = table(c1), v2 = table(c2), v3 = table(c3);
             hn::Store(hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)), d, s.lo[a] + j);
             hn::Store(hn::Max(hn::Max(v0, v1), hn::Max(v2, v3)), d, s.hi[a] + j);
         }
     }
+}
+
+HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
+                             std::uint32_t vertex_count, QueryScratch& s) {
+    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
+    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
+    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
+    if (vertex_count <= few_vertices)
+        QuantiseTets<few_vertices / 16>(corners, s);
+    else
+        QuantiseTets<4>(corners, s);
 }
 
 // For each candidate the set of tets whose quantised box it meets, less those that `own` it. Candidates that
@@ -180,15 +200,15 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
 
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
 
-// Decides `count` pairs.
-template <bool kRounded>
+// Decides `count` pairs. TableOf: of the tile's coordinates.
+template <bool kRounded, class TableOf>
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const Table table[3] = {Table(s.x), Table(s.y), Table(s.z)};
+    const TableOf table[3] = {TableOf(s.x), TableOf(s.y), TableOf(s.z)};
     const WordTable corner_table(s.corners);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
     const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
@@ -220,12 +240,11 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         }
         if (hn::AllFalse(d, inside)) continue;
         s.counters.candidates += hn::CountTrue(d, inside);
-        V n1[3], n2[3], n3[3];
-        Cross(e2, e3, n1);
-        Cross(e3, e1, n2);
-        Cross(e1, e2, n3);
-        const V u1 = Dot(q, n1), u2 = Dot(q, n2), u3 = Dot(q, n3);
-        const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n1), u1), u2), u3);
+        V n[3], m[3];
+        Cross(e2, e3, n);
+        Cross(e1, q, m);
+        const V u1 = Dot(q, n), u2 = Dot(e3, m), u3 = hn::Neg(Dot(e2, m));
+        const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n), u1), u2), u3);
         V bound = hn::Add(volume, hn::Set(d, constants.underflow));
         if constexpr (kRounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
         const V least = hn::Min(hn::Min(u0, u1), hn::Min(u2, u3));
@@ -273,10 +292,13 @@ struct TileWork {
     FilterConstants constants;
 
     void narrow(const std::uint32_t* tets, std::uint32_t count) {
+        const bool few = tile.vertex_count <= few_vertices;
         if (query.rounded)
-            Narrow<true>(tets, s, count, constants, out);
+            few ? Narrow<true, SmallTable>(tets, s, count, constants, out)
+                : Narrow<true, Table>(tets, s, count, constants, out);
         else
-            Narrow<false>(tets, s, count, constants, out);
+            few ? Narrow<false, SmallTable>(tets, s, count, constants, out)
+                : Narrow<false, Table>(tets, s, count, constants, out);
     }
 };
 
@@ -285,7 +307,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     QueryScratch& s = w.s;
     const Tile& tile = w.tile;
     if (!w.ready) {
-        if (!w.loaded) LoadTile(*w.query.tiles, w.query.positions, tile, s, w.box);
+        if (!w.loaded) LoadTile<false>(*w.query.tiles, w.query.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
