@@ -27,6 +27,7 @@
 #include "query.hpp"
 #include "../simd.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -259,12 +260,28 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         kept_count += kept.count();
     }
     for (std::uint32_t i = 0; i < kept_count; ++i) {
-        const std::uint32_t pair = s.pairs[i] & ~certain_pair, candidate = s.meeting[pair >> 6];
-        Finding& finding = s.findings[s.finding_count++];
-        finding.body = s.candidate_body[candidate];
-        finding.vertex = s.candidate_id[candidate];
-        finding.tet = tets[pair & 63] & 0x7fffffffu;
-        finding.certain = (s.pairs[i] & certain_pair) != 0;
+        const std::uint32_t pair = s.pairs[i] & ~certain_pair;
+        const std::uint32_t place = pair >> 6, tet = pair & 63, f = s.finding_count++;
+        // As a whole: bit fields set one by one are slow to read back. The weights come when there are
+        // enough.
+        s.findings[f] = {s.candidate_body[s.meeting[place]],
+                         s.candidate_id[s.meeting[place]],
+                         tets[tet] & 0x7fffffffu,
+                         (s.pairs[i] & certain_pair) != 0,
+                         {{kRounded ? -1.0f : 0.0f, 0, 0, 0}}};
+        if constexpr (!kRounded) {
+            BarycentricBlock<float>& block = s.points[f / barycentric_block];
+            const std::size_t at = f % barycentric_block;
+            block.point[0][at] = s.candidate_x[place];
+            block.point[1][at] = s.candidate_y[place];
+            block.point[2][at] = s.candidate_z[place];
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint32_t v = s.corners[tet] >> (8 * c) & 255;
+                block.corner[c][0][at] = s.x[v];
+                block.corner[c][1][at] = s.y[v];
+                block.corner[c][2][at] = s.z[v];
+            }
+        }
         if (s.finding_count == QueryScratch::most_findings) hand_over(s, out);
     }
 }
@@ -472,7 +489,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
+// Barycentric coordinates of the findings: the points are at hand here, and anywhere in memory later.
+void weigh(QueryScratch& s) {
+    for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
+        Finding* findings = s.findings + first;
+        const std::uint32_t count = std::min<std::uint32_t>(s.finding_count - first, barycentric_block);
+        if (std::none_of(findings, findings + count, [](const Finding& f) { return f.weights.known(); }))
+            continue;
+        Weights weights[barycentric_block];
+        const std::uint64_t uncertain =
+            barycentric(s.points[first / barycentric_block], count, weights[0].of);
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (findings[i].weights.known())
+                findings[i].weights = uncertain >> i & 1 ? Weights::unknown() : weights[i];
+    }
+}
+
 void hand_over(QueryScratch& scratch, Findings& out) {
+    weigh(scratch);
     out.take(std::span<const Finding>(scratch.findings, scratch.finding_count));
     scratch.finding_count = 0;
 }
