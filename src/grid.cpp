@@ -173,7 +173,8 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 // ---- cutting and growing --------------------------------------------------------------------------
 
-void vox_grid::was_cut(vox_mesh id) {
+void vox_grid::was_cut(vox_mesh id, std::uint64_t count) {
+    if (count == 0) return;
     mark_moved(id);
     adaptive_.scene_changed();
 }
@@ -195,12 +196,12 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
 
 void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
     mesh(id).set_tets_enabled(tets, enabled);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
     mesh(id).replace_tets(tets, corners);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
@@ -209,13 +210,13 @@ std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     if (find_penetrations_) depth::check_tet_count(grown.tet_count() + corners.size());
     const std::uint32_t first = grown.append_tets(corners);
     tet_count_ += corners.size();
-    was_cut(id);
+    was_cut(id, corners.size());
     return first;
 }
 
 void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
     mesh(id).remove_tets(tets);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
@@ -223,13 +224,13 @@ std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& de
     check_limit(vertex_count_, desc.count, VOX_MAX_VERTICES, "vertices");
     const std::uint32_t first = grown.append_vertices(desc);
     vertex_count_ += desc.count;
-    was_cut(id);
+    was_cut(id, desc.count);
     return first;
 }
 
 void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
     mesh(id).remove_vertices(vertices);
-    was_cut(id);
+    was_cut(id, vertices.size());
 }
 
 // ---- more of meshes -------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
-// The surface is the boundary of the chain of all tets: a facet is in it as often as tets on one side
-// outnumber those on the other (winding.cpp asks for no more than that). So a facet is looked at again when a
-// tet that has it changes, and counted over the tets around it.
+// The surface is the boundary of the chain of all tets: a facet is in it when tets on one side outnumber those
+// on the other, and faces away from them. It is there once, however many more they are: across it the winding
+// number falls, by how much does not matter to winding.cpp. So a facet is looked at again when a tet that has
+// it changes, and counted over the tets around it.
 #include "repair.hpp"
 
 #include <algorithm>

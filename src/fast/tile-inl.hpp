@@ -50,6 +50,17 @@ HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std
     hn::Store(hn::Max(hi0, hi1), d, box.hi);
 }
 
+// Four positions as a structure of arrays.
+HWY_INLINE void StoreTransposed(hn::Vec<Four> p0, hn::Vec<Four> p1, hn::Vec<Four> p2, hn::Vec<Four> p3,
+                                float* x, float* y, float* z) {
+    const Four d;
+    const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
+    const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
+    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, x);
+    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, y);
+    hn::Store(hn::InterleaveLower(d, z02, z13), d, z);
+}
+
 // The tile's vertices as a structure of arrays; their box unless kBox is false.
 template <bool kBox, class Load>
 HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
@@ -63,11 +74,7 @@ HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, 
             lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
             hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
         }
-        const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
-        const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
-        hn::Store(hn::InterleaveLower(d, xy02, xy13), d, s.x + i);
-        hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, s.y + i);
-        hn::Store(hn::InterleaveLower(d, z02, z13), d, s.z + i);
+        StoreTransposed(p0, p1, p2, p3, s.x + i, s.y + i, s.z + i);
     }
     for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
         hn::Store(hn::Set(d, s.x[0]), d, s.x + i);

@@ -6,6 +6,7 @@
 #include "../lists.hpp"
 #include "../scene.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -48,6 +49,10 @@ struct Tiles {
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
+    std::uint32_t super_tile_of(std::uint32_t tile) const noexcept {
+        return static_cast<std::uint32_t>(std::upper_bound(super_first.begin(), super_first.end(), tile) -
+                                          super_first.begin() - 1);
+    }
 
 private:
     // Between the ends of a list; none before make_tiles().

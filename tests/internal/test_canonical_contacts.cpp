@@ -76,8 +76,8 @@ START_TEST(any_order_of_hits_becomes_canonical) {
             for (const std::uint32_t range : {3u, 200u, 66000u}) { // of vertices and tets
                 std::set<Key> keys;
                 for (std::uint32_t i = 0; i < count; ++i)
-                    keys.emplace(random.below(spread), 4 + random.below(range), random.below(spread),
-                                 random.below(range));
+                    keys.insert(Key{random.below(spread), 4 + random.below(range), random.below(spread),
+                                    random.below(range)});
                 std::pmr::vector<Hit> sorted_hits, hits;
                 for (const auto& [body_a, vertex, body_b, tet] : keys)
                     sorted_hits.push_back(hit(body_a, vertex, body_b, tet, random.below(3) == 0));

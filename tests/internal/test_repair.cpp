@@ -212,9 +212,9 @@ void check_topology(const Edited& e, const depth::Topology& repaired) {
 
 START_TEST(topology_is_repaired) {
     Random random{std::uint64_t(_i)};
-    Mesh mesh = _i % 2 ? block(1 + static_cast<int>(random.below(3)), 2, 2)
-                       : soup(random, 5 + random.below(10), 1 + random.below(40));
-    Edited e(std::move(mesh));
+    const std::uint32_t long_side = 1 + random.below(3), vertices = 5 + random.below(10),
+                        tets = 1 + random.below(40);
+    Edited e(_i % 2 ? block(static_cast<int>(long_side), 2, 2) : soup(random, vertices, tets));
     depth::Topology topology(heap());
     depth::make_topology(e.mesh.tets, vertex_count(e.mesh), topology);
     for (int step = 0; step < 40; ++step) {
