@@ -146,7 +146,6 @@ private:
     std::pmr::vector<const vox::depth::Topology*> topologies_; // of each body, for the depth stage
     vox::Depth depth_;
     std::pmr::vector<vox::Hit> hits_;
-    std::pmr::vector<vox::Hit> scratch_;
 
     // results
     std::pmr::vector<vox_contact> contacts_;

@@ -118,7 +118,7 @@ public:
 
     void take(std::span<const fast::Finding> findings) override {
         const std::uint64_t start = nanoseconds();
-        Hit hits[256];
+        Hit hits[64];
         std::size_t count = 0;
         for (const fast::Finding& f : findings) {
             Containment where = Containment::interior;
@@ -130,13 +130,10 @@ public:
                 ++worker_.filtered;
                 continue;
             }
-            Hit hit{};
-            hit.body_a = f.body;
-            hit.vertex = f.vertex;
-            hit.body_b = body_;
-            hit.tet = f.tet;
-            hit.interior = where == Containment::interior;
-            hits[count++] = hit;
+            // In place and as a whole: bit fields set one by one are slow to read back.
+            hits[count++] = {
+                f.body,   f.vertex, body_, f.tet & 0x7fffffffu, where == Containment::interior ? 1u : 0u,
+                f.weights};
             if (count == std::size(hits)) {
                 append(std::span(hits, count));
                 count = 0;
@@ -164,6 +161,9 @@ private:
     void append(std::span<const Hit> hits) {
         if (hits.empty()) return;
         const std::lock_guard lock(step_.mutex);
+        // A quarter more at a time: there may be many, and twice as much room would be held for good.
+        const std::size_t count = step_.hits.size() + hits.size();
+        if (step_.hits.capacity() < count) step_.hits.reserve(count + count / 4);
         step_.hits.insert(step_.hits.end(), hits.begin(), hits.end());
     }
 

@@ -19,7 +19,7 @@ namespace {
 struct Engine {
     CountingMemory memory{std::size_t(1) << 26};
     Reference reference{&memory};
-    std::pmr::vector<Hit> hits{&memory}, scratch{&memory};
+    std::pmr::vector<Hit> hits{&memory};
     std::pmr::vector<vox_contact> contacts{&memory};
     vox_counters counters{};
     vox_profile profile{};
@@ -30,7 +30,7 @@ struct Engine {
     }
     void step(const Scene& scene, const ReferenceSettings& settings) {
         detect(scene, settings);
-        make_contacts(bodies(scene), hits, scratch, contacts);
+        make_contacts(bodies(scene), hits, contacts);
     }
 };
 
