@@ -5,6 +5,7 @@
 // All grids make each step once, one after the other, so that each finds the caches as the one before left
 // them.
 #include "bodies.hpp"
+#include "program.hpp"
 #include "stopwatch.hpp"
 
 #include <vox/vox.h>
@@ -22,10 +23,6 @@
 
 namespace bench {
 namespace {
-
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
-}
 
 // ---- the bodies -----------------------------------------------------------------------------------
 
@@ -256,10 +253,5 @@ int run(int argc, char** argv) {
 } // namespace bench
 
 int main(int argc, char** argv) {
-    try {
-        return bench::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "adaptive: %s\n", error.what());
-        return 1;
-    }
+    return bench::run_program("adaptive", [&] { return bench::run(argc, argv); });
 }

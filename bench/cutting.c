@@ -4,22 +4,7 @@
  * of the body takes. Usage: bench_cutting [largest], thousands of tetrahedra, 1000 by default. */
 #include "bodies.h"
 #include "random.h"
-
-#include <stdio.h>
-#include <string.h>
-#include <time.h>
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(vox_result result) {
-    if (result == VOX_OK) return;
-    fprintf(stderr, "%s\n", vox_last_error());
-    exit(EXIT_FAILURE);
-}
+#include "timing.h"
 
 enum { most_changed = 1000, kinds = 3 };
 

@@ -9,6 +9,7 @@
 // than in a simulation.
 #include "fast_scenes.hpp"
 #include "processor_time.hpp"
+#include "program.hpp"
 
 #include <vox/vox.h>
 
@@ -17,14 +18,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 namespace {
 
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
-}
+using bench::must;
 
 struct Row {
     const char* name;

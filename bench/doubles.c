@@ -2,8 +2,7 @@
  * turn, and the ratio of their lower quartiles of processor time. "rigid" moves the same floats by transforms.
  * Usage: bench_doubles [frames], 30 by default. */
 #include "portability/scenes.h"
-
-#include <time.h>
+#include "timing.h"
 
 enum { FLOATS, DOUBLES, DOUBLES_FAR, RIGID, VARIANTS };
 
@@ -14,18 +13,6 @@ typedef struct variant {
     uint64_t contacts;
     double* seconds;
 } variant;
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(vox_result result) {
-    if (result == VOX_OK) return;
-    fprintf(stderr, "%s\n", vox_last_error());
-    exit(EXIT_FAILURE);
-}
 
 static int is_double(int kind) { return kind == DOUBLES || kind == DOUBLES_FAR; }
 

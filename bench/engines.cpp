@@ -236,7 +236,7 @@ bool run(const Named& named, const Options& options) {
 
     Fast fast(&memory);
     Reference reference(std::pmr::new_delete_resource());
-    std::pmr::vector<Hit> fast_hits(&memory), reference_hits, scratch;
+    std::pmr::vector<Hit> fast_hits(&memory), reference_hits;
     std::pmr::vector<vox_contact> contacts;
     vox_counters counters{}, reference_counters{};
     vox_profile profile{}, reference_profile{};
@@ -281,7 +281,7 @@ bool run(const Named& named, const Options& options) {
         const double reference_time = with_reference ? run_reference() : 0;
         if (with_reference) same = same && keys(fast_hits) == keys(reference_hits);
         start = now();
-        make_contacts(scene.bodies(), fast_hits, scratch, contacts);
+        make_contacts(scene.bodies(), fast_hits, contacts);
         const double contacts_time = now() - start;
         if (frame == 0) continue; // everything grows
         t_fast.push_back(fast_time);

@@ -10,6 +10,7 @@
 // how much the rules lose by the other half, and the other way round: a candidate that was only lucky in one
 // half is not so in the other. The model's size has two turns in each round; by how much they differ in the
 // end is the noise of a figure.
+#include "program.hpp"
 #include "scenes.hpp"
 #include "stopwatch.hpp"
 #include "unlike.hpp"
@@ -32,10 +33,6 @@
 
 namespace bench {
 namespace {
-
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
-}
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -469,10 +466,5 @@ int run(int argc, char** argv) {
 } // namespace bench
 
 int main(int argc, char** argv) {
-    try {
-        return bench::run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "regret: %s\n", error.what());
-        return 1;
-    }
+    return bench::run_program("regret", [&] { return bench::run(argc, argv); });
 }

@@ -1,6 +1,7 @@
 #include "scenes.hpp"
 
 #include "bodies.hpp"
+#include "program.hpp"
 
 #include <vox/vox.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 namespace bench {
 namespace {
@@ -81,10 +81,6 @@ double bisect(double low, double high, double target, const std::function<double
     return (low + high) / 2;
 }
 
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
-}
-
 // The distance, in [0, far], at which `share` of the tetrahedra of two bodies hold a vertex of the other one.
 double place_by_contacts(const Solid (&solids)[2], const std::function<Pose(std::size_t body, double)>& pose,
                          double far, double share) {
@@ -147,12 +143,20 @@ Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
     });
 }
 
-Scene one_ball(double tets, bool shuffled) {
-    Solid ball = lattice_ball(tets, 1);
-    if (shuffled) shuffle(ball, 1);
+// A body alone, whose waves run on from frame to frame.
+Scene alone(Solid solid, double radius, bool shuffled, double amplitude = 0.01) {
+    if (shuffled) shuffle(solid, 1);
+    const Pose pose = waves(radius, {0, 0, 0}, 0, amplitude);
     Scene scene;
-    add(scene, ball, waves(ball_radius(tets), {0, 0, 0}, 0), true);
+    add(scene, solid, pose, true);
+    scene.bodies[0].later = [solid = std::move(solid), pose](std::size_t frame) {
+        return frame_positions(solid, pose, frame);
+    };
     return scene;
+}
+
+Scene one_ball(double tets, bool shuffled) {
+    return alone(lattice_ball(tets, 1), ball_radius(tets), shuffled);
 }
 
 // Balls in a cubic lattice, 3.5 % closer than touching, each a little off its place.
@@ -231,11 +235,8 @@ Scene file_pair(const std::string& path, bool shuffled, double share) {
 }
 
 Scene file_self(const std::string& path, bool shuffled) {
-    Solid solid = read_solid(path);
-    if (shuffled) shuffle(solid, 1);
-    Scene scene;
-    add(scene, solid, waves(half_longest_side(solid), {0, 0, 0}, 0, file_amplitude), true);
-    return scene;
+    const Solid solid = read_solid(path);
+    return alone(solid, half_longest_side(solid), shuffled, file_amplitude);
 }
 
 } // namespace
@@ -253,7 +254,11 @@ std::size_t Scene::tet_count() const {
 }
 
 void Scene::pose(std::size_t frame) {
-    for (Body& body : bodies) std::ranges::copy(body.frames[frame], body.positions.begin());
+    for (Body& body : bodies)
+        if (frame >= body.frames.size() && body.later)
+            std::ranges::copy(body.later(frame), body.positions.begin());
+        else
+            std::ranges::copy(body.frames[frame % body.frames.size()], body.positions.begin());
 }
 
 Scene pair_from_file(const std::string& path, double share) {

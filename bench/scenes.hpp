@@ -13,6 +13,8 @@ struct Body {
     std::vector<float>
         positions; // of the current frame: 3 * vertex_count, and one more to load four at a time
     std::vector<std::vector<float>> frames;
+    // Positions of the frames after those; null: the same again.
+    std::function<std::vector<float>(std::size_t frame)> later;
     std::vector<std::uint32_t> tets; // 4 * tet_count
     bool self_collision = false;
 
@@ -28,7 +30,8 @@ struct Scene {
     std::size_t vertex_count() const;
     std::size_t tet_count() const;
     std::size_t frame_count() const { return bodies.front().frames.size(); }
-    // Writes the positions of a frame, as a simulation would, into the memory that the entrants read.
+    // Writes the positions of a frame, of any number, as a simulation would, into the memory that the
+    // entrants read.
     void pose(std::size_t frame);
 };
 
@@ -43,7 +46,8 @@ struct SceneMaker {
 // `shuffle` gives vertices and tetrahedra random numbers instead of the generator's.
 std::vector<SceneMaker> scene_makers(const std::string& mesh_folder);
 
-// A body from a file and its turned copy, so far apart that `share` of the tetrahedra hold a vertex of the other one.
+// A body from a file and its turned copy, so far apart that `share` of the tetrahedra hold a vertex of the
+// other one.
 Scene pair_from_file(const std::string& path, double share);
 
 } // namespace bench

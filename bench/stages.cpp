@@ -45,8 +45,10 @@ struct Bodies {
     std::uint32_t vertices;
     fast::Tiles tiles{memory};
     fast::Surface surface{memory};
-    std::vector<Box> blocks, tile_boxes, many;
-    std::vector<std::uint8_t> known;
+    std::vector<Box> blocks, moves, super_boxes, tile_boxes, many;
+    std::vector<std::uint8_t> known, upright;
+    std::vector<std::uint64_t> bad;
+    fast::Turning turning{memory};
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
     std::pmr::vector<fast::Pair> pairs;
@@ -76,6 +78,16 @@ struct Bodies {
         known.resize(tiles.tiles.size());
         fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
         fast::make_surface(a.tets, vertices, view(a), tiles, surface);
+        super_boxes.resize(tiles.super_tile_count());
+        upright.resize(super_boxes.size());
+        moves.resize(blocks.size());
+        bad.resize(tiles.tiles.size());
+        fast::follow(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+                     super_boxes.data(), upright.data());
+        turning.boxes.assign(super_boxes.begin(), super_boxes.end());
+        turning.slack.assign(super_boxes.size(), 0.1f);
+        turning.is_known = true;
+        std::fill(upright.begin(), upright.end(), std::uint8_t{1});
         rest.positions.resize(std::size_t{vertices} * 3);
         rest.parts.resize(1);
         box_b = fast::empty_box;
@@ -174,9 +186,32 @@ std::vector<Stage> stages_of(Bodies& s) {
         {"query", "tet", tets, [&s] { s.query(); }},
         {"winding", "tet", tets,
          [&s] {
-             const fast::WindingBody body{s.tiles, s.surface,           packed(s.a),    s.box_a,
-                                          2.3,     s.tile_boxes.data(), s.known.data(), nullptr};
+             const fast::WindingBody body{s.tiles,
+                                          s.surface,
+                                          packed(s.a),
+                                          s.vertices,
+                                          s.box_a,
+                                          2.3,
+                                          s.super_boxes.data(),
+                                          s.upright.data(),
+                                          s.tile_boxes.data(),
+                                          s.known.data(),
+                                          s.turning,
+                                          nullptr};
              fast::certify(body, s.certificate, s.exact_tests);
+         }},
+        {"turning", "tet", tets,
+         [&s] {
+             const auto supers = s.tiles.super_tile_count();
+             fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
+                                s.moves.data(), s.box_a);
+             fast::follow(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
+                          s.super_boxes.data(), s.upright.data());
+         }},
+        {"orient", "tet", tets,
+         [&s] {
+             fast::orient(s.tiles, s.surface, packed(s.a), false, 0, s.tiles.super_first.back(),
+                          s.tile_boxes.data(), s.known.data(), s.bad.data());
          }},
     };
 }

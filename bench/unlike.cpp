@@ -32,7 +32,8 @@ void add(Scene& scene, const Solid& solid, double scale, const Vec3& place, doub
     scene.bodies.push_back(std::move(body));
 }
 
-// A ball whose tetrahedra get smaller towards its centre.
+// A ball whose tetrahedra get smaller towards its centre: edges are in proportion to the distance from it to
+// the power of `power` - 1, down to that of one edge of the lattice.
 Solid graded_ball(double tets, double power, std::uint64_t seed) {
     Solid ball = lattice_ball(tets, seed);
     const double radius = ball_radius(tets);
@@ -70,7 +71,7 @@ Scene unlike_pair(double tets, double ratio) {
     return scene;
 }
 
-// Over all tetrahedra, so that a scene's unit is that of the body with most of them.
+// Over the six edges of each tetrahedron.
 double mean_edge(const Scene& scene) {
     double sum = 0, count = 0;
     for (const Body& body : scene.bodies)
@@ -96,10 +97,12 @@ std::vector<SceneMaker> unlike_scenes() {
                               return scene;
                           }});
     };
-    add_maker("graded", "two balls, finer inside, 1:10", [](double n) { return graded_pair(n, 2); });
-    add_maker("graded-self", "one ball, finer inside, 1:10, self",
+    add_maker("graded", "two balls, edges as the distance from the centre",
+              [](double n) { return graded_pair(n, 2); });
+    add_maker("graded-self", "one ball, edges as the distance from the centre, self",
               [](double n) { return graded_self(n, 2); });
-    add_maker("graded-100", "two balls, finer inside, 1:100", [](double n) { return graded_pair(n, 3); });
+    add_maker("graded-100", "two balls, edges as the distance squared",
+              [](double n) { return graded_pair(n, 3); });
     add_maker("unlike-10", "two balls, edges 1:10", [](double n) { return unlike_pair(n, 10); });
     add_maker("unlike-100", "two balls, edges 1:100", [](double n) { return unlike_pair(n, 100); });
     return makers;

@@ -1,12 +1,12 @@
 // The engines of vox through its C interface, as a user would call them.
 #include "entrant.hpp"
+#include "program.hpp"
 #include "stopwatch.hpp"
 
 #include <vox/vox.h>
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace bench {
 
@@ -14,10 +14,6 @@ const std::string reference_name = "vox reference";
 const std::string subject_name = "vox";
 
 namespace {
-
-void must(vox_result result) {
-    if (result != VOX_OK) throw std::runtime_error(vox_last_error());
-}
 
 struct Engine {
     std::string name;

@@ -25,8 +25,8 @@ const char* vox_version_string(void) {
 }
 
 const char* vox_build_info(void) {
-    return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(
-        VOX_VERSION_PATCH)
+    // clang-format off
+    return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH)
 #if defined(__clang__)
         ", clang " __clang_version__
 #elif defined(__GNUC__)
@@ -36,21 +36,22 @@ const char* vox_build_info(void) {
 #endif
         ", C++ " VOX_STRING(__cplusplus)
 #if defined(__x86_64__) || defined(_M_X64)
-            ", SIMD portable SSE4 AVX2 AVX-512"
+        ", SIMD portable SSE4 AVX2 AVX-512"
 #elif defined(__aarch64__)
-            ", SIMD NEON"
+        ", SIMD NEON"
 #elif defined(__wasm_simd128__)
-            ", SIMD 128"
+        ", SIMD 128"
 #endif
 #if defined(VOX_TBB)
-            ", oneTBB"
+        ", oneTBB"
 #endif
 #if defined(NDEBUG)
-            ", release"
+        ", release"
 #else
-            ", debug"
+        ", debug"
 #endif
         ;
+    // clang-format on
 }
 
 // ---- grid -----------------------------------------------------------------------------------------

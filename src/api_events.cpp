@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 
 using namespace vox;
@@ -16,10 +17,27 @@ std::span<const vox_contact> contacts_of(const vox_grid& grid) noexcept {
     return {view.data, static_cast<std::size_t>(view.count)};
 }
 
-// The caller's array. No more can be copied than there are, whatever the capacity.
-template <class T>
-std::span<T> room(T* array, std::uint64_t capacity, std::size_t most) noexcept {
-    return {array, static_cast<std::size_t>(std::min<std::uint64_t>(capacity, most))};
+std::span<const vox_reading> readings_of(const vox_grid& grid) { return grid.readings(); }
+
+// Copies items of contacts, of which all_of(grid) has one for each: those that a mesh has a part in, or those
+// between two meshes. `name` is that of the parameter `items`.
+template <class Item>
+vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_mesh> meshes, Item* items,
+                      const char* name, std::uint64_t capacity, std::uint64_t* out_count,
+                      std::span<const Item> (*all_of)(const vox_grid&)) {
+    return border([&] {
+        require(grid, "grid");
+        require(out_count, "out_count");
+        if (capacity > 0) require(items, name);
+        for (const vox_mesh mesh : meshes) (void)grid->mesh(mesh); // throws for an id that names no mesh
+        const std::span<const Item> all = all_of(*grid);
+        // No more can be copied than there are, whatever the capacity.
+        const std::span<Item> out(items,
+                                  static_cast<std::size_t>(std::min<std::uint64_t>(capacity, all.size())));
+        const vox_mesh first = *meshes.begin();
+        *out_count = meshes.size() == 1 ? grid->events().copy_of_mesh(all, first, out)
+                                        : grid->events().copy_of_pair(all, first, meshes.begin()[1], out);
+    });
 }
 
 } // namespace
@@ -36,27 +54,12 @@ vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view) {
 
 vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
                                   uint64_t capacity, uint64_t* out_count) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_count, "out_count");
-        if (capacity > 0) require(contacts, "contacts");
-        (void)grid->mesh(mesh); // throws for an id that names no mesh
-        const std::span<const vox_contact> all = contacts_of(*grid);
-        *out_count = grid->events().copy_of_mesh(all, mesh, room(contacts, capacity, all.size()));
-    });
+    return copy_items(grid, {mesh}, contacts, "contacts", capacity, out_count, contacts_of);
 }
 
 vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
                                   vox_contact* contacts, uint64_t capacity, uint64_t* out_count) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_count, "out_count");
-        if (capacity > 0) require(contacts, "contacts");
-        (void)grid->mesh(mesh_a);
-        (void)grid->mesh(mesh_b);
-        const std::span<const vox_contact> all = contacts_of(*grid);
-        *out_count = grid->events().copy_of_pair(all, mesh_a, mesh_b, room(contacts, capacity, all.size()));
-    });
+    return copy_items(grid, {mesh_a, mesh_b}, contacts, "contacts", capacity, out_count, contacts_of);
 }
 
 vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view) {
@@ -99,25 +102,10 @@ vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view) {
 
 vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings,
                                   uint64_t capacity, uint64_t* out_count) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_count, "out_count");
-        if (capacity > 0) require(readings, "readings");
-        (void)grid->mesh(mesh);
-        const std::span<const vox_reading> all = grid->readings();
-        *out_count = grid->events().copy_of_mesh(all, mesh, room(readings, capacity, all.size()));
-    });
+    return copy_items(grid, {mesh}, readings, "readings", capacity, out_count, readings_of);
 }
 
 vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
                                   vox_reading* readings, uint64_t capacity, uint64_t* out_count) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_count, "out_count");
-        if (capacity > 0) require(readings, "readings");
-        (void)grid->mesh(mesh_a);
-        (void)grid->mesh(mesh_b);
-        const std::span<const vox_reading> all = grid->readings();
-        *out_count = grid->events().copy_of_pair(all, mesh_a, mesh_b, room(readings, capacity, all.size()));
-    });
+    return copy_items(grid, {mesh_a, mesh_b}, readings, "readings", capacity, out_count, readings_of);
 }

@@ -19,20 +19,6 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#ifndef VOX_BARYCENTRIC_ONCE
-#define VOX_BARYCENTRIC_ONCE
-namespace vox {
-
-// Points and the four corners of their tetrahedra, as a structure of arrays. Floats where those are exact.
-template <class Coordinate>
-struct BarycentricBlock {
-    alignas(64) Coordinate point[3][barycentric_block];
-    alignas(64) Coordinate corner[4][3][barycentric_block];
-};
-
-} // namespace vox
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace vox {
 namespace HWY_NAMESPACE {
@@ -137,13 +123,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace vox {
-namespace {
 
-std::uint64_t block_weights(const BarycentricBlock<float>& block, std::size_t count, float* weights) {
+std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t count, float* weights) {
     return VOX_SIMD_DISPATCH(WeightsOfFloats)(block, count, weights);
 }
 
-std::uint64_t block_weights(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
+namespace {
+
+std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
     return VOX_SIMD_DISPATCH(WeightsOfDoubles)(block, count, weights);
 }
 
@@ -197,7 +184,7 @@ void weights_of_block(std::span<const Body> bodies, std::span<const Hit> hits, s
             for (std::size_t c = 0; c < 4; ++c) block.corner[c][a][i] = block.corner[c][a][0];
         }
     }
-    std::uint64_t uncertain = block_weights(block, count, &weights[0][0]) & ~std::uint64_t{0} >> (64 - count);
+    std::uint64_t uncertain = barycentric(block, count, &weights[0][0]) & ~std::uint64_t{0} >> (64 - count);
     for (; uncertain; uncertain &= uncertain - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(uncertain));
         const Hit& hit = hits[first + i];

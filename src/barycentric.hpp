@@ -11,6 +11,17 @@ namespace vox {
 
 inline constexpr std::size_t barycentric_block = 64;
 
+// Points and the four corners of their tetrahedra, as a structure of arrays.
+template <class Coordinate>
+struct BarycentricBlock {
+    alignas(64) Coordinate point[3][barycentric_block];
+    alignas(64) Coordinate corner[4][3][barycentric_block];
+};
+
+// Weights of the first `count` points of a block, four a point; computes, and reads, whole registers of
+// eight. Bit i of the result: those of point i are not certain, and unspecified.
+std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t count, float* weights);
+
 using BarycentricWeights = std::array<std::array<float, 4>, barycentric_block>;
 
 // Weights of the corners of the tetrahedra for the vertices of hits[first], hits[first + 1], ... as far as

@@ -20,36 +20,42 @@ bool before(const Hit& x, const Hit& y) {
 
 bool same_vertex(const Hit& x, const Hit& y) { return x.vertex == y.vertex && x.body_a == y.body_a; }
 
-// By body_a and vertex: one number of as few bits as these hits need, cut into equal digits.
-void radix_sort(std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch) {
+// By body_a and vertex: one number of as few bits as these bodies need, cut into two equal digits or more.
+// `contacts` is as long as `hits`, and holds them, bit by bit, after every other digit.
+void radix_sort(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts) {
+    static_assert(sizeof(Hit) == sizeof(vox_contact));
     constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
-    std::uint32_t vertices = 0, bodies = 0;
-    for (const Hit& hit : hits) {
-        vertices |= hit.vertex;
-        bodies |= hit.body_a;
-    }
-    const int vertex_bits = static_cast<int>(std::bit_width(vertices));
-    const int bits = vertex_bits + static_cast<int>(std::bit_width(bodies));
-    if (bits == 0) return; // all the same, or none
+    constexpr std::size_t most_values = std::size_t{1} << most_digit_bits;
+    std::uint32_t most_vertices = 1;
+    for (const Body& body : bodies) most_vertices = std::max(most_vertices, body.vertex_count);
+    const int vertex_bits = static_cast<int>(std::bit_width(most_vertices - 1));
+    const int bits = vertex_bits + static_cast<int>(std::bit_width(bodies.size()));
     // Not many more counts than hits.
-    const int wanted_bits = std::min(most_digit_bits, static_cast<int>(std::bit_width(hits.size())));
-    const int digits = (bits + wanted_bits - 1) / wanted_bits;
-    const int digit_bits = (bits + digits - 1) / digits;
+    const int wanted_bits = std::clamp(static_cast<int>(std::bit_width(hits.size())), 1, most_digit_bits);
+    const int pairs = std::max((bits + 2 * wanted_bits - 1) / (2 * wanted_bits), 1); // of digits
+    const int digit_bits = (bits + 2 * pairs - 1) / (2 * pairs);
     const std::size_t digit_values = std::size_t{1} << digit_bits;
 
-    scratch.resize(hits.size());
-    std::array<std::uint32_t, std::size_t{1} << most_digit_bits> place; // first counts
-    for (int d = 0; d < digits; ++d) {
-        const auto digit = [shift = d * digit_bits, vertex_bits, digit_values](const Hit& hit) {
+    std::array<std::uint32_t, most_values> place[2]; // of the lower and the upper digit; first counts
+    for (int pair = 0; pair < pairs; ++pair) {
+        const auto digit = [=](const Hit& hit, int upper) {
             const std::uint64_t key = std::uint64_t{hit.body_a} << vertex_bits | hit.vertex;
-            return static_cast<std::size_t>(key >> shift) & (digit_values - 1);
+            return static_cast<std::size_t>(key >> (2 * pair + upper) * digit_bits) & (digit_values - 1);
         };
-        std::fill_n(place.begin(), digit_values, 0u);
-        for (const Hit& hit : hits) ++place[digit(hit)];
-        std::uint32_t sum = 0;
-        for (std::size_t v = 0; v < digit_values; ++v) sum += std::exchange(place[v], sum);
-        for (const Hit& hit : hits) scratch[place[digit(hit)]++] = hit;
-        hits.swap(scratch);
+        for (auto& counts : place) std::fill_n(counts.begin(), digit_values, 0u);
+        for (const Hit& hit : hits) {
+            ++place[0][digit(hit, 0)];
+            ++place[1][digit(hit, 1)];
+        }
+        for (auto& counts : place) {
+            std::uint32_t sum = 0;
+            for (std::size_t v = 0; v < digit_values; ++v) sum += std::exchange(counts[v], sum);
+        }
+        for (const Hit& hit : hits) contacts[place[0][digit(hit, 0)]++] = std::bit_cast<vox_contact>(hit);
+        for (const vox_contact& contact : contacts) {
+            const Hit hit = std::bit_cast<Hit>(contact);
+            hits[place[1][digit(hit, 1)]++] = hit;
+        }
     }
 }
 
@@ -69,30 +75,46 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
     return kept;
 }
 
-// The contacts of the block of hits from `first` on; returns how many.
-std::size_t write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits,
-                        std::size_t first, vox_contact* out) {
+// The contacts of the block of hits from `first` on.
+void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits, std::size_t first,
+                 vox_contact* out) {
+    const std::size_t count = std::min(barycentric_block, hits.size() - first);
+    const std::span<const Hit> block = hits.subspan(first, count);
+    bool complete = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Hit& hit = block[i];
+        const float* w = hit.weights.of;
+        out[first + i] = {bodies[hit.body_a].mesh_id,
+                          hit.vertex,
+                          bodies[hit.body_b].mesh_id,
+                          std::uint32_t(hit.tet),
+                          {w[0], w[1], w[2], w[3]}};
+        complete &= hit.weights.known();
+    }
+    if (complete) return;
     BarycentricWeights weights;
     barycentric(bodies, rounded, hits, first, weights);
-    const std::size_t count = std::min(barycentric_block, hits.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Hit& hit = hits[first + i];
-        const std::array<float, 4>& w = weights[i];
-        out[i] = {bodies[hit.body_a].mesh_id,
-                  hit.vertex,
-                  bodies[hit.body_b].mesh_id,
-                  std::uint32_t(hit.tet),
-                  {w[0], w[1], w[2], w[3]}};
+    for (std::size_t i = 0; i < count; ++i)
+        if (!block[i].weights.known())
+            std::copy(weights[i].begin(), weights[i].end(), out[first + i].barycentric);
+}
+
+// Room for a few more, so that contacts that come and go need no new room in every step.
+void resize(std::pmr::vector<vox_contact>& contacts, std::size_t count) {
+    if (contacts.capacity() < count) {
+        contacts.clear();
+        contacts.reserve(count + count / 8);
     }
-    return count;
+    contacts.resize(count);
 }
 
 } // namespace
 
-void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
+void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
                    std::pmr::vector<vox_contact>& contacts, Workers* workers) {
+    resize(contacts, hits.size());
     if (hits.size() <= UINT32_MAX) // what 32-bit counts are enough for
-        radix_sort(hits, scratch);
+        radix_sort(bodies, hits, contacts);
     else
         std::sort(hits.begin(), hits.end(), before);
 
@@ -107,27 +129,20 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, st
             kept = keep(begin, end, kept);
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
+    contacts.resize(hits.size());
 
-    contacts.clear();
-    contacts.reserve(hits.size());
     const bool rounded =
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
     const std::size_t blocks = (hits.size() + barycentric_block - 1) / barycentric_block;
+    const auto write = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t b = begin; b < end; ++b)
+            write_block(bodies, rounded, hits, b * barycentric_block, contacts.data());
+    };
     constexpr std::size_t least_blocks = 16; // worth a task
-    if (workers && workers->count() > 1 && blocks > least_blocks) {
-        contacts.resize(hits.size());
-        workers->for_ranges(blocks, least_blocks, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t b = begin; b < end; ++b)
-                write_block(bodies, rounded, hits, b * barycentric_block,
-                            contacts.data() + b * barycentric_block);
-        });
-        return;
-    }
-    std::array<vox_contact, barycentric_block> block;
-    for (std::size_t b = 0; b < blocks; ++b) {
-        const std::size_t count = write_block(bodies, rounded, hits, b * barycentric_block, block.data());
-        contacts.insert(contacts.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
-    }
+    if (workers && workers->count() > 1 && blocks > least_blocks)
+        workers->for_ranges(blocks, least_blocks, write);
+    else
+        write(0, blocks, 0);
 }
 
 std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept {

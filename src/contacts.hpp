@@ -15,9 +15,9 @@ namespace vox {
 class Workers;
 
 // Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to; `hits` is left
-// with the ones that became contacts. `scratch` is a buffer kept from step to step. `workers` share the
-// barycentric coordinates, as one task of the step; null: the calling thread computes them.
-void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits, std::pmr::vector<Hit>& scratch,
+// with the ones that became contacts. `workers` share what is missing of the barycentric coordinates, as one
+// task of the step; null: the calling thread computes them.
+void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
                    std::pmr::vector<vox_contact>& contacts, Workers* workers = nullptr);
 
 // vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte

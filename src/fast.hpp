@@ -11,6 +11,7 @@
 #include "fast/surface.hpp"
 #include "fast/tile_sides.hpp"
 #include "fast/tiles.hpp"
+#include "fast/turning.hpp"
 #include "fast/winding.hpp"
 #include "fast/window.hpp"
 #include "scene.hpp"
@@ -30,10 +31,11 @@ class Workers;
 // empty mesh.
 struct FastMesh : fast::Tiles {
     explicit FastMesh(std::pmr::memory_resource* memory) noexcept
-        : Tiles(memory), surface(memory), rest(memory), places(memory) {}
+        : Tiles(memory), surface(memory), rest(memory), turning(memory), places(memory) {}
 
     fast::Surface surface; // of bodies with self-collision
     fast::Rest rest;       // the positions of the last step
+    fast::Turning turning; // which tets may have turned over
     fast::Places places;   // for edits
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
@@ -97,10 +99,12 @@ private:
         std::uint32_t first_super; // in super_boxes_
         std::uint32_t first_tile;  // in tile_boxes_ and tile_known_
         std::uint32_t first_block; // in block_boxes_
+        std::uint32_t first_move;  // in block_moves_, if `tracked`
         bool rounded;              // `positions` are
         bool moved;                // or may have, since the last step
         bool reached;           // by others: super_boxes_ and the tile_boxes_ are made where they meet them
-        bool tiles_known;       // all of tile_boxes_ are
+        bool supers_known;      // super_boxes_ are
+        bool tracked;           // block_moves_ are made
         bool self;              // some vertices of the window may be in tets of the same body
         std::uint32_t binned;   // vertices in the windows
         fast::Box own;          // where vertices of the window may be in tets of the same body
@@ -150,6 +154,8 @@ private:
     void prepare(Step& step);
     void stream(Step& step);
     bool stream(const Step& step, const Piece& piece, fast::Box& box, std::uint8_t& moved);
+    bool may_certify(const Step& step, std::uint32_t body) const noexcept;
+    void follow_turning(Step& step);
     void find_reaches(Step& step);
     void shrink_to_blocks(const Step& step, Reach& reach) const;
     void shrink_to_tiles(const Step& step, Reach& reach) const;
@@ -171,9 +177,11 @@ private:
 
     std::pmr::vector<BodyState> states_;
     std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> tile_known_;   // tile_boxes_ is of this step
-    std::pmr::vector<fast::Box> reached_regions_; // of each body, around the regions where others reach it
-    std::pmr::vector<std::uint8_t> block_sides_;  // of block_boxes_, from there: sides_of()
+    std::pmr::vector<fast::Box> block_moves_;      // around displacements from the reference of the body
+    std::pmr::vector<std::uint8_t> super_upright_; // all tets of a super-tile are surely positive
+    std::pmr::vector<std::uint8_t> tile_known_;    // tile_boxes_ is of this step
+    std::pmr::vector<fast::Box> reached_regions_;  // of each body, around the regions where others reach it
+    std::pmr::vector<std::uint8_t> block_sides_;   // of block_boxes_, from there: sides_of()
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
     std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
     std::pmr::vector<std::uint8_t> piece_moved_;

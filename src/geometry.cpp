@@ -195,14 +195,8 @@ Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory
     stats.facets = sums.facet.count();
     stats.boundary_facets = sums.boundary_facet.count();
     stats.degenerate_tets = sums.degenerate;
-    stats.mean_edge = sums.edge.value();
-    stats.mean_longest_edge = sums.longest_edge.value();
-    stats.mean_box_side = sums.box_side.value();
+    write_means(sums, stats);
     stats.median_box_side = median(sums.box_sides);
-    stats.mean_facet_area = sums.facet.value();
-    stats.mean_tet_facet_area = sums.tet_facet.value();
-    stats.mean_boundary_facet_area = sums.boundary_facet.value();
-    stats.mean_volume = sums.volume.value();
     if (!bounds.isEmpty())
         for (int axis = 0; axis < 3; ++axis) {
             stats.bounds_min[axis] = bounds.min()[axis];

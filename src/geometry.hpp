@@ -33,4 +33,16 @@ Geometry measure(std::span<const Body> bodies,
 Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology* const> topologies,
                   std::size_t samples);
 
+// The means of the statistics, however they were taken: of each quantity one that has a value().
+template <class Means>
+void write_means(const Means& means, vox_geometry_stats& stats) {
+    stats.mean_edge = means.edge.value();
+    stats.mean_longest_edge = means.longest_edge.value();
+    stats.mean_box_side = means.box_side.value();
+    stats.mean_facet_area = means.facet.value();
+    stats.mean_tet_facet_area = means.tet_facet.value();
+    stats.mean_boundary_facet_area = means.boundary_facet.value();
+    stats.mean_volume = means.volume.value();
+}
+
 } // namespace vox

@@ -240,14 +240,8 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
     // Each facet of a tetrahedron is on the surface or shared by two, but for the odd one of more.
     stats.facets = (4 * stats.tets + stats.boundary_facets) / 2;
     stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate.sum));
-    stats.mean_edge = means.edge.value();
-    stats.mean_longest_edge = means.longest_edge.value();
-    stats.mean_box_side = means.box_side.value();
+    write_means(means, stats);
     stats.median_box_side = median(means.box_sides);
-    stats.mean_facet_area = means.facet.value();
-    stats.mean_tet_facet_area = means.tet_facet.value();
-    stats.mean_boundary_facet_area = means.boundary_facet.value();
-    stats.mean_volume = means.volume.value();
     for (int a = 0; a < 3 && lo[a] <= hi[a]; ++a) {
         stats.bounds_min[a] = lo[a];
         stats.bounds_max[a] = hi[a];

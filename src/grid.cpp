@@ -82,7 +82,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
       free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_), scratch_(&memory_),
+      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_),
       contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
       queries_(&memory_) {}
@@ -173,7 +173,8 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 // ---- cutting and growing --------------------------------------------------------------------------
 
-void vox_grid::was_cut(vox_mesh id) {
+void vox_grid::was_cut(vox_mesh id, std::uint64_t count) {
+    if (count == 0) return;
     mark_moved(id);
     adaptive_.scene_changed();
 }
@@ -195,12 +196,12 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
 
 void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
     mesh(id).set_tets_enabled(tets, enabled);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
     mesh(id).replace_tets(tets, corners);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
@@ -209,13 +210,13 @@ std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     if (find_penetrations_) depth::check_tet_count(grown.tet_count() + corners.size());
     const std::uint32_t first = grown.append_tets(corners);
     tet_count_ += corners.size();
-    was_cut(id);
+    was_cut(id, corners.size());
     return first;
 }
 
 void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
     mesh(id).remove_tets(tets);
-    was_cut(id);
+    was_cut(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
@@ -223,13 +224,13 @@ std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& de
     check_limit(vertex_count_, desc.count, VOX_MAX_VERTICES, "vertices");
     const std::uint32_t first = grown.append_vertices(desc);
     vertex_count_ += desc.count;
-    was_cut(id);
+    was_cut(id, desc.count);
     return first;
 }
 
 void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
     mesh(id).remove_vertices(vertices);
-    was_cut(id);
+    was_cut(id, vertices.size());
 }
 
 // ---- more of meshes -------------------------------------------------------------------------------
@@ -261,7 +262,6 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     room_for(bodies_, mesh_count);
     room_for(tiles_, mesh_count);
     room_for(hits_, contact_count);
-    room_for(scratch_, contact_count);
     room_for(contacts_, contact_count);
     if (find_penetrations_) room_for(penetrations_, contact_count);
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
@@ -329,11 +329,11 @@ void vox_grid::step() {
         drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
-        if (carry) counters.carried_contacts = carry_contacts();
+        if (carry && counters.moved_meshes < bodies_.size()) counters.carried_contacts = carry_contacts();
         // Where these are all there were and all there are, they and what follows from them stay as they are.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
-        if (!all_carried) make_contacts(bodies_, hits_, scratch_, contacts_, &workers_);
+        if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
 
@@ -437,6 +437,7 @@ std::uint64_t vox_grid::carry_contacts() {
         hit.body_b = slots_[slot_of(contact.mesh_b)].body;
         hit.tet = contact.tet & 0x7fffffffu;
         hit.interior = 1;
+        std::copy(contact.barycentric, contact.barycentric + 4, hit.weights.of);
         hits_.push_back(hit);
     }
     return hits_.size() - found;

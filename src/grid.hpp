@@ -108,7 +108,7 @@ private:
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
-    void was_cut(vox_mesh mesh);
+    void was_cut(vox_mesh mesh, std::uint64_t count);
     void gather_bodies(vox_counters& counters);
     void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
@@ -146,7 +146,6 @@ private:
     std::pmr::vector<const vox::depth::Topology*> topologies_; // of each body, for the depth stage
     vox::Depth depth_;
     std::pmr::vector<vox::Hit> hits_;
-    std::pmr::vector<vox::Hit> scratch_;
 
     // results
     std::pmr::vector<vox_contact> contacts_;

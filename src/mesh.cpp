@@ -12,7 +12,8 @@ namespace vox {
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
     : tets_(view.tets.begin(), view.tets.end(), memory), given_(memory), off_(memory), removed_(memory),
-      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory), positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
+      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory),
+      positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)

@@ -125,23 +125,20 @@ private:
     Bits off_, removed_;          // tets; those that are removed are off as well
     Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
-    bool owns_positions_ = false;    // also where there are no vertices yet
     Lists tets_of_;                  // the tets around each vertex, once an edit needed them
-    bool has_tets_of_ = false;
     depth::Topology topology_;
-    bool has_topology_ = false;
     FastMesh tiles_;
-    bool has_tiles_ = false;
-    bool has_rings_ = false;
     Positions positions_; // without the transform
     std::array<double, 12> transform_{};
-    bool has_transform_ = false;
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
+    bool owns_positions_ = false; // also where there are no vertices yet
+    bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
+    bool has_transform_ = false;
+    bool enabled_ = true;
     vox_filter filter_;
     SelfFilter self_filter_;
     std::pmr::vector<vox_mesh> exceptions_;
-    bool enabled_ = true;
 };
 
 } // namespace vox

@@ -33,6 +33,8 @@ Vec3d scaled(const Vec3d& v) noexcept {
 // The unit vector along the cross product; zero where that is.
 Vec3d unit_normal(const Vec3d& u, const Vec3d& v) noexcept { return normalised(cross(scaled(u), scaled(v))); }
 
+Solid solid_of(const ReadingBody& b) noexcept { return {b.topology, b.body.tets, b.body.positions}; }
+
 // The closest point to the vertex at p, with its triangle wound as vox_reading says.
 void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, vox_reading& out) noexcept {
     const Triangle& triangle = solid.topology->triangles[closest.at.triangle];
@@ -168,34 +170,43 @@ void Readings::list_runs(const Events& events) {
 
 void Readings::read(const Group& group, std::span<const vox_contact> contacts, SurfaceTree& tree) {
     const ReadingBody& b = *runs_[group.first].b;
-    const Solid solid{b.topology, b.body.tets, b.body.positions};
     const bool has_surface = b.topology && !b.topology->triangles.empty();
-    if (has_surface) tree.build(solid);
-    std::uint64_t visited = 0;
+    if (has_surface) tree.build(solid_of(b));
     for (std::size_t r = group.first; r < group.last; ++r) {
-        const Run& run = runs_[r];
-        for (std::size_t i = 0; i < run.contacts.size(); ++i) {
-            const vox_contact& contact = contacts[run.contacts[i]];
-            vox_reading& out = readings_[run.contacts[i]];
-            out.user_data_a = run.user_data_a;
-            out.user_data_b = run.user_data_b;
-            if (i > 0 && contacts[run.contacts[i - 1]].vertex == contact.vertex) { // in several tetrahedra
-                out = readings_[run.contacts[i - 1]];
-                out.contact = run.contacts[i];
-                continue;
+        const std::span<const std::uint32_t> all = runs_[r].contacts;
+        for (std::size_t first = 0, last; first < all.size(); first = last) {
+            last = first + 1;
+            while (last < all.size() && contacts[all[last]].vertex == contacts[all[first]].vertex) ++last;
+            vox_reading& out = readings_[all[first]];
+            read_vertex(runs_[r], all.subspan(first, last - first), contacts, has_surface ? &tree : nullptr,
+                        out);
+            for (std::size_t i = first + 1; i < last; ++i) { // in several tetrahedra
+                readings_[all[i]] = out;
+                readings_[all[i]].contact = all[i];
             }
-            if (!run.a->topology || contact.vertex >= run.a->body.vertex_count ||
-                has_bit(run.a->body.removed_vertices, contact.vertex))
-                continue;
-            const Vec3d p = position_of(run.a->body.positions, contact.vertex);
-            write(out.position, p);
-            out.known |= VOX_READING_POSITION;
-            Closest closest;
-            if (has_surface && contact.tet < solid.tets.size() && !has_bit(b.body.off, contact.tet) &&
-                tree.find_of_contact(p, contact.vertex, contact.tet, run.a == run.b, closest, visited))
-                write_surface(solid, p, closest, out);
         }
     }
+}
+
+void Readings::read_vertex(const Run& run, std::span<const std::uint32_t> same,
+                           std::span<const vox_contact> contacts, SurfaceTree* tree, vox_reading& out) {
+    const Body &a = run.a->body, &b = run.b->body;
+    const std::uint32_t vertex = contacts[same[0]].vertex;
+    out.user_data_a = run.user_data_a;
+    out.user_data_b = run.user_data_b;
+    if (!run.a->topology || vertex >= a.vertex_count || has_bit(a.removed_vertices, vertex)) return;
+    const Vec3d p = position_of(a.positions, vertex);
+    write(out.position, p);
+    out.known |= VOX_READING_POSITION;
+    // The first of the tetrahedra with the vertex that still is one.
+    const auto tet = std::find_if(same.begin(), same.end(), [&](std::uint32_t contact) {
+        return contacts[contact].tet < b.tets.size() && !has_bit(b.off, contacts[contact].tet);
+    });
+    if (!tree || tet == same.end()) return;
+    Closest closest;
+    std::uint64_t visited = 0;
+    if (tree->find_of_contact(p, vertex, contacts[*tet].tet, run.a == run.b, closest, visited))
+        write_surface(solid_of(*run.b), p, closest, out);
 }
 
 } // namespace vox

@@ -33,8 +33,8 @@ public:
     // The meshes that touch, ascending, as ids: to be completed before prepare(), with finite positions.
     std::span<ReadingBody> list_meshes(const Events& events);
     // Of the contacts of a step and what else it found; meshes may have changed since. Throws what the memory
-    // throws, and leaves all as it was then, or Error(INVALID_ARGUMENT) for a defective
-    // task system, and there are none then.
+    // throws, and leaves all as it was then, or Error(INVALID_ARGUMENT) for a defective task system, and
+    // there are none then.
     void prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
                  const Events& events, Workers& workers);
     void forget() noexcept { prepared_ = false; }
@@ -59,6 +59,9 @@ private:
     void list_runs(const Events& events);
     void list_depths(std::span<const vox_penetration> penetrations) noexcept;
     void read(const Group& group, std::span<const vox_contact> contacts, depth::SurfaceTree& tree);
+    // One vertex of a run, of whose contacts `same` are; no tree: mesh_b has no surface.
+    void read_vertex(const Run& run, std::span<const std::uint32_t> same,
+                     std::span<const vox_contact> contacts, depth::SurfaceTree* tree, vox_reading& out);
 
     std::pmr::vector<ReadingBody> bodies_; // by id
     std::pmr::vector<Run> runs_;

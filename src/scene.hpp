@@ -99,13 +99,22 @@ struct Body {
     std::span<const std::uint64_t> removed_vertices{}; // as bits: they are in no tetrahedron
 };
 
+// Barycentric coordinates of a point in a tetrahedron.
+struct Weights {
+    float of[4];
+
+    static constexpr Weights unknown() noexcept { return {{-1, 0, 0, 0}}; }
+    bool known() const noexcept { return of[0] >= 0; }
+};
+
 // A vertex found inside a closed tetrahedron, before canonical order. Bodies by index in the scene.
 struct Hit {
     std::uint32_t body_a;
     std::uint32_t vertex;
     std::uint32_t body_b;
     std::uint32_t tet : 31;
-    std::uint32_t interior : 1; // strictly inside: on no face
+    std::uint32_t interior : 1;           // strictly inside: on no face
+    Weights weights = Weights::unknown(); // but where the stage that found it had all at hand
 };
 
 } // namespace vox

@@ -1,5 +1,5 @@
 # Positions of other kinds than floats: doubles, the library's own, moved by a transform.
-foreach(name doubles transform)
+foreach(name doubles positions transform)
   vox_test(${name} test_${name}.c LIBS vox::vox)
   set_tests_properties(${name} PROPERTIES LABELS valgrind)
   target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)

@@ -1,5 +1,5 @@
 # The fast engine as a whole, and stage by stage.
-foreach(name fast fast_winding stages winding)
+foreach(name fast fast_winding stages turning winding windows)
   vox_test(${name} internal/test_${name}.cpp LIBS vox_internal)
   target_include_directories(test_${name} PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
 endforeach()

@@ -1,7 +1,8 @@
 # What lasts: snapshots, a long random life, and the interface itself.
 vox_test(snapshot test_snapshot.c LIBS vox::vox m)
+vox_test(snapshot_hostile test_snapshot_hostile.c LIBS vox::vox m)
 vox_test(soak test_soak.c LIBS vox::vox m)
-foreach(name snapshot soak)
+foreach(name snapshot snapshot_hostile soak)
   set_tests_properties(${name} PROPERTIES LABELS valgrind)
   target_compile_definitions(test_${name} PRIVATE _POSIX_C_SOURCE=200809L)
   target_compile_options(test_${name} PRIVATE -Wno-conversion -Wno-float-conversion)

@@ -23,6 +23,14 @@
                       #call, vox_last_error(), (words)); \
     } while (0)
 
+/* Steps the grid; the hash of the contacts that it found. */
+static inline uint64_t hash_of_step(vox_grid* grid) {
+    uint64_t hash = 0;
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_hash(grid, &hash));
+    return hash;
+}
+
 /* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
 static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }

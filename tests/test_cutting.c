@@ -170,8 +170,8 @@ static void set_topology(cut_scene* s, cut_mesh* m) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     float* rest = NULL;
     if (below(s, 3)) {
-        body box =
-            make_box(1 + below(s, 5), 0.25f, (float)below(s, 8) * 0.125f, (float)below(s, 8) * 0.125f, 0.25f);
+        const uint32_t cubes = 1 + below(s, 5), x = below(s, 8), y = below(s, 8);
+        body box = make_box(cubes, 0.25f, (float)x * 0.125f, (float)y * 0.125f, 0.25f);
         m->doubles = (int)below(s, 2);
         m->owned = (int)below(s, 2);
         set_model(m, &box);
@@ -222,7 +222,10 @@ static void move_some(cut_scene* s, cut_mesh* m) {
     if (how == 1)
         for (uint32_t v = 0; v < m->vertices; ++v) m->positions[3 * v + below(s, 1)] += by;
     if (how == 2)
-        for (uint32_t i = 0; i < 3; ++i) m->positions[3 * below(s, m->vertices) + below(s, 3)] += by;
+        for (uint32_t i = 0; i < 3; ++i) {
+            const uint32_t v = below(s, m->vertices), axis = below(s, 3);
+            m->positions[3 * v + axis] += by;
+        }
     if (how == 3)
         for (uint32_t i = 0; i < 3 * m->vertices; ++i)
             m->positions[i] = (float)(m->positions[i] + random_float(&s->random, -0.01f, 0.01f));
@@ -333,7 +336,9 @@ static void run_edits(uint64_t seed, uint32_t edits) {
         insert_model(&s, m);
     }
     for (uint32_t i = 0; i < edits; ++i) {
-        for (uint32_t k = 1 + (below(&s, 4) == 0) * below(&s, 4); k > 0; --k) edit(&s);
+        uint32_t at_once = 1;
+        if (below(&s, 4) == 0) at_once += below(&s, 4);
+        while (at_once-- > 0) edit(&s);
         for (uint32_t b = 0; b < s.count; ++b) {
             if (below(&s, 2)) move_some(&s, &s.meshes[b]);
             show_positions(&s, &s.meshes[b]);

@@ -13,13 +13,6 @@ static vox_grid* make_grid(void) {
     return grid;
 }
 
-static uint64_t hash_of_step(vox_grid* grid) {
-    uint64_t hash = 0;
-    ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
-    return hash;
-}
-
 static vox_counters counters_of(const vox_grid* grid) {
     vox_counters counters = {.struct_size = sizeof counters};
     ck_ok(vox_grid_counters(grid, &counters));
@@ -137,6 +130,38 @@ START_TEST(arguments) {
     ck_assert_uint_eq(counters_of(grid).tets, 0);
     vox_grid_destroy(grid);
     free_body(&box);
+}
+END_TEST
+
+/* Edits of nothing leave a mesh at rest, as the fast engine counts it. */
+START_TEST(nothing_to_do) {
+    body box = make_box(2, 1, 0, 0, 0), other = make_box(2, 1, 0.75f, 0.5f, 0.25f);
+    vox_mesh_desc desc = body_desc(&box), more = body_desc(&other);
+    const vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_mesh mesh = 0, second = 0;
+    uint32_t first = 0;
+    vox_grid* grid = make_grid();
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_insert(grid, &more, &second));
+    for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
+    const vox_counters before = counters_of(grid);
+    ck_assert_uint_eq(before.moved_meshes, suite_engine == VOX_ENGINE_FAST ? 0 : 2);
+    for (int kind = 0; kind < 6; ++kind) {
+        if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, NULL, 0, 0));
+        if (kind == 1) ck_ok(vox_mesh_remove_tets(grid, mesh, NULL, 0));
+        if (kind == 2) ck_ok(vox_mesh_replace_tets(grid, mesh, NULL, 0, NULL));
+        if (kind == 3) ck_ok(vox_mesh_append_tets(grid, mesh, NULL, 0, &first));
+        if (kind == 4) ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        if (kind == 5) ck_ok(vox_mesh_remove_vertices(grid, mesh, NULL, 0));
+        ck_ok(vox_grid_step(grid));
+        const vox_counters after = counters_of(grid);
+        ck_assert_uint_eq(after.moved_meshes, before.moved_meshes);
+        ck_assert_uint_eq(after.carried_contacts, before.carried_contacts);
+        ck_assert_uint_eq(after.bytes, before.bytes);
+    }
+    vox_grid_destroy(grid);
+    free_body(&box);
+    free_body(&other);
 }
 END_TEST
 
@@ -434,6 +459,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, arguments);
+    tcase_add_test(tests, nothing_to_do);
     tcase_add_test(tests, smaller_struct);
     tcase_add_test(tests, off_and_on);
     tcase_add_test(tests, topology_keeps_what_is_not_topology);

@@ -3,32 +3,9 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "random.h"
 #include "suite.h"
-
-/* ---- memory that is counted and may fail ---- */
-
-typedef struct ledger {
-    uint64_t bytes, calls, fail_at;
-    uint64_t taken; /* bytes, all that were ever taken */
-} ledger;
-
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    l->taken += size;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
 
 static vox_grid* make_grid(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();
@@ -37,19 +14,10 @@ static vox_grid* make_grid(ledger* l) {
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     if (l) {
         memset(l, 0, sizeof *l);
-        desc.allocator.allocate = ledger_allocate;
-        desc.allocator.release = ledger_release;
-        desc.allocator.user = l;
+        desc.allocator = ledger_allocator(l);
     }
     ck_ok(vox_grid_create(&desc, &grid));
     return grid;
-}
-
-static uint64_t hash_of_step(vox_grid* grid) {
-    uint64_t hash = 0;
-    ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
-    return hash;
 }
 
 /* ---- edits ---- */
@@ -255,10 +223,45 @@ START_TEST(compact_body) {
 }
 END_TEST
 
+/* Two tets on the same side of a facet, which then counts twice in the boundary of such a body: the apex of
+ * the inner one is found, whether they are smaller than a cell of the culling or larger. */
+START_TEST(two_tets_on_one_side) {
+    static const uint32_t corners[8] = {0, 1, 2, 3, 0, 1, 2, 4};
+    static const float apices[6] = {0.125f, 0.125f, 1, 0.25f, 0.25f, 0.375f};
+    const float scale = 0.25f * (float)(1 << _i);
+    body box = make_box(22, 0.25f, 0, 0, 0);
+    vox_mesh_desc desc = body_desc(&box);
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vox_mesh mesh = 0;
+    vox_contact_view view;
+    float positions[15];
+    uint32_t first = 0, first_tet = 0, named[8];
+    vox_grid* grid = make_grid(NULL);
+    desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_grid_step(grid));
+    memcpy(positions, unit_tet_positions, 9 * sizeof(float));
+    memcpy(positions + 9, apices, sizeof apices);
+    for (int i = 0; i < 15; ++i) positions[i] = 10 + scale * positions[i];
+    vertices.count = 5;
+    vertices.positions = positions;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+    for (int i = 0; i < 8; ++i) named[i] = first + corners[i];
+    ck_ok(vox_mesh_append_tets(grid, mesh, named, 2, &first_tet));
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_assert_uint_eq(view.count, 1);
+    ck_assert(view.data[0].vertex == first + 4 && view.data[0].tet == first_tet);
+    vox_grid_destroy(grid);
+    free_body(&box);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, allocation_n_fails);
     tcase_add_test(tests, edits_cost_what_they_change);
     tcase_add_test(tests, compact_body);
+    tcase_add_loop_test(tests, two_tets_on_one_side, 0, 5);
 }
 
 int main(void) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "random.h"
 #include "suite.h"
 
@@ -443,9 +444,11 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
             actors[i].mesh = 0;
         }
         break;
-    case 7:
-        ck_ok(vox_grid_reserve(grid, random_below(random, 20), random_below(random, 2000)));
+    case 7: {
+        const uint32_t meshes = random_below(random, 20), contacts = random_below(random, 2000);
+        ck_ok(vox_grid_reserve(grid, meshes, contacts));
         break;
+    }
     case 8: { /* a step that fails */
         if (!one->mesh) break;
         const float kept = one->shape.positions[0];
@@ -502,26 +505,13 @@ END_TEST
 
 /* ---- memory and arguments --------------------------------------------------------------------- */
 
-static void* counted_allocate(size_t size, size_t alignment, void* user) {
-    void* memory = NULL;
-    ++*(uint64_t*)user;
-    return posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) ? NULL : memory;
-}
-
-static void counted_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)size, (void)alignment, (void)user;
-    free(memory);
-}
-
 START_TEST(steady_state_allocates_nothing) {
-    uint64_t calls = 0;
+    ledger l = {0};
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* grid = NULL;
     desc.engine = suite_engine;
     desc.flags = VOX_GRID_CONTACT_EVENTS;
-    desc.allocator.allocate = counted_allocate;
-    desc.allocator.release = counted_release;
-    desc.allocator.user = &calls;
+    desc.allocator = ledger_allocator(&l);
     ck_ok(vox_grid_create(&desc, &grid));
     ck_ok(vox_grid_reserve(grid, 3, 20000)); /* the first steps too have room for pairs and events */
     body boxes[3] = {make_box(4, 0.25f, 0, 0, 0), make_box(4, 0.25f, 0.3f, 0.3f, 0.2f),
@@ -535,13 +525,13 @@ START_TEST(steady_state_allocates_nothing) {
         shift(&boxes[2], -8);
         ck_ok(vox_grid_step(grid));
     }
-    const uint64_t before = calls;
+    const uint64_t before = l.calls;
     for (int frame = 0; frame < 12; ++frame) {
         shift(&boxes[1], frame % 4 == 3 ? -5.25f : 1.75f);
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_gt(touch_events(grid).count, 0);
     }
-    ck_assert_uint_eq(calls, before);
+    ck_assert_uint_eq(l.calls, before);
     vox_grid_destroy(grid);
     for (int i = 0; i < 3; ++i) free_body(&boxes[i]);
 }

@@ -1,5 +1,6 @@
 /* The life of readings: what is gone by the time they are asked for, copies of a part of them, errors,
  * memory. */
+#include "ledger.h"
 #include "reading_checks.h"
 
 /* ---- what is gone, and what there never was ---- */
@@ -78,6 +79,55 @@ START_TEST(after_removal) {
                      "vox_grid_prepare_readings");
             end_world(&w);
         }
+}
+END_TEST
+
+/* A vertex in two tetrahedra that overlap, the larger one first or last: it is read as long as one of them is
+ * on, of the surface that is left. `self`: they and the tetrahedron of the vertex are one mesh. */
+START_TEST(after_cuts_of_some) {
+    static const uint32_t probe[4] = {8, 9, 10, 11};
+    const int self = _i % 2, larger = _i / 2;
+    float positions[36];
+    uint32_t tets[12];
+    for (uint32_t i = 0; i < 12; ++i) {
+        positions[i] = unit_tet_positions[i] * (larger == 0 ? 2 : 1);
+        positions[12 + i] = unit_tet_positions[i] * (larger == 1 ? 2 : 1);
+        positions[24 + i] = i < 3 ? 0.125f : 0.125f - 4 * unit_tet_positions[i];
+    }
+    for (uint32_t i = 0; i < 8; ++i) tets[i] = i;
+    memcpy(tets + 8, probe, sizeof probe);
+    vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
+    vox_mesh_desc desc = array_desc(positions, self ? 12 : 8, tets, self ? 3 : 2);
+    vox_mesh mesh = 0, second = 0;
+    if (self) desc.flags = VOX_MESH_SELF_COLLISION;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    desc = array_desc(positions + 24, 1, NULL, 0);
+    if (!self) ck_ok(vox_mesh_insert(grid, &desc, &second));
+    ck_ok(vox_grid_step(grid));
+    vox_contact_view contacts;
+    vox_reading_view readings;
+    ck_ok(vox_grid_contacts(grid, &contacts));
+    uint64_t at = 0; /* the contacts of the probe */
+    while (at < contacts.count && contacts.data[at].vertex != (self ? 8u : 0u)) ++at;
+    if (!self)
+        while (contacts.data[at].mesh_a != second) ++at;
+    ck_assert(contacts.data[at].tet == 0 && contacts.data[at + 1].tet == 1);
+    for (uint32_t off = 0; off < 4; ++off) { /* a bit for each of the two */
+        for (uint32_t t = 0; t < 2; ++t) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, &t, 1, !(off >> t & 1)));
+        ck_ok(vox_grid_prepare_readings(grid));
+        ck_ok(vox_grid_readings(grid, &readings));
+        const vox_reading *r = &readings.data[at], *s = r + 1;
+        ck_assert(r->contact == at && s->contact == at + 1);
+        ck_assert_mem_eq((const char*)r + sizeof r->contact, (const char*)s + sizeof s->contact,
+                         sizeof *r - sizeof r->contact);
+        ck_assert_uint_eq(r->known,
+                          VOX_READING_POSITION | VOX_READING_DEPTH | (off < 3 ? VOX_READING_SURFACE : 0));
+        if (off == 0 || off == 3) continue;
+        const uint32_t left = off == 1 ? 1 : 0; /* all of its facets but the slanted one are as far */
+        ck_assert_double_eq(r->distance, 0.125);
+        for (int i = 0; i < 3; ++i) ck_assert_uint_eq(r->triangle[i] / 4, left);
+    }
+    vox_grid_destroy(grid);
 }
 END_TEST
 
@@ -259,29 +309,9 @@ START_TEST(changed_positions) {
 }
 END_TEST
 
-typedef struct heap {
-    uint64_t calls, fail_at, live;
-} heap;
-
-static void* take(size_t size, size_t alignment, void* user) {
-    heap* h = (heap*)user;
-    void* memory = NULL;
-    if (++h->calls == h->fail_at ||
-        posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size) != 0)
-        return NULL;
-    ++h->live;
-    return memory;
-}
-static void give(void* memory, size_t size, size_t alignment, void* user) {
-    (void)size;
-    (void)alignment;
-    --((heap*)user)->live;
-    free(memory);
-}
-
 START_TEST(memory) {
     world w;
-    heap h = {0, 0, 0};
+    ledger l = {0};
     memset(&w, 0, sizeof w);
     two_in_each_other(&w, 2, 0);
     vox_grid_destroy(w.grid);
@@ -291,15 +321,13 @@ START_TEST(memory) {
         desc.engine = suite_engine;
         desc.flags = 0; /* so that the surfaces are made here, too */
         desc.worker_count = 3;
-        desc.allocator.allocate = take;
-        desc.allocator.release = give;
-        desc.allocator.user = &h;
-        h.fail_at = 0;
+        desc.allocator = ledger_allocator(&l);
+        l.fail_at = 0;
         ck_ok(vox_grid_create(&desc, &w.grid));
         insert(&w, w.grid);
         ck_ok(vox_grid_step(w.grid));
-        h.calls = 0;
-        h.fail_at = failures + 1;
+        l.calls = 0;
+        l.fail_at = failures + 1;
         const vox_result result = vox_grid_prepare_readings(w.grid);
         done = result == VOX_OK;
         if (!done) {
@@ -308,16 +336,16 @@ START_TEST(memory) {
             ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
             ck_fails(vox_grid_readings(w.grid, &view), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
         }
-        h.fail_at = 0;
+        l.fail_at = 0;
         ck_assert_uint_ge(check_readings(&w, 0), 4);
         /* Again, and after another step: no memory any more. */
         ck_ok(vox_grid_step(w.grid));
-        h.calls = 0;
+        l.calls = 0;
         ck_ok(vox_grid_prepare_readings(w.grid));
         ck_ok(vox_grid_prepare_readings(w.grid));
-        ck_assert_uint_eq(h.calls, 0);
+        ck_assert_uint_eq(l.calls, 0);
         vox_grid_destroy(w.grid);
-        ck_assert_uint_eq(h.live, 0);
+        ck_assert_uint_eq(l.bytes, 0);
     }
     ck_assert_uint_gt(failures, 5);
     w.grid = NULL;
@@ -418,6 +446,7 @@ END_TEST
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, no_surface);
     tcase_add_test(tests, after_removal);
+    tcase_add_loop_test(tests, after_cuts_of_some, 0, 4);
     tcase_add_test(tests, without_penetrations);
     tcase_add_test(tests, copies);
     tcase_add_test(tests, bad_arguments);

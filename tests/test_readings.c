@@ -109,8 +109,9 @@ START_TEST(self_contact) {
         w.count = 1;
         model* m = &w.models[0];
         const uint32_t n = 2 + random_below(&random, 2);
-        m->shape = two_boxes(n, random_float(&random, 0.2f, 0.9f) * (float)n,
-                             random_float(&random, -0.7f, 0.7f), random_float(&random, -0.7f, 0.7f));
+        const float x = random_float(&random, 0.2f, 0.9f) * (float)n, y = random_float(&random, -0.7f, 0.7f),
+                    z = random_float(&random, -0.7f, 0.7f);
+        m->shape = two_boxes(n, x, y, z);
         m->tets_a_part = m->shape.tet_count / 2;
         m->self = 1;
         complete(m);

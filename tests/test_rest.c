@@ -76,9 +76,11 @@ static void move_body(scene* s, int i) {
     const float by = 0.0625f * ((float)below(8) - 3.5f);
     if (how == 0)
         for (uint32_t v = 0; v < vertices; ++v) p[3 * v + 1] += by;
-    else if (how == 1)
-        p[3 * below(vertices) + below(3)] += by;
-    else
+    if (how == 1) {
+        const uint32_t v = below(vertices), axis = below(3);
+        p[3 * v + axis] += by;
+    }
+    if (how == 2)
         for (uint32_t v = 0; v < vertices; v += 3) p[3 * v] = p[3 * (vertices - 1 - v)];
     moved(s, i);
 }

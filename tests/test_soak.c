@@ -1,125 +1,9 @@
 /* A long life of two grids, one of each engine: random operations, after each of them a step, and a model of
  * what must hold. Environment: VOX_SOAK_STEPS (default 400), VOX_SOAK_SEED. ./dev soak takes 100,000 steps.
  */
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-#include "bodies.h"
-#include "random.h"
-#include "suite.h"
-
-enum {
-    max_members = 14,
-    max_vertices = 80, /* of a body: a box of 3 * 3 * 3 cubes has 64 */
-    max_tets = 135,
-    max_pairs = max_members * max_members,
-    max_inside = 1 << 16,
-    id_table = 1 << 21
-};
-
-/* ---- the model ---- */
-
-typedef struct ledger {
-    uint64_t bytes, calls, fail_at;
-} ledger;
-
-/* A mesh that is in both grids. */
-typedef struct member {
-    vox_mesh id;
-    uint64_t user_data;
-    body shape;                        /* its positions are the rest pose */
-    float positions[5 * max_vertices]; /* what the grids read, `stride` floats apart */
-    uint32_t stride;
-    vox_filter filter;
-    uint32_t enabled;
-    uint8_t off[max_tets], removed[max_tets]; /* tets; those removed are off, too */
-} member;
-
-typedef struct pair {
-    vox_mesh a, b; /* a <= b */
-    uint64_t user_data_a, user_data_b;
-} pair;
-
-typedef struct inside {
-    vox_mesh a;
-    uint32_t vertex;
-    vox_mesh b;
-} inside;
-
-typedef struct soak {
-    uint64_t random;
-    uint32_t step;
-    const char* operation;
-    ledger ledgers[2];
-    vox_grid* grids[2];
-    uint64_t epoch;
-    member members[max_members]; /* ascending by id */
-    uint32_t count;
-    uint32_t excepted[max_pairs][2]; /* pairs of ids that do not collide */
-    uint32_t excepted_count;
-    vox_mesh* ids_given_out;            /* a hash table of all ids there ever were */
-    vox_mesh stale;                     /* one of those that were removed; 0: none yet */
-    pair was[max_pairs], is[max_pairs]; /* touching, in the last successful step and in this one */
-    uint32_t was_count, is_count;
-    inside *was_inside, *is_inside;
-    uint64_t was_inside_count, is_inside_count;
-    uint64_t most_bytes[4];              /* held by both grids, in each quarter of the steps */
-    uint64_t contacts, events, failures; /* that there were, so that the test is of something */
-} soak;
-
-static uint64_t soak_seed = 1;
-
-#define demand(condition)                                                                                    \
-    ck_assert_msg(condition, "%s: step %u (%s), VOX_SOAK_SEED=%llu", #condition, s->step, s->operation,      \
-                  (unsigned long long)soak_seed)
-#define good(call)                                                                                           \
-    do {                                                                                                     \
-        const vox_result good_ = (call);                                                                     \
-        ck_assert_msg(good_ == VOX_OK, "%s: %s (%s): step %u (%s), VOX_SOAK_SEED=%llu", #call,               \
-                      vox_result_string(good_), vox_last_error(), s->step, s->operation,                     \
-                      (unsigned long long)soak_seed);                                                        \
-    } while (0)
-
-static uint32_t below(soak* s, uint32_t count) { return random_below(&s->random, count); }
-
-static void* ledger_allocate(size_t size, size_t alignment, void* user) {
-    ledger* l = (ledger*)user;
-    void* memory = NULL;
-    if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1))
-        return NULL;
-    l->bytes += size;
-    return memory;
-}
-
-static void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)alignment;
-    ((ledger*)user)->bytes -= size;
-    free(memory);
-}
-
-static vox_grid_desc grid_desc(soak* s, int g) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = g == 0 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    desc.flags |= VOX_GRID_CONTACT_EVENTS;
-    desc.allocator.allocate = ledger_allocate;
-    desc.allocator.release = ledger_release;
-    desc.allocator.user = &s->ledgers[g];
-    return desc;
-}
-
-static member* find(soak* s, vox_mesh id) {
-    for (uint32_t m = 0; m < s->count; ++m)
-        if (s->members[m].id == id) return &s->members[m];
-    return NULL;
-}
-
-static void never_seen_before(soak* s, vox_mesh id) {
-    uint32_t at = id * 2654435761u % id_table;
-    for (; s->ids_given_out[at]; at = (at + 1) % id_table) demand(s->ids_given_out[at] != id);
-    s->ids_given_out[at] = id;
-}
+#include "soak_model.h"
 
 /* ---- operations: each changes both grids and the model ----
  *
@@ -141,15 +25,6 @@ static body make_shape(soak* s) {
     body shape = make_box(below(s, 4), 0.25f, -0.25f, -0.25f, -0.25f);
     shape.positions = (float*)realloc(shape.positions, 3 * max_vertices * sizeof(float));
     return shape;
-}
-
-static vox_mesh_desc member_desc(const member* m) {
-    vox_mesh_desc desc = array_desc(m->positions, m->shape.vertex_count, m->shape.tets, m->shape.tet_count);
-    desc.position_byte_stride = m->stride * sizeof(float);
-    desc.rest_positions = m->shape.positions;
-    desc.user_data = m->user_data;
-    desc.filter = &m->filter;
-    return desc;
 }
 
 static vox_filter random_filter(soak* s) {
@@ -295,7 +170,11 @@ static int may_fail(soak* s, int g, vox_result result) {
 }
 
 /* Calls an edit, which may fail once and then has changed nothing. */
-#define edit(call)                                                                                               do {                                                                                                             if (below(s, 8) == 0) s->ledgers[g].fail_at = s->ledgers[g].calls + 1 + below(s, 6);                         if (may_fail(s, g, call)) good(call);                                                                    } while (0)
+#define edit(call)                                                                                           \
+    do {                                                                                                     \
+        if (below(s, 8) == 0) s->ledgers[g].fail_at = s->ledgers[g].calls + 1 + below(s, 6);                 \
+        if (may_fail(s, g, call)) good(call);                                                                \
+    } while (0)
 
 /* Tets off, on again, or gone for good. */
 static void cut(soak* s) {
@@ -391,7 +270,8 @@ static void nothing_left(soak* s, int g) {
 static void step_over_nan(soak* s) {
     if (s->count == 0) return;
     member* m = &s->members[below(s, s->count)];
-    float* coordinate = &m->positions[m->stride * below(s, m->shape.vertex_count) + below(s, 3)];
+    const uint32_t v = below(s, m->shape.vertex_count), axis = below(s, 3);
+    float* coordinate = &m->positions[m->stride * v + axis];
     const float old = *coordinate;
     if (!m->enabled) return;
     *coordinate = below(s, 2) ? NAN : INFINITY;
@@ -491,178 +371,6 @@ static const operation operations[] = {
     {"steady state", steady_state, 2},
 };
 enum { operation_count = sizeof operations / sizeof *operations };
-
-/* ---- what must hold after each step ---- */
-
-static int contact_before(const vox_contact* x, const vox_contact* y) {
-    if (x->mesh_a != y->mesh_a) return x->mesh_a < y->mesh_a;
-    if (x->vertex != y->vertex) return x->vertex < y->vertex;
-    if (x->mesh_b != y->mesh_b) return x->mesh_b < y->mesh_b;
-    return x->tet < y->tet;
-}
-
-static void check_contacts(soak* s, const vox_contact_view* view) {
-    s->is_count = 0;
-    s->is_inside_count = 0;
-    for (uint64_t i = 0; i < view->count; ++i) {
-        const vox_contact* c = &view->data[i];
-        const member *a = find(s, c->mesh_a), *b = find(s, c->mesh_b);
-        demand(i == 0 || contact_before(c - 1, c));
-        demand(a && b && a->enabled && b->enabled);
-        demand(c->vertex < a->shape.vertex_count && c->tet < b->shape.tet_count && !b->off[c->tet]);
-        const float sum = c->barycentric[0] + c->barycentric[1] + c->barycentric[2] + c->barycentric[3];
-        demand(fabsf(sum - 1) < 1e-5f);
-
-        const member *low = a < b ? a : b, *high = a < b ? b : a;
-        uint32_t at = 0;
-        while (at < s->is_count && (s->is[at].a != low->id || s->is[at].b != high->id)) ++at;
-        if (at == s->is_count) {
-            const pair touching = {low->id, high->id, low->user_data, high->user_data};
-            s->is[s->is_count++] = touching;
-        }
-        const inside now = {c->mesh_a, c->vertex, c->mesh_b};
-        if (s->is_inside_count == 0 || memcmp(&s->is_inside[s->is_inside_count - 1], &now, sizeof now) != 0) {
-            demand(s->is_inside_count < max_inside);
-            s->is_inside[s->is_inside_count++] = now;
-        }
-    }
-    for (uint32_t i = 1; i < s->is_count; ++i) /* sorted, as events come */
-        for (uint32_t j = i; j > 0 && (s->is[j - 1].a > s->is[j].a ||
-                                       (s->is[j - 1].a == s->is[j].a && s->is[j - 1].b > s->is[j].b));
-             --j) {
-            const pair swapped = s->is[j];
-            s->is[j] = s->is[j - 1];
-            s->is[j - 1] = swapped;
-        }
-    s->contacts += view->count;
-}
-
-static int has_pair(const pair* pairs, uint32_t count, const pair* p) {
-    for (uint32_t i = 0; i < count; ++i)
-        if (pairs[i].a == p->a && pairs[i].b == p->b) return 1;
-    return 0;
-}
-
-/* Those of `these` that are (or are not) in `those`, in order, are the next events of that kind. */
-static uint64_t expect_events(soak* s, const vox_touch_event* events, vox_touch kind, const pair* these,
-                              uint32_t these_count, const pair* those, uint32_t those_count, int in_both) {
-    uint64_t count = 0;
-    for (uint32_t i = 0; i < these_count; ++i) {
-        if (has_pair(those, those_count, &these[i]) != in_both) continue;
-        const vox_touch_event* e = &events[count++];
-        demand(e->kind == kind && e->mesh_a == these[i].a && e->mesh_b == these[i].b);
-        demand(e->user_data_a == these[i].user_data_a && e->user_data_b == these[i].user_data_b);
-    }
-    return count;
-}
-
-static void check_events(soak* s, const vox_grid* grid) {
-    vox_touch_view view;
-    good(vox_grid_touch_events(grid, &view));
-    demand(view.began + view.persisted == s->is_count && view.persisted + view.ended == s->was_count);
-    demand(view.count == view.began + view.persisted + view.ended);
-    if (view.count > 0) { /* else data may be null, to which nothing may be added */
-        const vox_touch_event* e = view.data;
-        e += expect_events(s, e, VOX_TOUCH_BEGAN, s->is, s->is_count, s->was, s->was_count, 0);
-        e += expect_events(s, e, VOX_TOUCH_PERSISTED, s->is, s->is_count, s->was, s->was_count, 1);
-        e += expect_events(s, e, VOX_TOUCH_ENDED, s->was, s->was_count, s->is, s->is_count, 0);
-        demand(e == view.data + view.count);
-    }
-    s->events += view.began + view.ended;
-
-    /* Of vertices: as many began more than ended as there are more now. */
-    vox_contact_event_view vertices;
-    good(vox_grid_contact_events(grid, &vertices));
-    demand(vertices.began + s->was_inside_count == vertices.ended + s->is_inside_count);
-    uint64_t in_both = 0;
-    for (uint64_t i = 0, j = 0; i < s->was_inside_count && j < s->is_inside_count;) {
-        const inside *w = &s->was_inside[i], *n = &s->is_inside[j];
-        const int order = w->a != n->a             ? (w->a < n->a ? -1 : 1)
-                          : w->vertex != n->vertex ? (w->vertex < n->vertex ? -1 : 1)
-                          : w->b != n->b           ? (w->b < n->b ? -1 : 1)
-                                                   : 0;
-        in_both += order == 0;
-        i += order <= 0;
-        j += order >= 0;
-    }
-    demand(vertices.began == s->is_inside_count - in_both);
-}
-
-/* The same meshes in a new grid have the same contacts. */
-static void check_against_fresh(soak* s, const vox_contact_view* view) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* fresh = NULL;
-    vox_mesh ids[max_members];
-    uint32_t left[max_members][max_tets]; /* which tet the n-th one that is on is */
-    desc.engine = below(s, 2) ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    desc.flags = 0;
-    good(vox_grid_create(&desc, &fresh));
-    for (uint32_t i = 0; i < s->count; ++i) {
-        const member* m = &s->members[i];
-        vox_mesh_desc mesh = member_desc(m);
-        uint32_t tets[4 * max_tets], count = 0;
-        for (uint32_t t = 0; t < m->shape.tet_count; ++t) {
-            if (m->off[t]) continue;
-            memcpy(tets + 4 * count, m->shape.tets + 4 * t, 4 * sizeof(uint32_t));
-            left[i][count++] = t;
-        }
-        mesh.tets = tets;
-        mesh.tet_count = count;
-        good(vox_mesh_insert(fresh, &mesh, &ids[i]));
-        good(vox_mesh_set_enabled(fresh, ids[i], s->members[i].enabled));
-    }
-    for (uint32_t i = 0; i < s->excepted_count; ++i)
-        good(vox_grid_set_pair_enabled(fresh, ids[find(s, s->excepted[i][0]) - s->members],
-                                       ids[find(s, s->excepted[i][1]) - s->members], 0));
-    good(vox_grid_step(fresh));
-    vox_contact_view again;
-    good(vox_grid_contacts(fresh, &again));
-    demand(again.count == view->count);
-    for (uint64_t i = 0; i < view->count; ++i) {
-        vox_contact c = view->data[i], other = again.data[i];
-        other.tet = left[find(s, c.mesh_b) - s->members][other.tet];
-        c.mesh_a = ids[find(s, c.mesh_a) - s->members];
-        c.mesh_b = ids[find(s, c.mesh_b) - s->members];
-        demand(memcmp(&c, &other, sizeof c) == 0);
-    }
-    vox_grid_destroy(fresh);
-}
-
-static void check(soak* s) {
-    uint64_t hashes[2] = {0, 0}, epoch = 0, user_data = 0;
-    vox_contact_view views[2];
-    for (int g = 0; g < 2; ++g) {
-        good(vox_grid_contacts(s->grids[g], &views[g]));
-        good(vox_grid_hash(s->grids[g], &hashes[g]));
-        good(vox_grid_epoch(s->grids[g], &epoch));
-        demand(epoch == s->epoch && views[g].epoch == epoch);
-        for (uint32_t i = 0; i < s->count; ++i) {
-            demand(vox_mesh_is_valid(s->grids[g], s->members[i].id));
-            good(vox_mesh_user_data(s->grids[g], s->members[i].id, &user_data));
-            demand(user_data == s->members[i].user_data);
-        }
-        vox_counters counters = {.struct_size = sizeof counters};
-        good(vox_grid_counters(s->grids[g], &counters));
-        demand(counters.bytes == s->ledgers[g].bytes);
-    }
-    demand(hashes[0] == hashes[1]);
-    demand(views[0].count == views[1].count);
-    demand(views[0].count == 0 ||
-           memcmp(views[0].data, views[1].data, (size_t)views[0].count * sizeof(vox_contact)) == 0);
-    check_contacts(s, &views[0]);
-    for (int g = 0; g < 2; ++g) check_events(s, s->grids[g]);
-    if (s->step % 8 == 0) check_against_fresh(s, &views[0]);
-}
-
-/* What is, was. */
-static void remember(soak* s) {
-    memcpy(s->was, s->is, sizeof s->is);
-    s->was_count = s->is_count;
-    inside* swapped = s->was_inside;
-    s->was_inside = s->is_inside;
-    s->is_inside = swapped;
-    s->was_inside_count = s->is_inside_count;
-}
 
 /* ---- the life ---- */
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "ledger.h"
 #include "suite.h"
 
 /* ---- schedulers ---- */
@@ -129,9 +130,7 @@ static vox_grid* new_scene(const vox_grid_desc* desc) {
 }
 
 static uint64_t stepped_hash(vox_grid* grid, vox_counters* counters) {
-    uint64_t hash = 0;
-    ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
+    const uint64_t hash = hash_of_step(grid);
     counters->struct_size = sizeof *counters;
     ck_ok(vox_grid_counters(grid, counters));
     return hash;
@@ -266,38 +265,26 @@ END_TEST
 
 /* ---- memory ---- */
 
-static void* count_allocate(size_t size, size_t alignment, void* user) {
-    void* memory = NULL;
-    *(uint64_t*)user += 1;
-    return posix_memalign(&memory, alignment < sizeof memory ? sizeof memory : alignment, size) ? NULL
-                                                                                                : memory;
-}
-static void count_release(void* memory, size_t size, size_t alignment, void* user) {
-    (void)size, (void)alignment, (void)user;
-    free(memory);
-}
-
 START_TEST(steady_state_allocates_nothing) {
     /* Whichever worker meets whichever body. */
     scheduler s;
     for (uint32_t workers = 1; workers <= 7; workers += 3) {
-        uint64_t allocations = 0, before = 0;
+        ledger l = {0};
+        uint64_t before = 0;
         vox_counters counters;
         vox_grid_desc desc = scheduled(suite_engine, &s, runs_inline, workers);
-        desc.allocator.allocate = count_allocate;
-        desc.allocator.release = count_release;
-        desc.allocator.user = &allocations;
+        desc.allocator = ledger_allocator(&l);
         desc.flags = 0;
         make_bodies();
         vox_grid* grid = new_scene(&desc);
         for (int step = 0; step < 12; ++step) {
             mark_all(grid);
             (void)stepped_hash(grid, &counters);
-            if (step > 1) ck_assert_msg(allocations == before, "step %d of %u workers", step, workers);
-            before = allocations;
+            if (step > 1) ck_assert_msg(l.calls == before, "step %d of %u workers", step, workers);
+            before = l.calls;
             s.first_worker += 1 + (uint32_t)step / 4;
         }
-        ck_assert_uint_gt(allocations, 0);
+        ck_assert_uint_gt(l.calls, 0);
         vox_grid_destroy(grid);
         free_bodies();
     }

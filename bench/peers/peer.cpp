@@ -153,9 +153,9 @@ std::vector<vox_contact> Peer::contacts() {
                           {reinterpret_cast<const std::byte*>(body.positions.data()), 3 * sizeof(float)},
                           {reinterpret_cast<const vox::Tet*>(body.tets.data()), body.tet_count()},
                           body.self_collision});
-    std::pmr::vector<vox::Hit> hits = hits_, scratch;
+    std::pmr::vector<vox::Hit> hits = hits_;
     std::pmr::vector<vox_contact> contacts;
-    vox::make_contacts(bodies, hits, scratch, contacts);
+    vox::make_contacts(bodies, hits, contacts);
     return {contacts.begin(), contacts.end()};
 }
 

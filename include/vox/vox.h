@@ -403,8 +403,8 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const d
  * Time: that of an edit is in proportion to what it changes and to the tetrahedra around that, but for the first edit
  * of a mesh, which is in proportion to the mesh. So is the first step after an edit of more than an eighth of its
  * tetrahedra, or after edits that together, since the last time, changed more than a quarter of them; and a step after
- * an edit that found no memory for repairs. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit on,
- * 16 a tetrahedron more once one was off. The first step after an edit may allocate.
+ * an edit that found no memory for repairs. Memory: about 20 bytes a tetrahedron and 35 a vertex from the first edit
+ * on, 16 a tetrahedron more once one was off. The first step after an edit may allocate.
  * Positions must be bound, or else come before the next step, as ever. `count` 0 does nothing; an index may be named
  * several times. Errors of all: INVALID_ARGUMENT (also: an index that the mesh does not have, or that was removed),
  * INVALID_MESH ("tet 17 names vertex 900 of 812", or one that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */
@@ -422,9 +422,9 @@ VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vo
 VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
                                              uint32_t enabled);
 
-/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count: of an index
- * named twice the last. One that is off stays off. A cut that opens a gap appends copies of the vertices on it and has
- * the tetrahedra of one side name those. */
+/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count: of an
+ * index named twice the last. One that is off stays off. A cut that opens a gap appends copies of the vertices on it
+ * and has the tetrahedra of one side name those. */
 VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
                                          const uint32_t* corners);
 
@@ -471,8 +471,8 @@ static inline vox_vertices_desc vox_default_vertices_desc(void) {
 VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
                                             uint32_t* out_first);
 
-/* Takes vertices away that no tetrahedron which is on names (else INVALID_ARGUMENT): they make no contacts any more, and
- * no tetrahedron may name them again. Their positions are still read and must stay finite: best where they are. */
+/* Takes vertices away that no tetrahedron which is on names (else INVALID_ARGUMENT): they make no contacts any more,
+ * and no tetrahedron may name them again. Their positions are still read and must stay finite: best where they are. */
 VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
@@ -576,7 +576,8 @@ VOX_API vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_v
 /* Two meshes that touch: a vertex of one of them lies in a tetrahedron of the other. mesh_a <= mesh_b; both are
  * the same where a mesh touches itself. The contacts of the pair are those that
  * vox_pair_view.contacts[first], ... names: first the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then
- * the b_in_a of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts. */
+ * the b_in_a of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the order of
+ * vox_grid_contacts. */
 typedef struct vox_pair {
     vox_mesh mesh_a;
     vox_mesh mesh_b;
@@ -685,12 +686,13 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 /* Which parts of a vox_reading there are; what belongs to others is all zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* not of a vertex that is gone by now, with its mesh or from it */
-    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b or the tetrahedron is gone or mesh_b has no surface */
+    VOX_READING_SURFACE = 2,  /* nor then, nor when mesh_b is gone or has no surface, or all of its tetrahedra that held
+                                 the vertex are gone or off */
     VOX_READING_DEPTH = 4,    /* not of grids without VOX_GRID_PENETRATIONS */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_reading_flags;
 
-/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same, the first two fields aside.
+/* One contact, read. All contacts of the same (mesh_a, vertex, mesh_b) read the same but for the first field.
  * The surface of mesh_b, the facets of exactly one of its tetrahedra, doubled ones taken once, is looked at from the
  * vertex: `triangle` is the one that comes closest, computed in double as by vox_grid_query_closest; of those equally
  * far the one with the lowest corners, compared in ascending order. For self-contact it is one of the fold that the
@@ -1103,8 +1105,8 @@ typedef struct vox_cost_weights {
     double fast_test_vertex; /* one in a tile's box, against its tets */
 } vox_cost_weights;
 
-/* Measures the weights by steps of both engines over a small scene of its own: ten milliseconds or so at the first call,
- * from a cache of the process after that. They are then in use, by all suggestions and grids of the process.
+/* Measures the weights by steps of both engines over a small scene of its own: ten milliseconds or so at the first
+ * call, from a cache of the process after that. They are then in use, by all suggestions and grids of the process.
  * out null: only that; else set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY. */
 VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
 

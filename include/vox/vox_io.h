@@ -164,7 +164,8 @@ VOX_API vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* d
  * any orientation, several parts, and intersect itself: inside is where its winding number is not zero, or, where
  * its triangles do not agree on an orientation, where rays cross it an odd number of times. Holes smaller than a
  * cell or so are closed. Details thinner than a cell may be lost, and edges are rounded by a fraction of one
- * (max_distance prevents it). The same input gives the same tets, bit for bit. Memory and time go with the cells inside.
+ * (max_distance prevents it). The same input gives the same tets, bit for bit. Memory and time go with the cells
+ * inside.
  * Errors: INVALID_ARGUMENT (no triangles, no volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is
  * open; not for CUBES), LIMIT (more than 4096 cells along an axis, more than max_tets), INVALID_STATE (cancelled),
  * OUT_OF_MEMORY. */
@@ -230,7 +231,8 @@ VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t stru
  * elements than .msh 2.2 can number), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc);
 
-/* Receives `size` bytes of a file, in order, on the thread that writes; 0 on success, anything else ends the writing. */
+/* Receives `size` bytes of a file, in order, on the thread that writes; 0 on success, anything else ends the
+ * writing. */
 typedef struct vox_io_sink {
     int32_t (*write)(const void* data, size_t size, void* user);
     void* user;

@@ -299,9 +299,9 @@ VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cel
 VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round, uint64_t* out_order);
 
 /* The time of one cell size from its rounds: for each frame the median of the rounds, of these the mean. frame_ns holds
- * `frames` times a round, round after round. Every round does the same work in the same frame, so a disturbance costs the
- * frames it falls into and not the whole round. Medians, since on a busy machine the least of the rounds hangs on single
- * lucky ones (docs/paper.md has figures). Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
+ * `frames` times a round, round after round. Every round does the same work in the same frame, so a disturbance costs
+ * the frames it falls into and not the whole round. Medians, since on a busy machine the least of the rounds hangs on
+ * single lucky ones (docs/paper.md has figures). Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
 VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
 
 #define VOX_FIT_CAPACITY 9u /* coefficients of a fit */

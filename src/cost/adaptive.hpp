@@ -5,7 +5,7 @@
 // stand in a fixed ratio, that of the slopes of log V and log R. So log(R / V), which every step counts
 // anyway, tells how far d is from where it was best: when the bodies grow by a factor, or come into deeper
 // contact, d follows by the change of log(R / V) over its slope. That costs nothing. Several sizes follow
-// together. The model itself is
+// together, all of them by the same factor, so that their ratios stay. The model itself, at a price, is
 // asked again, over a sample of the scene, after meshes came or went or d has moved far, and only as often as
 // that stays below a hundredth of the time of the steps, told by counts: the same calls always give the same
 // sizes. Where d has moved, that is when the steps since have paid for it; new meshes need not wait.

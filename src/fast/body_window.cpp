@@ -16,7 +16,7 @@ constexpr double cells_per_tile = 0.6;
 // every vertex.
 constexpr double largest_factor = 16;
 // The same as cells_per_tile for the winding numbers of self-collision.
-constexpr double winding_cells_per_tile = 0.8;
+constexpr double winding_cells_per_tile = 0.55;
 // A body with self-collision of so many tets is worth sharing among the workers; so many such bodies are at
 // most, to stay below VOX_MAX_TASKS.
 constexpr std::size_t many_tets = 1u << 17;
@@ -66,18 +66,22 @@ void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& s
 // `certificate`.
 bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
                            std::uint64_t& exact_tests, Workers* helpers) {
-    const FastMesh& mesh = *step.prepared[b];
-    if (!step.settings.winding || !mesh.surface.is_closed) return false;
+    if (!may_certify(step, b)) return false;
+    FastMesh& mesh = *step.prepared[b];
     const BodyState& state = states_[b];
     fast::TileSides sides;
     sample_tiles(step, b, sides);
     const fast::WindingBody body{mesh,
                                  mesh.surface,
                                  state.positions,
+                                 step.bodies[b].vertex_count,
                                  body_boxes_[b],
                                  winding_cells_per_tile * sides.mean(),
+                                 super_boxes_.data() + state.first_super,
+                                 super_upright_.data() + state.first_super,
                                  tile_boxes_.data() + state.first_tile,
                                  tile_known_.data() + state.first_tile,
+                                 mesh.turning,
                                  helpers,
                                  state.rounded,
                                  step.origin,
@@ -100,15 +104,7 @@ void Fast::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buf
     if (certificate.complete) return;
     const Box* blocks = block_boxes_.data() + state.first_block;
     for (std::uint32_t i = 0; i < count; ++i) {
-        std::uint32_t lo[3], hi[3];
-        bool near = true;
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = certificate.lattice.cell(blocks[i].lo[a], a);
-            hi[a] = certificate.lattice.cell(blocks[i].hi[a], a);
-            near = near && lo[a] <= certificate.last[a] && hi[a] >= certificate.first[a];
-        }
-        // A block is in few cells, as a rule: all of them certified is enough.
-        if (!near || certificate.holds(lo, hi)) continue;
+        if (certificate.holds(blocks[i])) continue;
         for (std::uint32_t v = first[i]; v < first[i + 1] && !active[i]; ++v)
             active[i] = !certificate.holds(state.positions + std::size_t{v} * 3);
     }

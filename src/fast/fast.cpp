@@ -72,12 +72,14 @@ void FastMesh::prepare(const Body& body) {
     std::pmr::memory_resource* memory = surface.triangles.get_allocator().resource();
     FastMesh made(memory);
     fast::make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
-    if (body.self_collision) {
+    if (!body.self_collision) {
+        made.own.clear();
+        made.own.shrink_to_fit();
+    } else {
         fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
         if (!fast::surface_pays(made.surface.triangles.size(), made.tets.size()))
             made.surface = fast::Surface(memory);
-        std::erase_if(made.surface.loose,
-                      [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
+        std::erase_if(made.surface.loose, [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
     made.expect_vertices(body.vertex_count);
     made.places.first_young_super = made.super_tile_count();
@@ -91,13 +93,22 @@ void FastMesh::expect_vertices(std::uint32_t vertex_count) {
 }
 
 bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of) {
-    return fast::repair(*this, surface, places, body, changes, tets_of);
+    if (!fast::repair(*this, surface, places, body, changes, tets_of)) return false;
+    if (turning.is_known) {
+        turning.slack.resize(super_tile_count());
+        turning.boxes.resize(super_tile_count());
+        for (const TetChange& change : changes)
+            if (change.is_on) turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
+    }
+    return true;
 }
 
 bool FastMesh::follow_vertices(const Body& body, std::uint32_t count_before) {
     if (count_before == 0) return false;
     fast::add_vertices(*this, surface, places, count_before, body.vertex_count);
     expect_vertices(body.vertex_count);
+    if (turning.is_known)
+        turning.reference.resize(rest.positions.size()); // no matter what: their tets are new
     return true;
 }
 
@@ -110,7 +121,7 @@ public:
 
     void take(std::span<const fast::Finding> findings) override {
         const std::uint64_t start = nanoseconds();
-        Hit hits[256];
+        Hit hits[64];
         std::size_t count = 0;
         for (const fast::Finding& f : findings) {
             Containment where = Containment::interior;
@@ -122,13 +133,10 @@ public:
                 ++worker_.filtered;
                 continue;
             }
-            Hit hit{};
-            hit.body_a = f.body;
-            hit.vertex = f.vertex;
-            hit.body_b = body_;
-            hit.tet = f.tet;
-            hit.interior = where == Containment::interior;
-            hits[count++] = hit;
+            // In place and as a whole: bit fields set one by one are slow to read back.
+            hits[count++] = {
+                f.body,   f.vertex, body_, f.tet & 0x7fffffffu, where == Containment::interior ? 1u : 0u,
+                f.weights};
             if (count == std::size(hits)) {
                 append(std::span(hits, count));
                 count = 0;
@@ -156,6 +164,9 @@ private:
     void append(std::span<const Hit> hits) {
         if (hits.empty()) return;
         const std::lock_guard lock(step_.mutex);
+        // A quarter more at a time: there may be many, and twice as much room would be held for good.
+        const std::size_t count = step_.hits.size() + hits.size();
+        if (step_.hits.capacity() < count) step_.hits.reserve(count + count / 4);
         step_.hits.insert(step_.hits.end(), hits.begin(), hits.end());
     }
 
@@ -175,10 +186,11 @@ Fast::Worker::Worker(std::pmr::memory_resource* memory)
 
 Fast::Fast(std::pmr::memory_resource* memory)
     : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
-      tile_known_(memory), reached_regions_(memory), block_sides_(memory), block_pieces_(memory),
-      super_pieces_(memory), piece_boxes_(memory), piece_moved_(memory), pair_buffers_(memory),
-      pairs_(memory), reaches_(memory), by_b_(memory), first_of_b_(memory), first_of_a_(memory),
-      groups_(memory), bins_(memory), workers_(memory), large_buffers_(memory), degenerate_(memory) {}
+      block_moves_(memory), super_upright_(memory), tile_known_(memory), reached_regions_(memory),
+      block_sides_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
+      piece_moved_(memory), pair_buffers_(memory), pairs_(memory), reaches_(memory), by_b_(memory),
+      first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
+      large_buffers_(memory), degenerate_(memory) {}
 
 void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -187,6 +199,7 @@ void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepa
     const std::uint64_t start = nanoseconds();
     prepare(step);
     stream(step);
+    follow_turning(step);
     const std::uint64_t streamed = nanoseconds();
     find_reaches(step);
     const std::uint64_t reached = nanoseconds();
@@ -243,7 +256,7 @@ void Fast::prepare(Step& step) {
 
     step.origin = choose_origin(step.bodies);
     const bool moved_origin = step.origin.x != 0 || step.origin.y != 0 || step.origin.z != 0;
-    std::size_t blocks = 0, supers = 0, tiles = 0;
+    std::size_t blocks = 0, supers = 0, tiles = 0, moves = 0;
     states_.resize(step.bodies.size());
     groups_.clear();
     std::size_t vertices = group_vertices;
@@ -262,6 +275,9 @@ void Fast::prepare(Step& step) {
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
+        states_[b].tracked = may_certify(step, b) && mesh.turning.is_known;
+        states_[b].first_move = static_cast<std::uint32_t>(moves);
+        if (states_[b].tracked) moves += mesh.block_count();
         blocks += mesh.block_count();
         supers += mesh.super_tile_count();
         tiles += mesh.tiles.size();
@@ -287,8 +303,10 @@ void Fast::prepare(Step& step) {
     while (bins_.size() < groups_.size()) bins_.emplace_back(bins_.get_allocator().resource());
     for (fast::Bins& bins : bins_) bins.clear();
     block_boxes_.resize(blocks);
+    block_moves_.resize(moves);
     block_sides_.resize(blocks);
     super_boxes_.resize(supers);
+    super_upright_.resize(supers);
     tile_boxes_.resize(tiles);
     tile_known_.assign(tiles, 0);
 }
@@ -313,10 +331,12 @@ void Fast::level_buffers() {
     level([](Worker & w) -> auto& { return w.windows.points.z; });
     level([](Worker & w) -> auto& { return w.windows.points.id; });
     level([](Worker & w) -> auto& { return w.windows.certificate.directions; });
-    level([](Worker & w) -> auto& { return w.windows.certificate.queue; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.components.runs; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.components.rows; });
     level([](Worker & w) -> auto& { return w.windows.certificate.touched; });
     level([](Worker & w) -> auto& { return w.windows.certificate.bad; });
     level([](Worker & w) -> auto& { return w.windows.certificate.certified; });
+    level([](Worker & w) -> auto& { return w.windows.certificate.with_next; });
 }
 
 // Packed positions of the bodies, their boxes, and which of them moved.
@@ -342,21 +362,53 @@ void Fast::stream(Step& step) {
 bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
     const Positions& positions = step.bodies[piece.body].positions;
     const BodyState& state = states_[piece.body];
-    fast::Rest& rest = step.prepared[piece.body]->rest;
-    const std::pmr::vector<std::uint32_t>& first = step.prepared[piece.body]->block_first;
-    const std::uint32_t begin = first[piece.first], end = first[piece.last];
+    FastMesh& mesh = *step.prepared[piece.body];
+    const std::span<const std::uint32_t> first =
+        std::span(mesh.block_first).subspan(piece.first, piece.last - piece.first + 1);
+    const std::uint32_t begin = first.front(), end = first.back();
     const std::size_t part = piece.first / piece_blocks;
     const bool packed = !state.rounded && fast::is_packed(positions);
     if (state.rounded)
-        fast::round_positions(positions, step.origin, begin, end, rest.positions.data());
+        fast::round_positions(positions, step.origin, begin, end, mesh.rest.positions.data());
     else if (!packed)
-        moved = !fast::copy_strided(rest, part, positions, begin, end);
-    const bool finite = fast::stream_boxes(
-        state.positions, std::span(first).subspan(piece.first, piece.last - piece.first + 1),
-        block_boxes_.data() + state.first_block + piece.first, box);
-    if (packed) moved = !fast::compare_packed(rest, part, state.positions, begin, end, box);
-    if (state.rounded) moved = !fast::compare_exact(rest, part, positions, begin, end, box);
+        moved = !fast::copy_strided(mesh.rest, part, positions, begin, end);
+    Box* boxes = block_boxes_.data() + state.first_block + piece.first;
+    const bool finite = state.tracked
+                            ? fast::stream_boxes(state.positions, mesh.turning.reference.data(), first, boxes,
+                                                 block_moves_.data() + state.first_move + piece.first, box)
+                            : fast::stream_boxes(state.positions, first, boxes, box);
+    if (packed) moved = !fast::compare_packed(mesh.rest, part, state.positions, begin, end, box);
+    if (state.rounded) moved = !fast::compare_exact(mesh.rest, part, positions, begin, end, box);
     return finite;
+}
+
+// Bodies whose surface may tell which of their vertices can be in their own tets.
+bool Fast::may_certify(const Step& step, std::uint32_t body) const noexcept {
+    return step.settings.winding && step.bodies[body].self_collision &&
+           step.prepared[body]->surface.is_closed;
+}
+
+// The boxes of the super-tiles of such bodies, and which of these hold no tet that may have turned over.
+void Fast::follow_turning(Step& step) {
+    std::size_t tiles = 0;
+    for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
+        states_[b].supers_known = states_[b].moved && may_certify(step, b);
+        if (states_[b].supers_known) tiles += step.prepared[b]->tiles.size();
+    }
+    if (tiles == 0) return;
+    step.for_ranges(super_pieces_.size(), tiles, 256, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t p = begin; p < end; ++p) {
+            const Piece& piece = super_pieces_[p];
+            const BodyState& state = states_[piece.body];
+            if (!state.supers_known) continue;
+            const FastMesh& mesh = *step.prepared[piece.body];
+            fast::follow(mesh, mesh.turning, block_boxes_.data() + state.first_block,
+                         state.tracked ? block_moves_.data() + state.first_move : nullptr,
+                         state.rounded ? fast::slack_of_rounding(body_boxes_[piece.body]) : 0, piece.first,
+                         piece.last, super_boxes_.data() + state.first_super,
+                         super_upright_.data() + state.first_super);
+        }
+    });
 }
 
 // Which vertices may be in tets of which other bodies.
@@ -428,7 +480,7 @@ std::span<const std::uint32_t> Fast::reaching(std::uint32_t b) const noexcept {
 
 // Bodies whose super-tiles matter only where others reach them.
 bool Fast::knows_sides(const Step& step, std::uint32_t body) const noexcept {
-    return states_[body].reached && !states_[body].tiles_known && !step.bodies[body].self_collision;
+    return states_[body].reached && !step.bodies[body].self_collision;
 }
 
 // Where the blocks of a body lie, seen from the region where others reach it: a byte tells most super-tiles
@@ -441,8 +493,8 @@ void Fast::find_sides(const Step& step, const Piece& piece) {
         block_sides_[i] = static_cast<std::uint8_t>(fast::sides_of(block_boxes_[i], region));
 }
 
-// Boxes that hold super-tiles: of their tiles where all of those are known, else of the blocks their vertices
-// are in; empty where all those blocks lie on one side of what matters.
+// Boxes that hold super-tiles: of the blocks their vertices are in; empty where all those blocks lie on one
+// side of what matters.
 void Fast::know_super_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     const FastMesh& mesh = *step.prepared[piece.body];
@@ -456,14 +508,9 @@ void Fast::know_super_tiles(const Step& step, const Piece& piece) {
     };
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         Box box = fast::empty_box;
-        if (state.tiles_known) {
-            for (std::uint32_t t = mesh.super_first[s]; t < mesh.super_first[s + 1]; ++t)
-                fast::add(box, tile_boxes_[state.first_tile + t]);
-        } else {
-            const std::span<const std::uint32_t> of = std::as_const(mesh.blocks)[s];
-            if (!knows_sides || !out_of_reach(of))
-                for (const std::uint32_t block : of) fast::add(box, blocks[block]);
-        }
+        const std::span<const std::uint32_t> of = std::as_const(mesh.blocks)[s];
+        if (!knows_sides || !out_of_reach(of))
+            for (const std::uint32_t block : of) fast::add(box, blocks[block]);
         super_boxes_[state.first_super + s] = box;
     }
 }
@@ -472,7 +519,7 @@ void Fast::know_super_tiles(const Step& step, const Piece& piece) {
 void Fast::know_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     if (!state.reached) return;
-    know_super_tiles(step, piece);
+    if (!state.supers_known) know_super_tiles(step, piece);
     const FastMesh& mesh = *step.prepared[piece.body];
     const std::span<const std::uint32_t> reaches = reaching(piece.body);
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
@@ -510,7 +557,7 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     const bool self = state.self && state.bins;
     const std::span<const std::uint32_t> reaches = reaching(b);
     if (!self && reaches.empty()) return;
-    if (!state.reached) know_super_tiles(step, piece);
+    if (!state.reached && !state.supers_known) know_super_tiles(step, piece);
     const Box* super_boxes = super_boxes_.data() + state.first_super;
     Box box = fast::empty_box;
     for (std::uint32_t s = piece.first; s < piece.last; ++s) fast::add(box, super_boxes[s]);
@@ -555,8 +602,15 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     std::pmr::vector<fast::Source>& near = worker.near;
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         near.clear();
-        for (const fast::Source& source : sources)
-            if (fast::overlap(super_boxes[s], source.region)) near.push_back(source);
+        for (const fast::Source& source : sources) {
+            if (!fast::overlap(super_boxes[s], source.region)) continue;
+            if (source.body == b) { // where most of a body is certified, few meet what is left
+                Box met = super_boxes[s];
+                fast::intersect(met, source.region);
+                if (!fast::holds_point(source.window, met)) continue;
+            }
+            near.push_back(source);
+        }
         if (near.empty()) continue;
         query.stamps = near[0].body == b ? worker.stamps.data() : nullptr;
         fast::query_tiles(query, near, mesh.super_first[s], mesh.super_first[s + 1], scratch, decide);

@@ -27,6 +27,7 @@
 #include "query.hpp"
 #include "../simd.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -105,47 +106,72 @@ HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
 #endif
 }
 
-// Local indices of the corners, and the quantised boxes of the tets: a table of 64 bytes looked up 16 at a
-// time, a lookup giving 0 where an index is not in that quarter (its top bit is set by the sum then).
-HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
-                             std::uint32_t vertex_count, QueryScratch& s) {
+constexpr std::uint32_t few_vertices = 48; // most tiles have no more
+
+// A table of bytes looked up 16 at a time, a lookup giving 0 where an index is not in that quarter (its top
+// bit is set by the sum then).
+template <std::uint32_t kQuarters>
+struct ByteTable {
+    hn::Vec<Bytes> quarter[kQuarters];
+
+    HWY_INLINE explicit ByteTable(const std::uint8_t* values) {
+        for (std::uint32_t q = 0; q < kQuarters; ++q)
+            quarter[q] = hn::LoadDup128(Bytes(), values + std::size_t{16} * q);
+    }
+    HWY_INLINE hn::Vec<Bytes> operator()(hn::Vec<Bytes> index) const {
+        const Bytes d;
+        auto found = hn::TableLookupBytesOr0(quarter[0], QuarterIndex(index));
+        for (std::uint32_t q = 1; q < kQuarters; ++q) {
+            const auto in_quarter = hn::Xor(index, hn::Set(d, static_cast<std::uint8_t>(16 * q)));
+            found = hn::Or(found, hn::TableLookupBytesOr0(quarter[q], QuarterIndex(in_quarter)));
+        }
+        return found;
+    }
+};
+
+// Local indices of the corners, and the quantised boxes of the tets; of at most 16 kQuarters vertices.
+template <std::uint32_t kQuarters>
+HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScratch& s) {
     const Bytes d;
-    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
-    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
-    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
-    const auto q1 = hn::Set(d, 16), q2 = hn::Set(d, 32), q3 = hn::Set(d, 48);
     for (std::size_t j = 0; j < tile_size; j += hn::Lanes(d)) {
         const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
         const auto c2 = hn::LoadU(d, corners + 2 * tile_size + j),
                    c3 = hn::LoadU(d, corners + 3 * tile_size + j);
         hn::StoreInterleaved4(c0, c1, c2, c3, d, reinterpret_cast<std::uint8_t*>(s.corners) + 4 * j);
         for (std::size_t a = 0; a < 3; ++a) {
-            const auto t0 = hn::LoadDup128(d, s.quantised[a]), t1 = hn::LoadDup128(d, s.quantised[a] + 16);
-            const auto t2 = hn::LoadDup128(d, s.quantised[a] + 32),
-                       t3 = hn::LoadDup128(d, s.quantised[a] + 48);
-            const auto look_up = [&](hn::Vec<Bytes> c) HWY_ATTR {
-                const auto r0 = hn::TableLookupBytesOr0(t0, QuarterIndex(c));
-                const auto r1 = hn::TableLookupBytesOr0(t1, QuarterIndex(hn::Xor(c, q1)));
-                const auto r2 = hn::TableLookupBytesOr0(t2, QuarterIndex(hn::Xor(c, q2)));
-                const auto r3 = hn::TableLookupBytesOr0(t3, QuarterIndex(hn::Xor(c, q3)));
-                return hn::Or(hn::Or(r0, r1), hn::Or(r2, r3));
-            };
-            const auto v0 = look_up(c0), v1 = look_up(c1), v2 = look_up(c2), v3 = look_up(c3);
+            const ByteTable<kQuarters> table(s.quantised[a]);
+            const auto v0 = table(c0), v1 = table(c1), v2 = table(c2), v3 = table(c3);
             hn::Store(hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)), d, s.lo[a] + j);
             hn::Store(hn::Max(hn::Max(v0, v1), hn::Max(v2, v3)), d, s.hi[a] + j);
         }
     }
 }
 
-// For each candidate the set of tets whose quantised box it meets.
-HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t valid) {
+HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
+                             std::uint32_t vertex_count, QueryScratch& s) {
+    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
+    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
+    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
+    if (vertex_count <= few_vertices)
+        QuantiseTets<few_vertices / 16>(corners, s);
+    else
+        QuantiseTets<4>(corners, s);
+}
+
+// For each candidate the set of tets whose quantised box it meets, less those that `own` it. Candidates that
+// meet none are dropped; returns how many are left. Nothing branches: what a candidate meets is hard to
+// predict.
+template <class Own>
+HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::uint32_t end,
+                                   std::uint32_t left, std::uint64_t valid, Own own) {
     const Bytes d;
     constexpr std::size_t lanes = hn::MaxLanes(Bytes());
     const std::uint8_t *HWY_RESTRICT qx = s.candidate_quantised[0],
                                      *HWY_RESTRICT qy = s.candidate_quantised[1],
                                      *HWY_RESTRICT qz = s.candidate_quantised[2];
     std::uint64_t* HWY_RESTRICT masks = s.masks;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    std::uint32_t* HWY_RESTRICT meeting = s.meeting;
+    for (std::uint32_t i = begin; i < end; ++i) {
         const auto x = hn::Set(d, qx[i]), y = hn::Set(d, qy[i]), z = hn::Set(d, qz[i]);
         std::uint64_t mask = 0;
         for (std::size_t j = 0; j < tile_size; j += lanes) {
@@ -162,33 +188,47 @@ HWY_INLINE void TestBoxes(QueryScratch& s, std::uint32_t count, std::uint64_t va
             std::memcpy(&part, bits, lanes / 8);
             mask |= part << j;
         }
-        masks[i] = mask & valid;
+        mask &= valid & ~own(i);
+        masks[left] = mask;
+        meeting[left] = i;
+        s.candidate_x[left] = s.candidate_x[i];
+        s.candidate_y[left] = s.candidate_y[i];
+        s.candidate_z[left] = s.candidate_z[i];
+        left += mask != 0;
     }
+    return left;
 }
 
-// Decides `count` pairs.
-template <bool kRounded>
+constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
+
+// Decides `count` pairs. TableOf: of the tile's coordinates.
+template <bool kRounded, class TableOf>
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const Table table[3] = {Table(s.x), Table(s.y), Table(s.z)};
+    const TableOf table[3] = {TableOf(s.x), TableOf(s.y), TableOf(s.z)};
+    const WordTable corner_table(s.corners);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
     const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
-    for (std::uint32_t i = 0; i < 64; ++i) s.pairs[count + i] = s.pairs[0]; // a whole register past the end
+    for (std::uint32_t i = 0; i < lanes; ++i) s.pairs[count + i] = s.pairs[count - 1]; // whole registers
+    std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
         const auto pair = hn::LoadU(du, s.pairs + i);
-        const auto candidate = hn::BitCast(di, hn::ShiftRight<6>(pair));
-        const auto corners = hn::GatherIndex(du, s.corners, hn::BitCast(di, hn::And(pair, low6)));
+        // Pairs go by candidates, none of which is left out: those of a register are next to each other.
+        const std::uint32_t first = s.pairs[i] >> 6;
+        const auto candidate =
+            hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
+        const auto corners = corner_table(hn::And(pair, low6));
         const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
         const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
             const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
-            const V p = hn::GatherIndex(d, candidates[a], candidate);
+            const V p = hn::TableLookupLanes(hn::LoadU(d, candidates[a] + first), candidate);
             const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
                     hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
@@ -201,12 +241,11 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         }
         if (hn::AllFalse(d, inside)) continue;
         s.counters.candidates += hn::CountTrue(d, inside);
-        V n1[3], n2[3], n3[3];
-        Cross(e2, e3, n1);
-        Cross(e3, e1, n2);
-        Cross(e1, e2, n3);
-        const V u1 = Dot(q, n1), u2 = Dot(q, n2), u3 = Dot(q, n3);
-        const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n1), u1), u2), u3);
+        V n[3], m[3];
+        Cross(e2, e3, n);
+        Cross(e1, q, m);
+        const V u1 = Dot(q, n), u2 = Dot(e3, m), u3 = hn::Neg(Dot(e2, m));
+        const V u0 = hn::Sub(hn::Sub(hn::Sub(Dot(e1, n), u1), u2), u3);
         V bound = hn::Add(volume, hn::Set(d, constants.underflow));
         if constexpr (kRounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
         const V least = hn::Min(hn::Min(u0, u1), hn::Min(u2, u3));
@@ -214,23 +253,36 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const auto positive = hn::Gt(least, bound), negative = hn::Lt(most, hn::Neg(bound));
         const auto outside = hn::And(hn::Lt(least, hn::Neg(bound)), hn::Gt(most, bound));
         const auto certain = hn::Or(positive, negative);
-        const auto kept = hn::AndNot(outside, inside);
-        if (hn::AllFalse(d, kept)) continue;
-        std::uint8_t bits[8] = {}, certain_bits[8] = {};
-        hn::StoreMaskBits(d, kept, bits);
-        hn::StoreMaskBits(d, certain, certain_bits);
-        std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
-        const std::uint32_t sure = certain_bits[0] | static_cast<std::uint32_t>(certain_bits[1]) << 8;
-        for (; left; left &= left - 1) {
-            const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-            const std::uint32_t p = s.pairs[i + lane];
-            Finding& finding = s.findings[s.finding_count++];
-            finding.body = s.candidate_body[p >> 6];
-            finding.vertex = s.candidate_id[p >> 6];
-            finding.tet = tets[p & 63] & 0x7fffffffu;
-            finding.certain = (sure >> lane) & 1u;
+        const Compressor kept(hn::AndNot(outside, inside));
+        const auto marked =
+            hn::Or(pair, hn::IfThenElseZero(hn::RebindMask(du, certain), hn::Set(du, certain_pair)));
+        hn::StoreU(kept(marked), du, s.pairs + kept_count); // behind what is still to be read
+        kept_count += kept.count();
+    }
+    for (std::uint32_t i = 0; i < kept_count; ++i) {
+        const std::uint32_t pair = s.pairs[i] & ~certain_pair;
+        const std::uint32_t place = pair >> 6, tet = pair & 63, f = s.finding_count++;
+        // As a whole: bit fields set one by one are slow to read back. The weights come when there are
+        // enough.
+        s.findings[f] = {s.candidate_body[s.meeting[place]],
+                         s.candidate_id[s.meeting[place]],
+                         tets[tet] & 0x7fffffffu,
+                         (s.pairs[i] & certain_pair) != 0,
+                         {{kRounded ? -1.0f : 0.0f, 0, 0, 0}}};
+        if constexpr (!kRounded) {
+            BarycentricBlock<float>& block = s.points[f / barycentric_block];
+            const std::size_t at = f % barycentric_block;
+            block.point[0][at] = s.candidate_x[place];
+            block.point[1][at] = s.candidate_y[place];
+            block.point[2][at] = s.candidate_z[place];
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint32_t v = s.corners[tet] >> (8 * c) & 255;
+                block.corner[c][0][at] = s.x[v];
+                block.corner[c][1][at] = s.y[v];
+                block.corner[c][2][at] = s.z[v];
+            }
         }
-        if (s.finding_count >= QueryScratch::most_findings) hand_over(s, out);
+        if (s.finding_count == QueryScratch::most_findings) hand_over(s, out);
     }
 }
 
@@ -257,10 +309,13 @@ struct TileWork {
     FilterConstants constants;
 
     void narrow(const std::uint32_t* tets, std::uint32_t count) {
+        const bool few = tile.vertex_count <= few_vertices;
         if (query.rounded)
-            Narrow<true>(tets, s, count, constants, out);
+            few ? Narrow<true, SmallTable>(tets, s, count, constants, out)
+                : Narrow<true, Table>(tets, s, count, constants, out);
         else
-            Narrow<false>(tets, s, count, constants, out);
+            few ? Narrow<false, SmallTable>(tets, s, count, constants, out)
+                : Narrow<false, Table>(tets, s, count, constants, out);
     }
 };
 
@@ -269,7 +324,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     QueryScratch& s = w.s;
     const Tile& tile = w.tile;
     if (!w.ready) {
-        if (!w.loaded) LoadTile(*w.query.tiles, w.query.positions, tile, s, w.box);
+        if (!w.loaded) LoadTile<false>(*w.query.tiles, w.query.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
@@ -285,31 +340,20 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    TestBoxes(s, count, tile.all_tets());
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
     const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
     const std::uint32_t* stamps = w.query.stamps;
-    // Without the tets that own the candidate; then without the candidates that are left with none. Neither
-    // branches: what a candidate meets is hard to predict.
-    std::uint32_t left = 0, i = 0;
-    for (; i < own_count; ++i) {
-        const std::uint32_t stamp = stamps[s.candidate_id[i]];
-        const std::uint64_t mine = stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
-        const std::uint64_t mask = s.masks[i] & ~mine;
-        s.masks[left] = mask;
-        s.meeting[left] = i;
-        left += mask != 0;
-    }
-    for (; i < count; ++i) {
-        const std::uint64_t mask = s.masks[i];
-        s.masks[left] = mask;
-        s.meeting[left] = i;
-        left += mask != 0;
-    }
+    const std::uint32_t left_of_own =
+        TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
+            const std::uint32_t stamp = stamps[s.candidate_id[i]];
+            return stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
+        });
+    const std::uint32_t left = TestBoxes(s, own_count, count, left_of_own, tile.all_tets(),
+                                         [](std::uint32_t) { return std::uint64_t{0}; });
     std::uint32_t pairs = 0;
     for (std::uint32_t k = 0; k < left; ++k) {
         std::uint64_t mask = s.masks[k];
-        const std::uint32_t candidate = s.meeting[k] << 6;
+        const std::uint32_t candidate = k << 6;
         std::uint32_t* to = s.pairs + pairs;
         pairs += static_cast<std::uint32_t>(hwy::PopCount(mask));
         do {
@@ -445,7 +489,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
+// Barycentric coordinates of the findings: the points are at hand here, and anywhere in memory later.
+void weigh(QueryScratch& s) {
+    for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
+        Finding* findings = s.findings + first;
+        const std::uint32_t count = std::min<std::uint32_t>(s.finding_count - first, barycentric_block);
+        if (std::none_of(findings, findings + count, [](const Finding& f) { return f.weights.known(); }))
+            continue;
+        Weights weights[barycentric_block];
+        const std::uint64_t uncertain =
+            barycentric(s.points[first / barycentric_block], count, weights[0].of);
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (findings[i].weights.known())
+                findings[i].weights = uncertain >> i & 1 ? Weights::unknown() : weights[i];
+    }
+}
+
 void hand_over(QueryScratch& scratch, Findings& out) {
+    weigh(scratch);
     out.take(std::span<const Finding>(scratch.findings, scratch.finding_count));
     scratch.finding_count = 0;
 }

@@ -1,6 +1,7 @@
 // Stages 4 and 5: the vertices of a window against the tetrahedra of tiles.
 #pragma once
 
+#include "../barycentric.hpp"
 #include "tiles.hpp"
 #include "window.hpp"
 
@@ -16,6 +17,7 @@ struct Finding {
     std::uint32_t vertex; // the caller's indices
     std::uint32_t tet : 31;
     std::uint32_t certain : 1; // strictly inside; else only exact arithmetic can tell
+    Weights weights;           // where they are known
 };
 
 struct QueryCounters {
@@ -38,11 +40,11 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of one query at a time (one worker). About 40 KiB.
+// Buffers of one query at a time (one worker). About 50 KiB.
 struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 512; // handled at a time
     static constexpr std::uint32_t most_pairs = 2048;
-    static constexpr std::uint32_t most_findings = 512;
+    static constexpr std::uint32_t most_findings = 128;
 
     // the tile
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
@@ -54,11 +56,13 @@ struct alignas(64) QueryScratch : TileVertices {
     alignas(64) std::uint32_t candidate_id[most_candidates + 64];
     alignas(64) std::uint32_t candidate_body[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
-    alignas(64) std::uint64_t masks[most_candidates + 64];   // tets whose box the candidate meets
-    alignas(64) std::uint32_t meeting[most_candidates + 64]; // candidates whose mask is not empty
-    // pairs: candidate << 6 | tet
+    // candidates in the box of some tet: their coordinates move up to these places in candidate_x, _y, _z
+    alignas(64) std::uint64_t masks[most_candidates + 64]; // the tets whose box the candidate meets: not none
+    alignas(64) std::uint32_t meeting[most_candidates + 64]; // where its other properties stayed
+    // pairs: place of the candidate << 6 | tet
     alignas(64) std::uint32_t pairs[most_pairs + 64];
-    Finding findings[most_findings + 64];
+    Finding findings[most_findings];
+    BarycentricBlock<float> points[most_findings / barycentric_block]; // of findings
     std::uint32_t finding_count = 0;
     // Self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the tile at
     // hand.

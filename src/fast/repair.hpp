@@ -23,6 +23,7 @@ struct Places {
 
     static constexpr std::uint32_t none = ~0u;
     std::pmr::vector<std::uint32_t> of_tet; // 64 * tile + place in it, or none
+    std::uint32_t tile_of(std::uint32_t tet) const noexcept { return of_tet[tet] / tile_size; }
     struct Room {
         std::uint8_t tets, vertices; // that a tile has room for where it lies
     };

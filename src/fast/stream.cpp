@@ -47,9 +47,35 @@ HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     return finite;
 }
 
-bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
-                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
-    const hn::FixedTag<float, 4> d;
+// x, y, z of a position; the fourth lane is the next one's x, or nothing for the last one there is.
+using Four = hn::FixedTag<float, 4>;
+
+HWY_INLINE hn::Vec<Four> LoadLast(const float* HWY_RESTRICT p) {
+    alignas(16) const float last[4] = {p[0], p[1], p[2], 0};
+    return hn::Load(Four(), last);
+}
+
+// Adds the positions load(i), i < count, to the box from `lo` to `hi`.
+template <class Load>
+HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec<Four>& hi) {
+    std::uint32_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        const auto p0 = load(i), p1 = load(i + 1), p2 = load(i + 2), p3 = load(i + 3);
+        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+    }
+    for (; i < count; ++i) {
+        const auto p = load(i);
+        lo = hn::Min(lo, p);
+        hi = hn::Max(hi, p);
+    }
+}
+
+template <bool kMoves>
+HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
+                       const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
+                       Box* HWY_RESTRICT moves, Box& all) {
+    const Four d;
     bool finite = true;
     const std::uint32_t count = first[blocks];
     std::uint32_t checked = first[0];
@@ -62,31 +88,43 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
             checked = next;
         }
         const float* p = positions + std::size_t{first[b]} * 3;
+        const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
         std::uint32_t left = end - first[b];
-        auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
-        if (end == count) { // the fourth lane of a load is the next position's x, which is not ours
-            alignas(16) const float last[4] = {p[3 * left - 3], p[3 * left - 2], p[3 * left - 1], 0};
-            lo = hi = hn::Load(d, last);
+        auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity), move_lo = lo, move_hi = hi;
+        if (end == count) {
             --left;
+            lo = hi = LoadLast(p + 3 * left);
+            if constexpr (kMoves) move_lo = move_hi = hn::Sub(lo, LoadLast(q + 3 * left));
         }
-        for (; left >= 4; left -= 4, p += 12) {
-            const auto p0 = hn::LoadU(d, p), p1 = hn::LoadU(d, p + 3);
-            const auto p2 = hn::LoadU(d, p + 6), p3 = hn::LoadU(d, p + 9);
-            lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
-            hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
-        }
-        for (; left; --left, p += 3) {
-            lo = hn::Min(lo, hn::LoadU(d, p));
-            hi = hn::Max(hi, hn::LoadU(d, p));
-        }
+        BoxOf(
+            left, [&](std::uint32_t i) HWY_ATTR { return hn::LoadU(d, p + 3 * i); }, lo, hi);
         hn::Store(lo, d, boxes[b].lo);
         hn::Store(hi, d, boxes[b].hi);
         all_lo = hn::Min(all_lo, lo);
         all_hi = hn::Max(all_hi, hi);
+        if constexpr (kMoves) {
+            const auto move = [&](std::uint32_t i) HWY_ATTR {
+                return hn::Sub(hn::LoadU(d, p + 3 * i), hn::LoadU(d, q + 3 * i));
+            };
+            BoxOf(left, move, move_lo, move_hi);
+            hn::Store(move_lo, d, moves[b].lo);
+            hn::Store(move_hi, d, moves[b].hi);
+        }
     }
     hn::Store(all_lo, d, all.lo);
     hn::Store(all_hi, d, all.hi);
     return finite;
+}
+
+bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
+                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
+    return Stream<false>(positions, nullptr, first, blocks, boxes, nullptr, all);
+}
+
+bool StreamMoves(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
+                 const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
+                 Box* HWY_RESTRICT moves, Box& all) {
+    return Stream<true>(positions, reference, first, blocks, boxes, moves, all);
 }
 
 // nearest_float() of doubles that are three to a position.
@@ -148,6 +186,12 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
 
 bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
     return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
+}
+
+bool stream_boxes(const float* positions, const float* reference, std::span<const std::uint32_t> first,
+                  Box* boxes, Box* moves, Box& all) {
+    return VOX_SIMD_DISPATCH(StreamMoves)(positions, reference, first.data(), first.size() - 1, boxes, moves,
+                                          all);
 }
 
 } // namespace vox::fast

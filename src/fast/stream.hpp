@@ -21,4 +21,9 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
 // nothing then.
 bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
 
+// The same, and the boxes around the displacements from `reference`, which are packed positions too, to
+// `moves`.
+bool stream_boxes(const float* positions, const float* reference, std::span<const std::uint32_t> first,
+                  Box* boxes, Box* moves, Box& all);
+
 } // namespace vox::fast

@@ -32,8 +32,8 @@ struct Surface {
 // The facets of a positive tet, counter-clockwise from outside.
 inline constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
-// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle, on:
-// a surface that is most of the body never pays.
+// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
+// on: a surface that is most of the body never pays.
 constexpr bool surface_pays(std::size_t triangles, std::size_t tets) noexcept {
     return tets >= 2000 && triangles * 8 <= tets;
 }

@@ -50,8 +50,19 @@ HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std
     hn::Store(hn::Max(hi0, hi1), d, box.hi);
 }
 
-// The tile's vertices as a structure of arrays, and their box.
-template <class Load>
+// Four positions as a structure of arrays.
+HWY_INLINE void StoreTransposed(hn::Vec<Four> p0, hn::Vec<Four> p1, hn::Vec<Four> p2, hn::Vec<Four> p3,
+                                float* x, float* y, float* z) {
+    const Four d;
+    const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
+    const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
+    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, x);
+    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, y);
+    hn::Store(hn::InterleaveLower(d, z02, z13), d, z);
+}
+
+// The tile's vertices as a structure of arrays; their box unless kBox is false.
+template <bool kBox, class Load>
 HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
                          Load load, TileVertices& s, Box& box) {
     const Four d;
@@ -59,34 +70,34 @@ HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, 
     for (std::uint32_t i = 0; i < padded; i += 4) {
         const auto p0 = load(positions, vertices[i]), p1 = load(positions, vertices[i + 1]);
         const auto p2 = load(positions, vertices[i + 2]), p3 = load(positions, vertices[i + 3]);
-        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
-        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
-        const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
-        const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
-        hn::Store(hn::InterleaveLower(d, xy02, xy13), d, s.x + i);
-        hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, s.y + i);
-        hn::Store(hn::InterleaveLower(d, z02, z13), d, s.z + i);
+        if constexpr (kBox) {
+            lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+            hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+        }
+        StoreTransposed(p0, p1, p2, p3, s.x + i, s.y + i, s.z + i);
     }
     for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
         hn::Store(hn::Set(d, s.x[0]), d, s.x + i);
         hn::Store(hn::Set(d, s.y[0]), d, s.y + i);
         hn::Store(hn::Set(d, s.z[0]), d, s.z + i);
     }
+    if constexpr (!kBox) return;
     hn::Store(lo, d, box.lo);
     hn::Store(hi, d, box.hi);
 }
 
+template <bool kBox = true>
 HWY_INLINE void LoadTile(const Tiles& tiles, const float* positions, const Tile& tile, TileVertices& s,
                          Box& box) {
     const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
     const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
     if (tile.holds_last_vertex)
-        LoadTile(positions, vertices, padded, LoadLastVertex, s, box);
+        LoadTile<kBox>(positions, vertices, padded, LoadLastVertex, s, box);
     else
-        LoadTile(positions, vertices, padded, LoadVertex, s, box);
+        LoadTile<kBox>(positions, vertices, padded, LoadVertex, s, box);
 }
 
-// A table of 64 floats, looked up by lane.
+// A table of 64 floats, looked up by lane: indices below 64.
 #if HWY_TARGET == HWY_AVX3
 struct Table {
     __m512 part[4];
@@ -100,12 +111,44 @@ struct Table {
         return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
     }
 };
+
+// A table of 48 floats.
+struct SmallTable {
+    __m512 part[3];
+    explicit SmallTable(const float* values) {
+        for (int i = 0; i < 3; ++i) part[i] = _mm512_load_ps(values + 16 * i);
+    }
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
+        const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
+        return hn::Vec<Floats>{_mm512_mask_permutexvar_ps(low, upper, index.raw, part[2])};
+    }
+};
+
+// As Table, of words.
+struct WordTable {
+    Table floats;
+    explicit WordTable(const std::uint32_t* values) : floats(reinterpret_cast<const float*>(values)) {}
+    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
+        return hn::BitCast(Words(), floats(index));
+    }
+};
 #else
 struct Table {
     const float* values;
     explicit Table(const float* from) : values(from) {}
     HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
         return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
+    }
+};
+
+using SmallTable = Table; // no faster if it is smaller
+
+struct WordTable {
+    const std::uint32_t* values;
+    explicit WordTable(const std::uint32_t* from) : values(from) {}
+    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
+        return hn::GatherIndex(Words(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
     }
 };
 #endif

@@ -6,6 +6,7 @@
 #include "../lists.hpp"
 #include "../scene.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -39,7 +40,9 @@ struct Tiles {
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
     std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
     std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
-    std::pmr::vector<std::uint64_t> own; // for each of `vertices`: the tile's tets that have it as a corner
+    // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
+    // self-collision.
+    std::pmr::vector<std::uint64_t> own;
     // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     std::pmr::vector<std::uint32_t> block_first;
@@ -49,6 +52,10 @@ struct Tiles {
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
+    std::uint32_t super_tile_of(std::uint32_t tile) const noexcept {
+        return static_cast<std::uint32_t>(std::upper_bound(super_first.begin(), super_first.end(), tile) -
+                                          super_first.begin() - 1);
+    }
 
 private:
     // Between the ends of a list; none before make_tiles().

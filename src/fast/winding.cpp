@@ -20,8 +20,10 @@
 
 #include "parallel.hpp"
 #include "predicates.hpp"
+#include "query.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -35,12 +37,13 @@
 #define VOX_FAST_WINDING_ONCE
 namespace vox::fast {
 
-// Triangles as a structure of arrays: coordinates of corner a, b, c.
+// Some triangles of a surface.
 struct TriangleBatch {
     static constexpr std::size_t size = 64;
-    alignas(64) float corner[3][3][size]; // [corner][axis]
-    alignas(64) float lo[3][size], hi[3][size];
-    alignas(64) std::uint32_t facing[size];
+    alignas(64) float corner[3][3][size];   // [corner][axis]
+    alignas(64) std::uint32_t facing[size]; // directions that their normals have a positive product with
+    // The cells that meet the box: one of them, and how many more there are along each axis.
+    alignas(64) std::uint32_t first[3][size], more[3][size];
 };
 
 } // namespace vox::fast
@@ -50,69 +53,51 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
-// does not find positive.
-void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
-            std::size_t first, std::size_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known,
-            std::uint64_t* HWY_RESTRICT bad) {
-    const Floats d;
-    const Words du;
-    const hn::Rebind<std::uint8_t, Floats> db;
-    TileVertices vertices;
-    for (std::size_t t = first; t < last; ++t) {
-        const Tile& tile = tiles.tiles.data()[t];
-        LoadTile(tiles, positions, tile, vertices, boxes[t]);
-        known[t] = 1;
-        const std::uint8_t* corners = tiles.corners.data() + t * 4 * tile_size;
-        const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
-        const FilterConstants constants = MakeConstants(boxes[t], rounded);
-        std::uint64_t not_positive = 0, not_negative = 0;
-        for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
-            const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
-            const auto ib = hn::PromoteTo(du, hn::LoadU(db, corners + tile_size + i));
-            const auto ic = hn::PromoteTo(du, hn::LoadU(db, corners + 2 * tile_size + i));
-            const auto id = hn::PromoteTo(du, hn::LoadU(db, corners + 3 * tile_size + i));
-            V e1[3], e2[3], e3[3], side[3], bound = hn::Set(d, 256 * 0x1p-24f);
-            for (int a = 0; a < 3; ++a) {
-                const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
-                e1[a] = hn::Sub(vb, va);
-                e2[a] = hn::Sub(vc, va);
-                e3[a] = hn::Sub(vd, va);
-                // The filter's box: here it is enough that no edge at the first corner is longer.
-                side[a] = hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a]));
-                bound = hn::Mul(bound, side[a]);
-            }
-            V n[3];
-            Cross(e2, e3, n);
-            const V volume = Dot(e1, n);
-            bound = hn::Add(bound, hn::Set(d, constants.underflow));
-            if (rounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::Not(hn::Gt(volume, bound)), bits);
-            not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
-            hn::StoreMaskBits(d, hn::Not(hn::Lt(volume, hn::Neg(bound))), bits);
-            not_negative |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+// Corners of `count` triangles; of so many that a register is full, the last one again and again.
+void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_vertex,
+                   const std::array<std::uint32_t, 3>* HWY_RESTRICT triangles, std::size_t count,
+                   TriangleBatch& batch) {
+    const auto load = [&](const std::uint32_t* triangle, std::size_t c) HWY_ATTR {
+        const std::uint32_t v = triangle[c];
+        return v == last_vertex ? LoadLastVertex(positions, v) : LoadVertex(positions, v);
+    };
+    const auto* corners = reinterpret_cast<const std::uint32_t*>(triangles);
+    const std::size_t last = 3 * (count - 1);
+    for (std::size_t i = 0; i < (count + 15) / 16 * 16; i += 4) {
+        const std::uint32_t* four[4];
+        for (std::size_t j = 0; j < 4; ++j) four[j] = corners + (3 * (i + j) < last ? 3 * (i + j) : last);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto p0 = load(four[0], c), p1 = load(four[1], c);
+            const auto p2 = load(four[2], c), p3 = load(four[3], c);
+            StoreTransposed(p0, p1, p2, p3, batch.corner[c][0] + i, batch.corner[c][1] + i,
+                            batch.corner[c][2] + i);
         }
-        const std::uint64_t mirrored = surface.mirrored.data()[t];
-        bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & ~surface.ignored.data()[t] &
-                 tile.all_tets();
     }
 }
 
 // The directions that the normals of triangles surely have a positive product with. The components of a
 // normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
 // them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
-// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the boxes.
-void Facing(TriangleBatch& batch, std::size_t count, float e_of_rounding) {
+// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the cells that
+// meet the boxes.
+void Facing(TriangleBatch& batch, std::size_t count, const Lattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
+    const hn::RebindToSigned<Floats> di;
+    const V inverse = hn::Set(d, lattice.inverse);
+    const auto cell = [&](V c, int axis) HWY_ATTR { // as Lattice::cell()
+        const V t = hn::Mul(hn::Sub(c, hn::Set(d, lattice.origin[axis])), inverse);
+        return hn::BitCast(
+            du, hn::ConvertTo(di, hn::Min(hn::Max(t, hn::Zero(d)), hn::Set(d, lattice.last[axis]))));
+    };
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         V e[2][3], longest = hn::Zero(d);
         for (int axis = 0; axis < 3; ++axis) {
             const V a = hn::Load(d, batch.corner[0][axis] + i), b = hn::Load(d, batch.corner[1][axis] + i);
             const V c = hn::Load(d, batch.corner[2][axis] + i);
-            hn::Store(hn::Min(a, hn::Min(b, c)), d, batch.lo[axis] + i);
-            hn::Store(hn::Max(a, hn::Max(b, c)), d, batch.hi[axis] + i);
+            const auto first = cell(hn::Min(a, hn::Min(b, c)), axis);
+            hn::Store(first, du, batch.first[axis] + i);
+            hn::Store(hn::Sub(cell(hn::Max(a, hn::Max(b, c)), axis), first), du, batch.more[axis] + i);
             e[0][axis] = hn::Sub(b, a);
             e[1][axis] = hn::Sub(c, a);
             longest = hn::Max(longest, hn::Max(hn::Abs(e[0][axis]), hn::Abs(e[1][axis])));
@@ -177,8 +162,15 @@ public:
         : body_(body), out_(out), exact_tests_(exact_tests) {}
 
     bool run() {
-        const std::size_t most_cells =
-            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64;
+        const bool certified = certify();
+        if (!oriented_) body_.turning.is_known = false; // no use for it
+        return certified;
+    }
+
+private:
+    bool certify() {
+        const std::size_t most_cells = std::min<std::size_t>(
+            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64, 1u << 31);
         Box around = body_.box;
         for (int a = 0; a < 3; ++a) {
             around.lo[a] -= static_cast<float>(1.5 * body_.cell_size);
@@ -199,168 +191,194 @@ public:
         judge(false);
         if (!worthwhile()) return false;
         out_.bad.resize(body_.tiles.tiles.size());
-        orient();
+        oriented_ = true;
+        orient_tets();
         bool any_bad = false;
         if (!mark_bad_tets(any_bad)) return false;
         bool as_assumed = !any_bad;
-        for (std::size_t i = 0; i < components_ && as_assumed; ++i)
-            as_assumed = covered_at_most_once(component_[i]);
-        if (!as_assumed || components_ == most_components) {
-            for (std::uint32_t& set : out_.directions)
-                if (set == seen) set = untouched;
+        for (std::size_t i = 1; i < known_ && as_assumed; ++i)
+            as_assumed = covered_at_most_once(first_cell_[i]);
+        if (!as_assumed) {
             if (out_.directions[0] != untouched) return false;
             judge(true);
         }
-        find_range();
+        find_with_next();
         return true;
     }
 
-private:
     Vec3d exact(std::uint32_t v) const {
         if (body_.rounded) return body_.exact.exact(v);
         const float* p = body_.positions + std::size_t{v} * 3;
         return {double{p[0]}, double{p[1]}, double{p[2]}};
     }
 
-    void orient() {
-        const auto part = [&, function = VOX_SIMD_DISPATCH(Orient)](std::size_t first, std::size_t last,
-                                                                    std::uint32_t) {
-            function(body_.tiles, body_.surface, body_.positions, body_.rounded, first, last,
-                     body_.tile_boxes, body_.tile_known, out_.bad.data());
-        };
-        if (body_.workers)
-            body_.workers->for_ranges(body_.tiles.tiles.size(), 256, part);
-        else
-            part(0, body_.tiles.tiles.size(), 0);
+    using Vertices = std::array<std::uint32_t, 4>;
+    Vertices corners_of(std::size_t tile, std::uint32_t tet) const {
+        const Tiles& tiles = body_.tiles;
+        Vertices corners;
+        for (std::size_t c = 0; c < 4; ++c)
+            corners[c] = tiles.vertices[tiles.tiles[tile].first_vertex +
+                                        tiles.corners[(tile * 4 + c) * tile_size + tet]];
+        return corners;
     }
 
-    // Keeps of the set of each cell that meets `box` only `set`; false when that becomes too much work.
-    bool mark(const Box& box, std::uint32_t set) {
-        const Lattice& l = out_.lattice;
-        std::uint32_t lo[3], hi[3];
-        std::size_t work = 1;
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = l.cell(box.lo[a], a);
-            hi[a] = l.cell(box.hi[a], a);
-            work *= hi[a] - lo[a] + 1;
+    // Looks at the tets that may have turned over.
+    void orient_tets() {
+        const Tiles& tiles = body_.tiles;
+        Turning& turning = body_.turning;
+        const std::uint32_t supers = tiles.super_tile_count();
+        const auto upright = static_cast<std::uint32_t>(
+            std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
+        measure_ = wants_reference(turning, supers - upright, supers);
+        if (measure_) {
+            const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
+            turning.is_known = false;
+            turning.reference.assign(body_.positions, body_.positions + coordinates);
+            turning.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
+            turning.slack.resize(supers);
         }
+        const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
+        const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t s = begin; s < end; ++s) {
+                const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+                if (measure_)
+                    turning.slack[s] =
+                        orient_and_measure(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                                           body_.tile_boxes, body_.tile_known, out_.bad.data()) -
+                        rounding;
+                else if (!body_.super_upright[s])
+                    orient(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                           body_.tile_boxes, body_.tile_known, out_.bad.data());
+            }
+        };
+        if (body_.workers)
+            body_.workers->for_ranges(supers, 16, part);
+        else
+            part(0, supers, 0);
+        if (measure_) turning.is_known = true;
+    }
+
+    // Keeps of the sets of some cells only `set`; false when that becomes too much work.
+    bool mark(const std::uint32_t (&first)[3], const std::uint32_t (&more)[3], std::uint32_t set) {
+        std::uint32_t* sets =
+            out_.directions.data() + std::size_t{first[2]} * nxy_ + std::size_t{first[1]} * nx_ + first[0];
+        if ((more[0] | more[1] | more[2]) <= 1) { // the same cell once more costs less than a branch
+            const std::size_t x = more[0], y = std::size_t{more[1]} * nx_, z = std::size_t{more[2]} * nxy_;
+            for (const std::size_t c : {std::size_t{0}, x, y, x + y, z, x + z, y + z, x + y + z})
+                sets[c] &= set;
+            return true;
+        }
+        const std::size_t work = (std::size_t{more[0]} + 1) * (more[1] + 1) * (more[2] + 1);
         if (work > work_left_) return false;
         work_left_ -= work;
-        std::uint32_t* sets = out_.directions.data();
-        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
-            for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
-                for (std::size_t c = std::size_t{z} * nxy_ + std::size_t{y} * nx_ + lo[0],
-                                 end = c + (hi[0] - lo[0]);
-                     c <= end; ++c)
-                    sets[c] &= set;
+        for (std::size_t z = 0; z <= more[2]; ++z)
+            for (std::size_t y = 0; y <= more[1]; ++y)
+                for (std::size_t x = 0; x <= more[0]; ++x) sets[z * nxy_ + y * nx_ + x] &= set;
         return true;
     }
 
+    // Nothing is safe where the box is.
+    bool mark_unsafe(const Box& box) {
+        const Lattice& l = out_.lattice;
+        std::uint32_t first[3], more[3];
+        for (int a = 0; a < 3; ++a) {
+            first[a] = l.cell(box.lo[a], a);
+            more[a] = l.cell(box.hi[a], a) - first[a];
+        }
+        return mark(first, more, 0);
+    }
+
     bool mark_surface() {
+        const auto load = VOX_SIMD_DISPATCH(LoadTriangles);
         const auto facing = VOX_SIMD_DISPATCH(Facing);
         float e_of_rounding = 0; // 2 u M and a little more, M the largest magnitude; see query.cpp
         for (int a = 0; a < 3 && body_.rounded; ++a)
             e_of_rounding = std::max({e_of_rounding, -body_.box.lo[a] * (1.125f * 0x1p-23f),
                                       body_.box.hi[a] * (1.125f * 0x1p-23f)});
         const std::span<const std::array<std::uint32_t, 3>> triangles = body_.surface.triangles;
-        TriangleBatch batch{};
+        TriangleBatch batch;
         for (std::size_t first = 0; first < triangles.size(); first += TriangleBatch::size) {
             const std::size_t count = std::min(TriangleBatch::size, triangles.size() - first);
+            load(body_.positions, body_.vertex_count - 1, triangles.data() + first, count, batch);
+            facing(batch, count, out_.lattice, e_of_rounding);
             for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const float* p = body_.positions + std::size_t{triangles[first + i][c]} * 3;
-                    for (std::size_t axis = 0; axis < 3; ++axis) batch.corner[c][axis][i] = p[axis];
-                }
-            facing(batch, count, e_of_rounding);
-            for (std::size_t i = 0; i < count; ++i) {
-                const Box box{{batch.lo[0][i], batch.lo[1][i], batch.lo[2][i], 0},
-                              {batch.hi[0][i], batch.hi[1][i], batch.hi[2][i], 0}};
-                if (!mark(box, batch.facing[i])) return false;
-            }
+                if (!mark({batch.first[0][i], batch.first[1][i], batch.first[2][i]},
+                          {batch.more[0][i], batch.more[1][i], batch.more[2][i]}, batch.facing[i]))
+                    return false;
         }
         return true;
     }
 
+    // The untouched cells: those outside are safe; the others too, or, if they are to be counted, by the
+    // winding number at one point of each component. Then the touched ones.
     void judge(bool count) {
+        const Components& components = find_components();
+        bool safe[most_components + 1];
+        for (std::size_t i = 0; i <= most_components; ++i)
+            safe[i] = i == 0 || (i < known_ && (!count || covered_at_most_once(first_cell_[i])));
         out_.certified.assign(cells_, 0);
-        spread(0, true);
-        judge_components(count);
+        for (const Components::Run& run : components.runs)
+            std::fill(out_.certified.begin() + run.first, out_.certified.begin() + run.end,
+                      std::uint8_t{safe[std::min<std::size_t>(run.component, most_components)]});
         judge_touched();
+    }
+
+    // The first of them is outside. Each of the others may have to be looked at among all tets: no more than
+    // a few count.
+    const Components& find_components() {
+        Components& components = out_.components;
+        components.find(out_.directions.data(), untouched, out_.lattice.cells);
+        known_ = std::min<std::size_t>(components.count, most_components);
+        inside_ = 0;
+        std::size_t found = 0;
+        for (const Components::Run& run : components.runs) {
+            if (run.component == found && found < known_) first_cell_[found++] = run.first;
+            if (run.component > 0 && run.component < known_) inside_ += run.end - run.first;
+        }
+        return components;
     }
 
     // A thin body has surface everywhere, facing both ways; so has one that lies on itself.
     bool worthwhile() const {
-        std::size_t inside = 0;
-        for (const std::uint32_t set : out_.directions) inside += set < seen;
-        for (std::size_t i = 0; i < components_; ++i) inside += component_size_[i];
+        std::size_t inside = inside_;
+        for (const std::uint32_t set : out_.directions) inside += set != untouched;
         return out_.touched.size() * 6 < inside;
     }
 
     bool mark_bad_tets(bool& any) {
+        const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
-        for (std::size_t t = 0; t < out_.bad.size(); ++t) {
-            const Tile& tile = body_.tiles.tiles[t];
-            for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
-                const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
-                Box box = empty_box;
-                Vec3d q[4];
-                for (std::uint32_t c = 0; c < 4; ++c) {
-                    const std::uint32_t v =
-                        body_.tiles
-                            .vertices[tile.first_vertex + body_.tiles.corners[(t * 4 + c) * tile_size + i]];
-                    const float* p = body_.positions + std::size_t{v} * 3;
-                    add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
-                    q[c] = exact(v);
+        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
+            if (!measure_ && body_.super_upright[s]) continue; // there are none
+            for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
+                for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
+                    const Vertices corners =
+                        corners_of(t, static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left)));
+                    int sign = orientation(exact(corners[0]), exact(corners[1]), exact(corners[2]),
+                                           exact(corners[3]), exact_tests_);
+                    if (body_.surface.mirrored[t] & (left & (~left + 1))) sign = -sign;
+                    if (sign > 0) continue;
+                    any = true;
+                    Box box = empty_box;
+                    for (const std::uint32_t v : corners) {
+                        const float* p = body_.positions + std::size_t{v} * 3;
+                        add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
+                    }
+                    if (++bad > tiles.tets.size() / 16 || !mark_unsafe(box)) return false;
                 }
-                int sign = orientation(q[0], q[1], q[2], q[3], exact_tests_);
-                if (body_.surface.mirrored[t] >> i & 1) sign = -sign;
-                if (sign > 0) continue;
-                any = true;
-                if (++bad > body_.tiles.tets.size() / 16 || !mark(box, 0)) return false;
-            }
         }
         return true;
     }
 
-    // From an untouched cell to all that can be reached through untouched ones; safe ones are certified.
-    // Returns how many.
-    std::size_t spread(std::size_t from, bool safe) {
-        std::pmr::vector<std::uint32_t>& queue = out_.queue;
-        const auto visit = [&](std::size_t c) {
-            if (out_.directions[c] != untouched) return;
-            out_.directions[c] = seen;
-            out_.certified[c] = safe;
-            queue.push_back(static_cast<std::uint32_t>(c));
-        };
-        std::size_t size = 0;
-        queue.clear();
-        visit(from);
-        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1], nz = out_.lattice.cells[2];
-        while (!queue.empty()) {
-            const std::uint32_t c = queue.back();
-            queue.pop_back();
-            ++size;
-            const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
-            if (x > 0) visit(c - 1);
-            if (x + 1 < nx) visit(c + 1);
-            if (y > 0) visit(c - nx);
-            if (y + 1 < ny) visit(c + nx);
-            if (z > 0) visit(c - nxy_);
-            if (z + 1 < nz) visit(c + nxy_);
+    int count_holding(std::uint32_t tile, const Vec3d& at) {
+        int holding = 0;
+        for (std::uint32_t i = 0; i < body_.tiles.tiles[tile].tet_count; ++i) {
+            const Vertices corners = corners_of(tile, i);
+            const Containment where = locate(at, exact(corners[0]), exact(corners[1]), exact(corners[2]),
+                                             exact(corners[3]), exact_tests_);
+            holding += where == Containment::interior || where == Containment::boundary;
         }
-        return size;
-    }
-
-    // The untouched cells that are not outside: all safe, or by the winding number at one point of each
-    // component.
-    void judge_components(bool count) {
-        components_ = 0; // each count looks at all tiles: no more than a few
-        for (std::size_t c = 0; c < cells_ && components_ < most_components; ++c) {
-            if (out_.directions[c] != untouched) continue;
-            const std::size_t size = spread(c, !count || covered_at_most_once(c));
-            component_[components_] = c;
-            component_size_[components_++] = size;
-        }
+        return holding;
     }
 
     bool covered_at_most_once(std::size_t cell) {
@@ -380,18 +398,14 @@ private:
             l.cell(static_cast<float>(at.z - body_.origin.z), 2) != index[2])
             return false;
         const Box point_box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+        const Tiles& tiles = body_.tiles;
         int covering = 0;
-        for (std::size_t t = 0; t < body_.tiles.tiles.size() && covering < 2; ++t) {
-            if (!overlap(body_.tile_boxes[t], point_box)) continue;
-            const Tile& tile = body_.tiles.tiles[t];
-            for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-                Vec3d q[4];
-                for (std::uint32_t c = 0; c < 4; ++c)
-                    q[c] = exact(body_.tiles.vertices[tile.first_vertex +
-                                                      body_.tiles.corners[(t * 4 + c) * tile_size + i]]);
-                const Containment where = locate(at, q[0], q[1], q[2], q[3], exact_tests_);
-                covering += where == Containment::interior || where == Containment::boundary;
-            }
+        for (std::uint32_t s = 0; s < tiles.super_tile_count() && covering < 2; ++s) {
+            if (!overlap(body_.super_boxes[s], point_box)) continue;
+            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+            tile_boxes(tiles, body_.positions, first, last, body_.tile_boxes, body_.tile_known);
+            for (std::uint32_t t = first; t < last; ++t)
+                if (overlap(body_.tile_boxes[t], point_box)) covering += count_holding(t, at);
         }
         return covering <= 1;
     }
@@ -424,7 +438,7 @@ private:
             for (const std::uint32_t c : touched) {
                 const std::uint32_t set = out_.directions[c];
                 bool now_safe = false;
-                if (set != 0 && set < seen) {
+                if (set != 0 && set != untouched) {
                     const std::uint32_t x = c % nx, y = c / nx % ny, z = c / nxy_;
                     std::uint32_t n = 0;
                     n |= std::uint32_t{x > 0 && safe[c - 1]} << 0 | std::uint32_t{x + 1 < nx && safe[c + 1]}
@@ -446,24 +460,15 @@ private:
         }
     }
 
-    void find_range() {
-        const std::uint32_t nx = nx_, ny = out_.lattice.cells[1];
-        const std::pmr::vector<std::uint32_t>& touched = out_.touched;
-        out_.complete = touched.empty();
-        for (int a = 0; a < 3; ++a) {
-            out_.first[a] = ~0u;
-            out_.last[a] = 0;
-        }
-        for (const std::uint32_t c : touched) {
-            const std::uint32_t index[3] = {c % nx, c / nx % ny, c / nxy_};
-            for (int a = 0; a < 3; ++a) {
-                out_.first[a] = std::min(out_.first[a], index[a]);
-                out_.last[a] = std::max(out_.last[a], index[a]);
-            }
-        }
+    // At the far end of a row the next cell is the first of another row: one more that has to be certified.
+    void find_with_next() {
+        out_.complete = out_.touched.empty();
+        std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
+        with_next = out_.certified;
+        for (const std::size_t step : {std::size_t{1}, std::size_t{nx_}, std::size_t{nxy_}})
+            for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
-    static constexpr std::uint32_t seen = 0x40000000u; // untouched, and its component is known
     static constexpr std::size_t most_components = 64;
 
     const WindingBody& body_;
@@ -471,9 +476,9 @@ private:
     std::uint64_t& exact_tests_;
     std::uint32_t nx_ = 0, nxy_ = 0;
     std::size_t cells_ = 0, work_left_ = 0;
-    std::size_t components_ = 0;
-    std::size_t component_[most_components],
-        component_size_[most_components]; // a cell, and how many there are
+    bool oriented_ = false, measure_ = false;
+    std::size_t known_ = 0, inside_ = 0; // components; untouched cells that are not outside
+    std::size_t first_cell_[most_components];
 };
 
 } // namespace

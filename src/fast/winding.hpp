@@ -2,7 +2,9 @@
 // body that does not touch itself: none, and next to nothing but its surface was looked at to know.
 #pragma once
 
+#include "components.hpp"
 #include "surface.hpp"
+#include "turning.hpp"
 #include "window.hpp"
 
 #include <cstdint>
@@ -19,32 +21,40 @@ namespace vox::fast {
 // Cells of a lattice around a body, and in which of them a point is covered by at most one tet.
 struct Certificate {
     explicit Certificate(std::pmr::memory_resource* memory)
-        : directions(memory), queue(memory), touched(memory), bad(memory), certified(memory) {}
+        : directions(memory), touched(memory), bad(memory), components(memory), certified(memory),
+          with_next(memory) {}
 
     // Buffers.
-    std::pmr::vector<std::uint32_t> directions, queue, touched;
+    std::pmr::vector<std::uint32_t> directions, touched;
     std::pmr::vector<std::uint64_t> bad;
+    Components components;
 
     Lattice lattice;
-    std::pmr::vector<std::uint8_t> certified;  // per cell
-    std::uint32_t first[3] = {}, last[3] = {}; // range of the cells that are not
-    bool complete = false;                     // there are none
+    std::pmr::vector<std::uint8_t> certified; // per cell
+    std::pmr::vector<std::uint8_t> with_next; // it and those that are next to it, up along any axes
+    bool complete = false;                    // all are
 
-    // All cells from `lo` to `hi`, as far as a look at them is cheap, are certified.
-    bool holds(const std::uint32_t* lo, const std::uint32_t* hi) const noexcept {
+    // All cells that meet `box`, as far as a look at them is cheap, are certified.
+    bool holds(const Box& box) const noexcept {
+        const Cell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
+        std::uint64_t cells = 1;
+        bool is_small = true;
+        for (int a = 0; a < 3; ++a) {
+            cells *= hi.index[a] - lo.index[a] + 1;
+            is_small &= hi.index[a] - lo.index[a] <= 1;
+        }
+        if (is_small && with_next[lattice.offset(lo)]) return true;
         constexpr std::uint32_t few = 16;
-        if (std::uint64_t{hi[0] - lo[0] + 1} * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1) > few) return false;
-        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
-            for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
-                for (std::uint32_t x = lo[0]; x <= hi[0]; ++x)
-                    if (!certified[(std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0] + x])
-                        return false;
+        if (cells > few) return false;
+        for (Cell c = lo; c.index[2] <= hi.index[2]; ++c.index[2])
+            for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
+                for (c.index[0] = lo.index[0]; c.index[0] <= hi.index[0]; ++c.index[0])
+                    if (!certified[lattice.offset(c)]) return false;
         return true;
     }
     bool holds(const float* p) const noexcept {
-        return certified[(std::size_t{lattice.cell(p[2], 2)} * lattice.cells[1] + lattice.cell(p[1], 1)) *
-                             lattice.cells[0] +
-                         lattice.cell(p[0], 0)] != 0;
+        const Cell c{{lattice.cell(p[0], 0), lattice.cell(p[1], 1), lattice.cell(p[2], 2), 0}};
+        return certified[lattice.offset(c)] != 0;
     }
 };
 
@@ -52,11 +62,15 @@ struct WindingBody {
     const Tiles& tiles;
     const Surface& surface;
     const float* positions; // packed
+    std::uint32_t vertex_count;
     Box box;
-    double cell_size; // of the lattice
-    Box* tile_boxes;  // all known afterwards, unless certify() returned false
+    double cell_size;                  // of the lattice
+    const Box* super_boxes;            // boxes that hold the super-tiles
+    const std::uint8_t* super_upright; // super-tiles whose tets are known to be positive
+    Box* tile_boxes;                   // those that were looked at are known afterwards
     std::uint8_t* tile_known;
-    Workers* workers; // not null: share the pass over all tiles, as one task
+    Turning& turning; // renewed where that pays
+    Workers* workers; // not null: share the pass over the tiles, as one task
     // The packed positions are those in `exact` less `origin`, rounded to floats.
     bool rounded = false;
     Vec3d origin{};

@@ -346,6 +346,27 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
     return window;
 }
 
+bool holds_point(const Window& window, const Box& box) noexcept {
+    const Lattice& lattice = window.lattice;
+    const Points& points = window.bins->points;
+    const std::uint32_t* begin = window.bins->begin.data() + window.first_cell;
+    const float* x = points.x.data() + window.first_point;
+    const float* y = points.y.data() + window.first_point;
+    const float* z = points.z.data() + window.first_point;
+    const Cell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
+    Cell c = lo;
+    for (c.index[2] = lo.index[2]; c.index[2] <= hi.index[2]; ++c.index[2])
+        for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1]) {
+            const std::size_t row = lattice.offset(c);
+            const std::uint32_t end = begin[row + hi.index[0] - lo.index[0] + 1];
+            for (std::uint32_t i = begin[row]; i < end; ++i)
+                if ((x[i] >= box.lo[0]) & (x[i] <= box.hi[0]) & (y[i] >= box.lo[1]) & (y[i] <= box.hi[1]) &
+                    (z[i] >= box.lo[2]) & (z[i] <= box.hi[2]))
+                    return true;
+        }
+    return false;
+}
+
 std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
                        Bins& bins) {
     const auto root = static_cast<std::uint32_t>(bins.windows.size());

@@ -26,13 +26,17 @@ struct Points {
     void reserve(std::size_t most); // keeps what is there
 };
 
+struct alignas(16) Cell {
+    std::uint32_t index[4]; // along x, y, z; [3] means nothing
+};
+
 // Where a coordinate falls: trunc((c - origin) * inverse), clamped to [0, last]. Monotone in c also as
 // rounded, so the cells from that of a box's low corner to that of its high corner hold every point of the
 // box, wherever the lattice lies; points outside count to the nearest border cell.
 struct Lattice {
-    float origin[3] = {0, 0, 0};
+    alignas(16) float origin[4] = {0, 0, 0, 0}; // [3] mean nothing here, nor in `last`
+    alignas(16) float last[4] = {0, 0, 0, 0};
     float inverse = 1; // of the cell size; > 0, finite
-    float last[3] = {0, 0, 0};
     std::uint32_t cells[3] = {1, 1, 1};
 
     std::uint32_t cell(float c, int axis) const noexcept {
@@ -40,6 +44,21 @@ struct Lattice {
         t = t > 0 ? t : 0;
         t = t < last[axis] ? t : last[axis];
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(t));
+    }
+    // The cells of all axes, from a corner of a box.
+    Cell cell(const float (&corner)[4]) const noexcept {
+        Cell c;
+#if defined(__SSE2__)
+        __m128 t = _mm_mul_ps(_mm_sub_ps(_mm_load_ps(corner), _mm_load_ps(origin)), _mm_set1_ps(inverse));
+        t = _mm_min_ps(_mm_max_ps(t, _mm_setzero_ps()), _mm_load_ps(last));
+        _mm_store_si128(reinterpret_cast<__m128i*>(c.index), _mm_cvttps_epi32(t));
+#else
+        for (int a = 0; a < 3; ++a) c.index[a] = cell(corner[a], a);
+#endif
+        return c;
+    }
+    std::size_t offset(const Cell& c) const noexcept {
+        return (std::size_t{c.index[2]} * cells[1] + c.index[1]) * cells[0] + c.index[0];
     }
     std::size_t count() const noexcept { return std::size_t{cells[0]} * cells[1] * cells[2]; }
 };
@@ -98,6 +117,9 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
 // those would be too many; a single window unless its cells were crowded. The order of `points` is lost.
 // Returns the root.
 std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
+
+// Whether there is a point in `box`.
+bool holds_point(const Window& window, const Box& box) noexcept;
 
 // Calls function(window) for each window with points of the tree at `root` whose box meets `box`.
 template <class Function>

@@ -19,7 +19,7 @@ namespace {
 struct Engine {
     CountingMemory memory{std::size_t(1) << 26};
     Reference reference{&memory};
-    std::pmr::vector<Hit> hits{&memory}, scratch{&memory};
+    std::pmr::vector<Hit> hits{&memory};
     std::pmr::vector<vox_contact> contacts{&memory};
     vox_counters counters{};
     vox_profile profile{};
@@ -30,7 +30,7 @@ struct Engine {
     }
     void step(const Scene& scene, const ReferenceSettings& settings) {
         detect(scene, settings);
-        make_contacts(bodies(scene), hits, scratch, contacts);
+        make_contacts(bodies(scene), hits, contacts);
     }
 };
 
@@ -152,8 +152,11 @@ START_TEST(random_soups) {
     std::size_t contacts = 0;
     for (int i = 0; i < 60; ++i) {
         for (float (*coordinate)(Random&) : {unit_range, quantised, any_bits, far_quantised}) {
-            Scene scene{soup(random, 4 + random.below(30), random.below(60), coordinate),
-                        soup(random, 4 + random.below(30), random.below(60), coordinate)};
+            Scene scene;
+            for (int mesh = 0; mesh < 2; ++mesh) {
+                const std::uint32_t vertices = 4 + random.below(30), tets = random.below(60);
+                scene.push_back(soup(random, vertices, tets, coordinate));
+            }
             if (random.below(2))
                 scene.push_back(soup(random, 1 + random.below(9), 0, coordinate)); // points only
             for (Mesh& mesh : scene) mesh.self_collision = random.below(2);

@@ -20,6 +20,52 @@ fast::Surface surface_of(const Mesh& mesh, const fast::Tiles& tiles) {
 
 fast::Surface surface_of(const Mesh& mesh) { return surface_of(mesh, tiles_of(mesh)); }
 
+// ---- components -----------------------------------------------------------------------------------
+
+// Against a flood from each cell that has no number yet.
+START_TEST(components_are_what_is_connected) {
+    Random r{5};
+    fast::Components components(std::pmr::get_default_resource());
+    for (int round = 0; round < 400; ++round) {
+        const std::uint32_t cells[3] = {1 + r.below(9), 1 + r.below(9), 1 + r.below(9)};
+        const std::uint32_t nx = cells[0], ny = cells[1], count = nx * ny * cells[2];
+        const std::uint32_t share = r.below(101); // per cent of cells that are wanted
+        std::vector<std::uint32_t> values(count);
+        for (std::uint32_t& value : values) value = r.below(100) < share ? 7 : r.below(7);
+        constexpr std::uint32_t none = ~0u;
+        std::vector<std::uint32_t> expected(count, none);
+        std::uint32_t expected_count = 0;
+        for (std::uint32_t from = 0; from < count; ++from) {
+            if (values[from] != 7 || expected[from] != none) continue;
+            std::vector<std::uint32_t> stack{from};
+            expected[from] = expected_count;
+            while (!stack.empty()) {
+                const std::uint32_t c = stack.back(), x = c % nx, y = c / nx % ny, z = c / nx / ny;
+                stack.pop_back();
+                const auto visit = [&](bool is_there, std::uint32_t next) {
+                    if (!is_there || values[next] != 7 || expected[next] != none) return;
+                    expected[next] = expected_count;
+                    stack.push_back(next);
+                };
+                visit(x > 0, c - 1);
+                visit(x + 1 < nx, c + 1);
+                visit(y > 0, c - nx);
+                visit(y + 1 < ny, c + nx);
+                visit(z > 0, c - nx * ny);
+                visit(z + 1 < cells[2], c + nx * ny);
+            }
+            ++expected_count;
+        }
+        components.find(values.data(), 7, cells);
+        ck_assert_uint_eq(components.count, expected_count);
+        std::vector<std::uint32_t> found(count, none);
+        for (const fast::Components::Run& run : components.runs)
+            for (std::uint32_t c = run.first; c < run.end; ++c) found[c] = run.component;
+        ck_assert(found == expected);
+    }
+}
+END_TEST
+
 // ---- surface --------------------------------------------------------------------------------------
 
 using Facet = std::array<std::uint32_t, 3>;
@@ -123,7 +169,10 @@ START_TEST(surface_of_good_meshes) {
         check_surface(mesh, "a block", true);
         jitter(mesh, 0.1, r);
         for (Tet& tet : mesh.tets)
-            if (r.below(2)) std::swap(tet.v[r.below(2)], tet.v[2 + r.below(2)]);
+            if (r.below(2)) {
+                const std::uint32_t one = r.below(2), other = 2 + r.below(2);
+                std::swap(tet.v[one], tet.v[other]);
+            }
         renumber(mesh, r);
         check_surface(mesh, "a block of both windings", true);
         for (int i = 0; i < 7; ++i) mesh.positions.push_back({1, 1, 1});
@@ -163,7 +212,8 @@ START_TEST(surface_of_bad_meshes) {
         check_surface(flat, "a tet with a corner named twice", true);
     }
     for (int round = 0; round < 300; ++round) { // whatever comes
-        const Mesh mesh = soup(r, 5 + r.below(12), 1 + r.below(12), 2, false);
+        const std::uint32_t vertices = 5 + r.below(12), tets = 1 + r.below(12);
+        const Mesh mesh = soup(r, vertices, tets, 2, false);
         bool closed = true;
         std::map<std::set<std::uint32_t>, std::vector<int>> sides;
         for (const Tet& tet : mesh.tets)
@@ -189,6 +239,15 @@ struct Checked {
 
 // No vertex in a certified cell is in a tet that does not own it. `prepared` is the mesh as it was when its
 // tiles and surface were made.
+std::vector<Box> super_boxes_of(const Mesh& mesh, const fast::Tiles& tiles) {
+    std::vector<Box> boxes(tiles.super_tile_count(), fast::empty_box);
+    for (std::uint32_t s = 0; s < boxes.size(); ++s)
+        for (const std::uint32_t b : tiles.blocks[s])
+            for (std::uint32_t v = tiles.block_first[b]; v < tiles.block_first[b + 1]; ++v)
+                fast::add(boxes[s], box_around(mesh.positions[v]));
+    return boxes;
+}
+
 Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_size, const char* name) {
     const fast::Tiles tiles = tiles_of(prepared);
     const fast::Surface surface = surface_of(prepared, tiles);
@@ -216,9 +275,13 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
         std::vector<Box> boxes(tiles.tiles.size());
         std::vector<std::uint8_t> known(tiles.tiles.size());
         fast::Certificate certificate(std::pmr::get_default_resource());
+        fast::Turning turning(std::pmr::get_default_resource());
         std::uint64_t exact_tests = 0;
-        const fast::WindingBody body{tiles,     surface,      packed(mesh), box_of(mesh),
-                                     cell_size, boxes.data(), known.data(), nullptr};
+        const std::vector<Box> supers = super_boxes_of(mesh, tiles);
+        const std::vector<std::uint8_t> upright(supers.size());
+        const fast::WindingBody body{tiles,        surface,      packed(mesh),  vertex_count(mesh),
+                                     box_of(mesh), cell_size,    supers.data(), upright.data(),
+                                     boxes.data(), known.data(), turning,       nullptr};
         checked.certified = fast::certify(body, certificate, exact_tests);
         if (!checked.certified) return;
         const std::vector<std::uint8_t> cells(certificate.certified.begin(), certificate.certified.end());
@@ -234,14 +297,21 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
                           level, v);
             ck_assert_msg(held || !certificate.complete, "%s: a complete certificate without vertex %u", name,
                           v);
-            if (held) continue;
-            for (int a = 0; a < 3; ++a) { // the range holds all cells that are not certified
-                const std::uint32_t cell = certificate.lattice.cell((&mesh.positions[v].x)[a], a);
-                ck_assert_uint_ge(cell, certificate.first[a]);
-                ck_assert_uint_le(cell, certificate.last[a]);
-            }
+            ck_assert_msg(held || !certificate.holds(box_around(mesh.positions[v])),
+                          "%s: the box of vertex %u is certified, the vertex is not", name, v);
         }
-        for (std::size_t t = 0; t < tiles.tiles.size(); ++t) ck_assert_int_eq(known[t], 1);
+        for (const Box& box : supers) { // as its cells one by one
+            const fast::Cell lo = certificate.lattice.cell(box.lo), hi = certificate.lattice.cell(box.hi);
+            bool all = true;
+            fast::Cell c = lo;
+            for (c.index[2] = lo.index[2]; c.index[2] <= hi.index[2]; ++c.index[2])
+                for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
+                    for (c.index[0] = lo.index[0]; c.index[0] <= hi.index[0]; ++c.index[0])
+                        all = all && certificate.certified[certificate.lattice.offset(c)];
+            ck_assert_msg(all || !certificate.holds(box), "%s: a box of uncertified cells is certified",
+                          name);
+        }
+        ck_assert(turning.is_known);
     });
     return checked;
 }
@@ -332,6 +402,7 @@ int main() {
     Suite* suite = suite_create("winding");
     TCase* tests = tcase_create("winding");
     tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, components_are_what_is_connected);
     tcase_add_test(tests, surface_of_good_meshes);
     tcase_add_test(tests, surface_of_bad_meshes);
     tcase_add_test(tests, certificate_of_compact_bodies);

@@ -1,0 +1,209 @@
+#include "turning.hpp"
+#include "../simd.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/turning.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "tile-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE V SquaredLength(const V* a) { return Dot(a, a); }
+
+// A lower bound on the widths of tets with edges e1, e2, e3 at the first corner, the longest difference of
+// coordinates in which is `longest`; `volume` is six times their volume, less what it may be off by. The
+// width is that volume over the longest of seven cross products: of the edges of each facet, and of each two
+// opposite edges. A cross product is off by less than 16 u L^2. Zero where squares would leave the range of
+// floats.
+HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longest, V volume) {
+    const Floats d;
+    V n12[3], n31[3], s[3];
+    Cross(e1, e2, n12);
+    Cross(e3, e1, n31);
+    V square = hn::Max(SquaredLength(n12), hn::Max(SquaredLength(n23), SquaredLength(n31)));
+    for (int a = 0; a < 3; ++a) s[a] = hn::Add(n12[a], n23[a]);
+    square = hn::Max(square, SquaredLength(s));
+    for (int a = 0; a < 3; ++a) s[a] = hn::Add(s[a], n31[a]);
+    square = hn::Max(square, SquaredLength(s));
+    for (int a = 0; a < 3; ++a) s[a] = hn::Add(n23[a], n31[a]);
+    square = hn::Max(square, SquaredLength(s));
+    for (int a = 0; a < 3; ++a) s[a] = hn::Add(n31[a], n12[a]);
+    square = hn::Max(square, SquaredLength(s));
+    const V error = hn::Mul(hn::Mul(longest, longest), hn::Set(d, 64 * 0x1p-24f));
+    const V width = hn::Mul(hn::Div(volume, hn::Add(hn::Sqrt(square), error)), hn::Set(d, 1 - 0x1p-16f));
+    const auto ordinary =
+        hn::And(hn::Gt(longest, hn::Set(d, 0x1p-24f)), hn::Lt(longest, hn::Set(d, 0x1p+24f)));
+    return hn::IfThenElseZero(ordinary, width);
+}
+
+template <bool kMeasure>
+HWY_INLINE float OrientTiles(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+                             bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+                             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    const Floats d;
+    const Words du;
+    const hn::Rebind<std::uint8_t, Floats> db;
+    TileVertices vertices;
+    V least = hn::Set(d, infinity);
+    std::uint64_t any_bad = 0;
+    for (std::uint32_t t = first; t < last; ++t) {
+        const Tile& tile = tiles.tiles.data()[t];
+        LoadTile(tiles, positions, tile, vertices, boxes[t]);
+        known[t] = 1;
+        const std::uint8_t* corners = tiles.corners.data() + std::size_t{t} * 4 * tile_size;
+        const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
+        const FilterConstants constants = MakeConstants(boxes[t], rounded);
+        const std::uint64_t counted = tile.all_tets() & ~surface.ignored.data()[t];
+        std::uint64_t not_positive = 0, not_negative = 0;
+        for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
+            const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
+            const auto ib = hn::PromoteTo(du, hn::LoadU(db, corners + tile_size + i));
+            const auto ic = hn::PromoteTo(du, hn::LoadU(db, corners + 2 * tile_size + i));
+            const auto id = hn::PromoteTo(du, hn::LoadU(db, corners + 3 * tile_size + i));
+            V e1[3], e2[3], e3[3], side[3], bound = hn::Set(d, 256 * 0x1p-24f);
+            for (int a = 0; a < 3; ++a) {
+                const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
+                e1[a] = hn::Sub(vb, va);
+                e2[a] = hn::Sub(vc, va);
+                e3[a] = hn::Sub(vd, va);
+                // The filter's box: here it is enough that no edge at the first corner is longer.
+                side[a] = hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a]));
+                bound = hn::Mul(bound, side[a]);
+            }
+            V n[3];
+            Cross(e2, e3, n);
+            const V volume = Dot(e1, n);
+            bound = hn::Add(bound, hn::Set(d, constants.underflow));
+            if (rounded) bound = hn::Add(bound, RoundingError(side, constants.rounding));
+            std::uint8_t bits[8] = {};
+            hn::StoreMaskBits(d, hn::Not(hn::Gt(volume, bound)), bits);
+            not_positive |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+            hn::StoreMaskBits(d, hn::Not(hn::Lt(volume, hn::Neg(bound))), bits);
+            not_negative |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+            if constexpr (!kMeasure) continue;
+            const V longest = hn::Max(side[0], hn::Max(side[1], side[2]));
+            const V width = Width(e1, e2, e3, n, longest, hn::Sub(hn::Abs(volume), bound));
+            for (std::size_t byte = 0; byte < 8; ++byte)
+                bits[byte] = static_cast<std::uint8_t>(counted >> i >> 8 * byte);
+            least = hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, infinity)));
+        }
+        const std::uint64_t mirrored = surface.mirrored.data()[t];
+        bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & counted;
+        any_bad |= bad[t];
+    }
+    return any_bad ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
+            std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+            std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    (void)OrientTiles<false>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+}
+
+float OrientAndMeasure(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+                       bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+                       std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+    return OrientTiles<true>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::fast {
+
+namespace {
+
+// The diagonal of a box around differences of floats, or more. Such a difference x - y is off by at most u |x
+// - y|; so is what is computed here, a few times; and underflow takes away less than what is added.
+float diagonal(const Box& moves) noexcept {
+    float square = 0;
+    for (int a = 0; a < 3; ++a) {
+        const float side = (moves.hi[a] - moves.lo[a]) + std::max(-moves.lo[a], moves.hi[a]) * (4 * 0x1p-24f);
+        square += side * side;
+    }
+    return std::sqrt(square) * (1 + 0x1p-20f) + 0x1p-60f;
+}
+
+// A box around all that was in `box` before displacements within `moves`, which are differences of floats.
+Box moved(const Box& box, const Box& moves) noexcept {
+    Box out;
+    for (int a = 0; a < 4; ++a) {
+        const float margin =
+            (std::max(-box.lo[a], box.hi[a]) + std::max(-moves.lo[a], moves.hi[a])) * 0x1p-21f;
+        out.lo[a] = (box.lo[a] + moves.lo[a]) - margin;
+        out.hi[a] = (box.hi[a] + moves.hi[a]) + margin;
+    }
+    return out;
+}
+
+Box box_of(std::span<const std::uint32_t> items, const Box* boxes) noexcept {
+    Box box = empty_box;
+    for (const std::uint32_t i : items) add(box, boxes[i]);
+    return box;
+}
+
+} // namespace
+
+// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a
+// coordinate: two of them, the extents of tets, and so widths, by 2 sqrt(3) r; the sides of boxes around
+// displacements by 2 r for either end, their diagonals by 2 sqrt(3) r.
+float slack_of_rounding(const Box& box) noexcept {
+    float largest = 0;
+    for (int a = 0; a < 3; ++a) largest = std::max({largest, -box.lo[a], box.hi[a]});
+    return largest * (8 * 1.125f * 0x1p-24f) + 0x1p-100f;
+}
+
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
+            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright) {
+    for (std::uint32_t s = first; s < last; ++s) {
+        upright[s] = 0;
+        if (!moves || !(turning.slack[s] > 0)) {
+            super_boxes[s] = box_of(tiles.blocks[s], blocks);
+            continue;
+        }
+        const Box move = box_of(tiles.blocks[s], moves);
+        upright[s] = diagonal(move) + rounding < turning.slack[s];
+        super_boxes[s] = moved(turning.boxes[s], move);
+    }
+}
+
+bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
+    constexpr std::uint32_t young = 4, pause = 32; // steps
+    ++turning.age;
+    if (turning.wait > 0) {
+        --turning.wait;
+        return false;
+    }
+    if (turning.is_known && doubtful <= super_tiles / 8) return false;
+    if (turning.is_known && turning.age < young) { // the body deforms too fast
+        turning.is_known = false;
+        turning.wait = pause;
+        return false;
+    }
+    turning.age = 0;
+    return true;
+}
+
+void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+            std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
+    VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+}
+
+float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+                         std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
+                         std::uint64_t* bad) {
+    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, rounded, first, last, boxes, known,
+                                               bad);
+}
+
+} // namespace vox::fast
+#endif

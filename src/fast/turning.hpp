@@ -1,0 +1,60 @@
+// Which tets of a body may have turned over since they were last found positive: few, as a rule, where bodies
+// deform a little, so that few have to be looked at.
+//
+// The width of a tet is the least distance of two parallel planes that have it between them. When the
+// displacements of its corners lie in a box, its extent in any direction, and so its width, changes by the
+// diagonal of the box at most. Less than the width, and the corners never come to lie in one plane on a
+// straight way from the old positions to the new ones: the tet does not turn over.
+#pragma once
+
+#include "box.hpp"
+#include "surface.hpp"
+#include "tiles.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox::fast {
+
+// Kept of a body from step to step: its positions in some earlier one, and what was found then.
+struct Turning {
+    explicit Turning(std::pmr::memory_resource* memory) noexcept
+        : reference(memory), slack(memory), boxes(memory) {}
+
+    std::pmr::vector<float> reference; // the positions, packed
+    // Of each super-tile, a lower bound on the widths of its tets then, less slack_of_rounding() where the
+    // positions were rounded. Not above 0: nothing is known, or some of them were not positive.
+    std::pmr::vector<float> slack;
+    std::pmr::vector<Box> boxes; // around the vertices of those that have slack
+    bool is_known = false;       // all these are
+    std::uint32_t age = 0;       // steps since then
+    std::uint32_t wait = 0;      // steps to go without
+};
+
+// What rounding positions in `box` takes from the slack: when they become the reference, and again when they
+// are compared with it.
+float slack_of_rounding(const Box& box) noexcept;
+
+// Of the super-tiles [first, last): boxes that hold them, and which hold no tet that may have turned over.
+// `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null;
+// `rounding` is slack_of_rounding(), or 0 where positions are not rounded.
+void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
+            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright);
+
+// Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
+// reference is worth its while.
+bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
+
+// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
+// does not find positive.
+void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+            std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
+
+// Returns a lower bound on the widths of the tets, too, with their positions as they are rounded; 0 where
+// some are in a set.
+float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+                         std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
+                         std::uint64_t* bad);
+
+} // namespace vox::fast

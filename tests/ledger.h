@@ -1,0 +1,41 @@
+/* An allocator that keeps count of what a grid takes, and fails when it is told to. */
+#ifndef VOX_TESTS_LEDGER_H
+#define VOX_TESTS_LEDGER_H
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <vox/vox.h>
+
+typedef struct ledger {
+    uint64_t bytes;   /* held now */
+    uint64_t peak;    /* most ever held */
+    uint64_t taken;   /* all that were ever taken */
+    uint64_t calls;   /* to allocate, failed ones included */
+    uint64_t fail_at; /* the one of these calls that fails; 0: none */
+} ledger;
+
+static inline void* ledger_allocate(size_t size, size_t alignment, void* user) {
+    ledger* l = (ledger*)user;
+    void* memory = NULL;
+    if (++l->calls == l->fail_at) return NULL;
+    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1) != 0)
+        return NULL;
+    l->bytes += size;
+    l->taken += size;
+    if (l->bytes > l->peak) l->peak = l->bytes;
+    return memory;
+}
+
+static inline void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
+    (void)alignment;
+    ((ledger*)user)->bytes -= size;
+    free(memory);
+}
+
+/* For vox_grid_desc.allocator. */
+static inline vox_allocator ledger_allocator(ledger* l) {
+    const vox_allocator allocator = {ledger_allocate, ledger_release, l};
+    return allocator;
+}
+
+#endif

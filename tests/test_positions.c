@@ -1,0 +1,163 @@
+/* Positions that are bound again, in another format too, and positions that the library owns. */
+#include "solids_of_doubles.h"
+
+START_TEST(bound_in_another_format) {
+    solid a = make_solid(3), b = make_solid(3);
+    state = 4;
+    place(&a, &kinds[1], 0, 0, 0);
+    place(&b, &kinds[1], 0.5, 0.25, 0.1);
+    write_solid(&a, VOX_FORMAT_DOUBLE3, 24);
+    write_solid(&b, VOX_FORMAT_DOUBLE3, 24);
+    solid rounded = make_solid(3);
+    memcpy(rounded.positions, a.positions, 3 * sizeof(double) * a.vertex_count);
+    write_solid(&rounded, VOX_FORMAT_FLOAT3, 12);
+    vox_grid* grid = new_grid(1);
+    const vox_mesh ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
+    solid solids[2] = {a, b};
+    for (int round = 0; round < 12;
+         ++round) { /* 0: doubles, 1: floats, of 0 again: at rest for a step or two */
+        solid* bound = round / 2 % 2 ? &rounded : &a;
+        ck_ok(vox_mesh_bind_positions(grid, ids[0], bound->bytes, bound->format,
+                                      round % 3 ? 0 : bound->stride));
+        solids[0].positions = bound->positions;
+        ck_ok(vox_grid_step(grid));
+        ck_assert_uint_gt(check_contacts(grid, solids, 2, ids, 0), 0);
+    }
+    vox_grid_destroy(grid);
+    free_solid(&a);
+    free_solid(&b);
+    free_solid(&rounded);
+}
+END_TEST
+
+START_TEST(refused) {
+    solid s = make_solid(1);
+    write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
+    vox_grid* grid = new_grid(1);
+    const vox_mesh mesh = insert(grid, &s, 0);
+    vox_mesh_desc desc = solid_desc(&s);
+    vox_mesh out = 0;
+    desc.position_byte_stride = 23;
+    ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT,
+             "is 23, expected 0 or at least 24");
+    desc.position_byte_stride = 0;
+    desc.position_format = (vox_format)2;
+    ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT, "position_format is 2");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, s.bytes, VOX_FORMAT_DOUBLE3, 12), VOX_ERROR_INVALID_ARGUMENT,
+             "is 12, expected 0 or at least 24");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, s.bytes, (vox_format)7, 0), VOX_ERROR_INVALID_ARGUMENT,
+             "position_format is 7");
+    void* mapped = NULL;
+    uint64_t stride = 5;
+    ck_fails(vox_mesh_map_positions(NULL, mesh, &mapped, &stride), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_mesh_map_positions(grid, mesh, NULL, &stride), VOX_ERROR_INVALID_ARGUMENT, "out_positions");
+    ck_fails(vox_mesh_map_positions(grid, mesh, &mapped, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_byte_stride");
+    ck_fails(vox_mesh_map_positions(grid, 0, &mapped, &stride), VOX_ERROR_INVALID_HANDLE, "0");
+    ck_assert_ptr_null(mapped);
+    ck_assert_uint_eq(stride, 5);
+    vox_grid_destroy(grid);
+    free_solid(&s);
+}
+END_TEST
+
+START_TEST(mapped_positions) {
+    for (int floats = 0; floats < 2; ++floats) {
+        const size_t size = floats ? 12 : 24;
+        solid a = make_solid(2), b = make_solid(2);
+        state = 5;
+        place(&a, &kinds[1], 0, 0, 0);
+        place(&b, &kinds[1], 0.25, 0.5, 0.1);
+        write_solid(&a, floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, size + 8);
+        write_solid(&b, floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, size);
+        vox_grid *grid = new_grid(1), *copy = new_grid(1), *late = new_grid(1);
+        const vox_mesh ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
+        const uint64_t hash = hash_of_step(grid);
+        ck_assert_uint_gt(contacts_of(grid).count, 0);
+
+        /* What was borrowed is there, and counts from now on alone. */
+        void *mapped = NULL, *again = NULL;
+        uint64_t stride = 0;
+        ck_ok(vox_mesh_map_positions(grid, ids[0], &mapped, &stride));
+        ck_assert_uint_eq(stride, size);
+        ck_assert_uint_eq((uintptr_t)mapped % 8, 0);
+        for (uint32_t v = 0; v < a.vertex_count; ++v)
+            ck_assert_int_eq(memcmp((char*)mapped + v * size, a.bytes + v * a.stride, size), 0);
+        memset(a.bytes, 0xff, a.stride * a.vertex_count); /* NaN */
+        ck_assert_uint_eq(hash_of_step(grid), hash);
+        ck_ok(vox_mesh_map_positions(grid, ids[0], &again, &stride));
+        ck_assert_ptr_eq(again, mapped);
+
+        /* Written to: a step sees it, another one does, and the way back. */
+        for (int step = 0; step < 4; ++step) {
+            for (uint32_t i = 0; i < 3 * a.vertex_count; ++i) {
+                a.positions[i] += step < 2 ? 0.0625 : -0.0625;
+                if (floats)
+                    a.positions[i] = (double)(((float*)mapped)[i] = (float)a.positions[i]);
+                else
+                    ((double*)mapped)[i] = a.positions[i];
+            }
+            const solid solids[2] = {a, b};
+            ck_ok(vox_grid_step(grid));
+            (void)check_contacts(grid, solids, 2, ids, 0);
+        }
+
+        /* A copy made at insertion is what is mapped; positions that are written before there were any. */
+        write_solid(&a, a.format, size);
+        const vox_mesh copied = insert(copy, &a, VOX_MESH_COPY_POSITIONS);
+        (void)insert(copy, &b, 0);
+        const uint64_t moved = hash_of_step(copy);
+        ck_ok(vox_mesh_map_positions(copy, copied, &mapped, &stride));
+        ck_assert_int_eq(memcmp(mapped, a.bytes, size * a.vertex_count), 0);
+        ck_assert_uint_eq(hash_of_step(copy), moved);
+        vox_mesh_desc desc = solid_desc(&a);
+        desc.positions = NULL;
+        vox_mesh mesh = 0;
+        ck_ok(vox_mesh_insert(late, &desc, &mesh));
+        ck_fails(vox_grid_step(late), VOX_ERROR_INVALID_STATE, "no positions");
+        ck_ok(vox_mesh_map_positions(late, mesh, &mapped, &stride));
+        for (size_t i = 0; i < size * a.vertex_count; ++i) ck_assert_int_eq(((char*)mapped)[i], 0);
+        memcpy(mapped, a.bytes, size * a.vertex_count);
+        (void)insert(late, &b, 0);
+        ck_assert_uint_eq(hash_of_step(late), moved);
+
+        /* Bound again, they are gone. */
+        ck_ok(vox_mesh_bind_positions(copy, copied, a.bytes, a.format, 0));
+        ck_assert_uint_eq(hash_of_step(copy), moved);
+        vox_grid_destroy(grid);
+        vox_grid_destroy(copy);
+        vox_grid_destroy(late);
+        free_solid(&a);
+        free_solid(&b);
+    }
+}
+END_TEST
+
+START_TEST(mapped_positions_of_nothing) {
+    vox_grid* grid = new_grid(1);
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    vox_mesh mesh = 0;
+    void* mapped = &mesh;
+    uint64_t stride = 0;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
+    ck_assert_ptr_null(mapped);
+    ck_assert_uint_eq(stride, 12);
+    ck_ok(vox_grid_step(grid));
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_test(tests, bound_in_another_format);
+    tcase_add_test(tests, refused);
+    tcase_add_test(tests, mapped_positions);
+    tcase_add_test(tests, mapped_positions_of_nothing);
+}
+
+int main(void) {
+    Suite* suite = suite_create("positions");
+    add_for_each_engine(suite, add_tests);
+    return run_suite(suite);
+}
