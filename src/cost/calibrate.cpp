@@ -109,6 +109,7 @@ struct Scene {
             bodies[b].positions = {reinterpret_cast<const std::byte*>(blocks[b].positions.data()),
                                    sizeof(Vec3f)};
             bodies[b].tets = blocks[b].tets;
+            bodies[b].self_collision = true; // some of what is prepared is only for that
             meshes[b].prepare(bodies[b]);
         }
     }
