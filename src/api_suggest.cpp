@@ -85,12 +85,12 @@ public:
     Scene(vox_cost_model model, vox_grid::Known known)
         : bodies_(std::move(known.bodies)), tiles_(std::move(known.tiles)),
           activity_(std::move(known.activity)) {
-        constexpr std::size_t samples = 256;
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
+        const std::size_t samples = std::clamp<std::size_t>(tets / 48, 96, 256);
         const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
         geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
-        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles : quick(tets);
+        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles(tets) : quick(tets);
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
 

@@ -3,6 +3,8 @@
 #include "geometry.hpp"
 
 #include "bits.hpp"
+#include "fast/rest.hpp"
+#include "fast/stream.hpp"
 #include "mesh_check.hpp"
 #include "predicates.hpp"
 
@@ -59,42 +61,142 @@ void for_some(std::size_t count, double wanted, double all, Visit&& visit) {
         visit(static_cast<std::size_t>((static_cast<double>(i) + 0.5) * each), each);
 }
 
-void sample_tet(const Body& body, const depth::Topology& topology, std::size_t t, double weight,
+// at(v) is the exact position of a vertex, here and below.
+template <class At>
+void sample_tet(const Body& body, const depth::Topology& topology, const At& at, std::size_t t, double weight,
                 Means& means) {
     const Tet& tet = body.tets[t];
-    const Vec3d p[4] = {body.positions.exact(tet.v[0]), body.positions.exact(tet.v[1]),
-                        body.positions.exact(tet.v[2]), body.positions.exact(tet.v[3])};
-    const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x, p[3].x});
-    const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y, p[3].y});
-    const auto [z0, z1] = std::minmax({p[0].z, p[1].z, p[2].z, p[3].z});
-    const double side = std::max({x1 - x0, y1 - y0, z1 - z0});
+    const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
+    const Vector a = between(p[0], p[1]), b = between(p[0], p[2]), c = between(p[0], p[3]);
+    const auto extent = [](double first, double second, double third) { // of three numbers and 0
+        return std::max(std::max(first, second), std::max(third, 0.0)) -
+               std::min(std::min(first, second), std::min(third, 0.0));
+    };
+    const double side = std::max({extent(a.x, b.x, c.x), extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)});
     means.box_side.add(side, weight);
     means.box_sides.emplace_back(side, weight);
-    double longest = 0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < i; ++j) longest = std::max(longest, length(between(p[i], p[j])));
-    means.longest_edge.add(longest, weight);
-    const Vector a = between(p[0], p[1]), b = between(p[0], p[2]), c = between(p[0], p[3]);
-    means.volume.add(std::abs(dot(cross(a, b), c)) / 6, weight);
+    const Vector ab = between(p[1], p[2]), ac = between(p[1], p[3]), bc = between(p[2], p[3]);
+    const double longest = std::max(std::max({dot(a, a), dot(b, b), dot(c, c)}),
+                                    std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)}));
+    means.longest_edge.add(std::sqrt(longest), weight);
+    // Twice the facet opposite each corner, but for the sign.
+    const Vector facets[4] = {cross(ab, ac), cross(b, c), cross(a, c), cross(a, b)};
+    const double volume = std::abs(dot(facets[3], c));
+    means.volume.add(volume / 6, weight);
+    // Where rounding may have made it what it is, the exact test decides.
     std::uint64_t exact_tests = 0;
-    means.degenerate.add(orientation(p[0], p[1], p[2], p[3], exact_tests) == 0, weight);
+    const bool flat =
+        !(volume > 1e-12 * side * side * side) && orientation(p[0], p[1], p[2], p[3], exact_tests) == 0;
+    means.degenerate.add(flat, weight);
+    double all = 0, own = 0, count = 0; // facets that two tetrahedra share are met from both of them
     for (std::size_t f = 0; f < 4; ++f) {
-        const auto& corner = depth::facet_corners[f];
-        const double facet = area(p[corner[0]], p[corner[1]], p[corner[2]]);
-        means.tet_facet.add(facet, weight);
-        // One that two tetrahedra share is met from both of them.
-        const bool shared = (topology.across[t][f] & depth::Topology::surface_bit) == 0;
-        means.facet.add(facet, shared ? weight / 2 : weight);
+        const double facet = length(facets[f]) / 2;
+        const double part = (topology.across[t][f] & depth::Topology::surface_bit) == 0 ? 0.5 : 1.0;
+        all += facet;
+        own += facet * part;
+        count += part;
     }
+    means.tet_facet.add(all / 4, weight);
+    means.facet.add(own / count, weight * count);
 }
 
+// Some edges at each of some vertices, at places in its list that go round by the golden ratio (Weyl).
+template <class At>
+void sample_edges(const Body& body, const depth::Topology& topology, const At& at, double wanted, double all,
+                  Mean& edge) {
+    constexpr std::size_t most = 2; // of a vertex
+    double place = 0.5;
+    for_some(body.vertex_count, wanted / most, all, [&](std::size_t v, double weight) {
+        const auto neighbours = topology.neighbours_of(static_cast<std::uint32_t>(v));
+        const std::size_t count = std::min(most, neighbours.size());
+        const Vec3d p = at(v);
+        for (std::size_t i = 0; i < count; ++i) {
+            place += 0.6180339887498949;
+            place -= std::floor(place);
+            const auto n = static_cast<std::size_t>(place * static_cast<double>(neighbours.size()));
+            // Each edge is met from both of its ends.
+            edge.add(length(between(p, at(neighbours[n]))),
+                     weight / 2 * static_cast<double>(neighbours.size()) / static_cast<double>(count));
+        }
+    });
+}
+
+// Its share of so many of all; `stats` has how many there are.
+template <class At>
+void sample_body(const Body& body, const depth::Topology& topology, const At& at, double wanted,
+                 const vox_geometry_stats& stats, Means& means) {
+    for_some(body.tets.size(), wanted, static_cast<double>(stats.tets), [&](std::size_t t, double weight) {
+        if (!has_bit(body.off, t)) sample_tet(body, topology, at, t, weight, means);
+    });
+    sample_edges(body, topology, at, wanted, static_cast<double>(stats.vertices), means.edge);
+    for_some(topology.triangles.size(), wanted / 2, static_cast<double>(stats.boundary_facets),
+             [&](std::size_t i, double weight) {
+                 const std::uint32_t* v = topology.triangles[i].v;
+                 means.boundary_facet.add(area(at(v[0]), at(v[1]), at(v[2])), weight);
+             });
+}
+
+// By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights.
 double median(std::vector<std::pair<double, double>>& values) {
-    std::sort(values.begin(), values.end());
     double half = 0;
     for (const auto& [value, weight] : values) half += weight / 2;
-    for (const auto& [value, weight] : values)
-        if ((half -= weight) <= 0) return value;
-    return values.empty() ? 0 : values.back().first;
+    auto first = values.begin(), last = values.end();
+    while (last - first > 1) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last);
+        double below = 0;
+        for (auto at = first; at != middle; ++at) below += at->second;
+        if (half <= below) {
+            last = middle;
+        } else {
+            half -= below;
+            first = middle;
+        }
+    }
+    return first == last ? 0 : first->first;
+}
+
+// Edges, each counted from both ends; and the box of the vertices that tetrahedra use, of all vertices for a
+// body without tetrahedra.
+struct Extent {
+    std::uint64_t ends = 0;
+    bool any = false;
+    double lo[3], hi[3];
+};
+
+Extent extent_of(const Body& body, const depth::Topology& topology) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent extent{0, false, {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    bool some_unused = false;
+    for (std::uint32_t v = 0; v < topology.neighbours.size(); ++v) {
+        const std::size_t neighbours = topology.neighbours[v].size();
+        extent.ends += neighbours;
+        some_unused |= neighbours == 0;
+    }
+    if (body.vertex_count > 0 && !some_unused && fast::is_packed(body.positions)) {
+        const std::uint32_t all[2] = {0, body.vertex_count};
+        fast::Box box{}, same{};
+        if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), all, &box, same))
+            check_finite(body);
+        extent.any = true;
+        for (int a = 0; a < 3; ++a) {
+            extent.lo[a] = double{box.lo[a]};
+            extent.hi[a] = double{box.hi[a]};
+        }
+        return extent;
+    }
+    check_finite(body);
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+        if (!body.tets.empty() && topology.neighbours_of(v).empty()) continue;
+        const Vec3d p = body.positions.exact(v);
+        const double x[3] = {p.x, p.y, p.z};
+        extent.any = true;
+        for (int a = 0; a < 3; ++a) {
+            extent.lo[a] = std::min(extent.lo[a], x[a]);
+            extent.hi[a] = std::max(extent.hi[a], x[a]);
+        }
+    }
+    return extent;
 }
 
 } // namespace
@@ -103,58 +205,37 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
                   std::size_t samples) {
     Geometry result{};
     vox_geometry_stats& stats = result.stats;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    Mean object_side;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-        check_finite(bodies[b]);
+        const Extent own = extent_of(bodies[b], *topologies[b]);
         stats.vertices += bodies[b].vertex_count;
         stats.tets += bodies[b].tets.size() - bodies[b].off_count;
         stats.boundary_facets += topologies[b]->triangles.size();
-    }
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
-    Means means;
-    Mean object_side;
-    const auto wanted = static_cast<double>(samples);
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const Body& body = bodies[b];
-        const depth::Topology& topology = *topologies[b];
-        const auto at = [&](std::size_t v) { return body.positions.exact(v); };
-        for_some(body.tets.size(), wanted, static_cast<double>(stats.tets),
-                 [&](std::size_t t, double weight) {
-                     if (!has_bit(body.off, t)) sample_tet(body, topology, t, weight, means);
-                 });
-        // A few edges around each of some vertices; each edge is met from both of its ends.
-        for_some(body.vertex_count, wanted / 2, static_cast<double>(stats.vertices),
-                 [&](std::size_t v, double weight) {
-                     for (const std::uint32_t w : topology.neighbours_of(static_cast<std::uint32_t>(v)))
-                         means.edge.add(length(between(at(v), at(w))), weight / 2);
-                 });
-        for_some(topology.triangles.size(), wanted, static_cast<double>(stats.boundary_facets),
-                 [&](std::size_t i, double weight) {
-                     const std::uint32_t* v = topology.triangles[i].v;
-                     means.boundary_facet.add(area(at(v[0]), at(v[1]), at(v[2])), weight);
-                 });
-
-        double own_lo[3] = {infinity, infinity, infinity}, own_hi[3] = {-infinity, -infinity, -infinity};
-        std::uint64_t ends = 0;
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-            const std::size_t neighbours = topology.neighbours_of(v).size();
-            ends += neighbours;
-            if (!body.tets.empty() && neighbours == 0) continue;
-            const Vec3d p = at(v);
-            const double x[3] = {p.x, p.y, p.z};
-            for (int a = 0; a < 3; ++a) {
-                own_lo[a] = std::min(own_lo[a], x[a]);
-                own_hi[a] = std::max(own_hi[a], x[a]);
-            }
-        }
-        stats.edges += ends / 2;
+        stats.edges += own.ends / 2;
+        if (!own.any) continue;
         double volume = 1;
         for (int a = 0; a < 3; ++a) {
-            lo[a] = std::min(lo[a], own_lo[a]);
-            hi[a] = std::max(hi[a], own_hi[a]);
-            volume *= std::max(own_hi[a] - own_lo[a], 0.0);
+            lo[a] = std::min(lo[a], own.lo[a]);
+            hi[a] = std::max(hi[a], own.hi[a]);
+            volume *= own.hi[a] - own.lo[a];
         }
         if (volume > 0) object_side.add(std::cbrt(volume), 1);
+    }
+    Means means;
+    const auto wanted = static_cast<double>(samples);
+    means.box_sides.reserve(samples + bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const Positions& positions = bodies[b].positions;
+        if (positions.rounded())
+            sample_body(
+                bodies[b], *topologies[b], [&](std::size_t v) { return positions.exact(v); }, wanted, stats,
+                means);
+        else
+            sample_body(
+                bodies[b], *topologies[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, wanted,
+                stats, means);
     }
     // Each facet of a tetrahedron is on the surface or shared by two, but for the odd one of more.
     stats.facets = (4 * stats.tets + stats.boundary_facets) / 2;

@@ -1,5 +1,6 @@
 #include "suggest.hpp"
 
+#include "cost/cost_table.hpp"
 #include "cost/fast_cost.hpp"
 #include "cost/levels.hpp"
 #include "cost/minimise.hpp"
@@ -246,15 +247,20 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
-                   const CellSizeRange& range) {
+// Fills in the least cost and the zone around it. Returns the cost as a curve, which is that of the table
+// where there is one; both must stay.
+CostFunction minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
+                           CostTable* table, const CellSizeRange& range) {
     constexpr double near = 1e-4; // no model is as good as that
-    const CostMinimum best = minimise(cost, range, near);
-    const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, cost, range);
+    const CostMinimum best = table ? table->minimum() : minimise(cost, range, near);
+    CostFunction curve = cost;
+    if (table) curve = [table, best](double d) { return std::max((*table)(d), best.cost); };
+    const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range);
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
+    return curve;
 }
 
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
@@ -269,12 +275,14 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     range.min = std::max(range.min, result.budget_cell_size);
     range.max = std::max(range.max, range.min);
     const CostFunction function = [&](double d) { return cost(d); };
-    minimise_into(result, desc, function, range);
+    CostTable table(function, range);
+    const CostFunction curve =
+        minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
     const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
     for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
-    explain(result, desc, geometry, function, cost.terms(result.cell_size));
+    explain(result, desc, geometry, curve, cost.terms(result.cell_size));
     return result;
 }
 
@@ -287,15 +295,17 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geomet
     const bool any = cost.range(range.min, range.max);
     vox_suggestion result{};
     const CostFunction function = [&](double d) { return cost(d); };
+    CostFunction curve = function;
+    CostTable table(function, range);
     if (any) {
-        minimise_into(result, desc, function, range);
+        curve = minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
     } else {
         result.cell_size = 2 * geometry.stats.mean_box_side;
         result.zone_min = range.min;
         result.zone_max = range.max;
         result.predicted_cost = cost(result.cell_size);
     }
-    explain(result, desc, geometry, function, cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
+    explain(result, desc, geometry, curve, cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
     return result;
 }
 

@@ -1065,7 +1065,7 @@ VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox
  * paper's model takes p_nc from the last step where there was one with contacts and desc is null or has the
  * default. FAST knows from the last step which meshes rest and which need no cells for self-collision: those cost
  * nothing. Quicker than vox_suggest_cell_size: counts are those of samples, and so are the means of grids with
- * VOX_GRID_PENETRATIONS, to a few per cent. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE
+ * VOX_GRID_PENETRATIONS, to a few per cent; the curve is drawn through some of its points. Positions must be bound. Errors: as vox_suggest_cell_size; INVALID_STATE
  * for a mesh without positions. */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
                                               vox_suggestion* out);
@@ -1091,7 +1091,7 @@ typedef struct vox_cost_weights {
     uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
     double reference_classify_vertex;
     double reference_prepare_tet; /* its box */
-    double reference_visit_cell;
+    double reference_visit_cell; /* an empty one; with vertices, and beyond the caches, in proportion */
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;

@@ -22,11 +22,12 @@ constexpr double hysteresis = 0.08;
 constexpr double most_at_once = 2;
 // Beyond this factor from what the model chose it is asked again.
 constexpr double far_off = 1.5;
-// Of the time of the steps, for choosing: a hundredth, told by counts to within a factor of two.
-constexpr double time_share = 0.005;
+// Of the time of the steps, for choosing: a hundredth at most, told by counts to within a factor of two (a
+// choice finds little in the caches), and with one more in a short while than in the long run.
+constexpr double time_share = 0.003;
 // Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
 // it or one of the few far ones.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 256;
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 128;
 
 double choice_ns(double vertices, double tets, const Effort& effort) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
@@ -34,10 +35,13 @@ double choice_ns(double vertices, double tets, const Effort& effort) {
                (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns;
 }
 
+// What a visited cell costs, with its list, in visits.
+constexpr double cell_visits = 2.5;
+
 double step_ns(const vox_counters& c, const vox_cost_weights& w) {
     return static_cast<double>(c.vertices) * w.reference_classify_vertex +
            static_cast<double>(c.tets) * w.reference_prepare_tet +
-           static_cast<double>(c.visited_cells) * w.reference_visit_cell +
+           static_cast<double>(c.visited_cells) * cell_visits * w.reference_visit_cell +
            static_cast<double>(c.visited_entries) * w.reference_read_vertex;
 }
 
@@ -96,7 +100,8 @@ bool AdaptiveCellSize::must_choose() const noexcept {
     if (sizes_.count == 0) return true;
     if (scene_changed_) return credit_ >= 0 || !sized_;
     if (!sized_) return balanced_ && credit_ >= 0; // now some have a size, or there may be memory now
-    return credit_ >= 0 && std::abs(moved_) > std::log(far_off);
+    // The size has followed so far, and may wait until the steps since have paid for the choice.
+    return balanced_ && credit_ >= price_ && std::abs(moved_) > std::log(far_off);
 }
 
 void AdaptiveCellSize::follow() noexcept {
@@ -177,9 +182,8 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
 
 void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
     const Effort effort = quick(counters.tets);
-    const double most =
-        choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets), effort);
-    credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), most);
+    price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets), effort);
+    credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), price_);
     if (counters.visited_entries == 0 || counters.visited_cells == 0) return;
     last_balance_ =
         std::log(static_cast<double>(counters.visited_entries) / static_cast<double>(counters.visited_cells));

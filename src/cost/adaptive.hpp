@@ -8,7 +8,7 @@
 // together, all of them by the same factor, so that their ratios stay. The model itself, at a price, is
 // asked again, over a sample of the scene, after meshes came or went or d has moved far, and only as often as
 // that stays below a hundredth of the time of the steps, told by counts: the same calls always give the same
-// sizes.
+// sizes. Where d has moved, that is when the steps since have paid for it; new meshes need not wait.
 #pragma once
 
 #include "levels.hpp"
@@ -65,7 +65,8 @@ private:
     double balance_ = 0;      // log(R / V) of the first step after the choice ...
     bool balanced_ = false;   // ... which there was
     double last_balance_ = 0; // of the last step
-    double credit_ = 0;       // nanoseconds that may be spent on choosing
+    double credit_ = 0;       // nanoseconds that may be spent on choosing, ...
+    double price_ = 0;        // ... never more than for one choice
     std::uint64_t changes_ = 0;
 };
 

@@ -160,10 +160,9 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 vertices * (weights.reference_classify_vertex + 2 * weights.reference_clear_bucket) +
                 tets * weights.reference_prepare_tet +
                 cost.profile().candidates() * weights.reference_test_tet;
-            timings.push_back(
-                {time,
-                 {fixed, static_cast<double>(counters.visited_cells),
-                  static_cast<double>(counters.visited_entries), cost.profile().tested(cell_size)}});
+            timings.push_back({time,
+                               {fixed, cost.visit_units(cell_size), cost.read_units(cell_size),
+                                cost.profile().tested(cell_size)}});
         }
     }
     const std::array<double, unknowns> x =

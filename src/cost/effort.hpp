@@ -12,14 +12,16 @@ struct Effort {
     std::size_t most_tets;  // whose boxes are taken, about; of more, some from everywhere
     SampleSizes sample;     // of which the surroundings are
     std::size_t most_looks; // of tiles into windows, gone through for each cell size
+    bool tabulated;         // the curve from a table of a few costs
 };
 
 // For a person who asks.
-inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024}, 4096};
+inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024}, 4096, false};
 
 // Within a step, where choosing has to cost less than that step.
 Effort quick(std::uint64_t tets) noexcept;
-// The same for the model of the fast engine, whose lookups are fewer and more alike and whose cost is flat.
-inline constexpr Effort quick_tiles{0, {32, 128, 64}, 32};
+// The same for the model of the fast engine, whose steps are shorter; its lookups are fewer and more alike
+// and its cost is flat.
+Effort quick_tiles(std::uint64_t tets) noexcept;
 
 } // namespace vox

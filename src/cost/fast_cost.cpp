@@ -150,7 +150,29 @@ void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, b
     }
 }
 
+// The points may change places.
+void append(fast::Points& from, fast::Points& to) {
+    if (to.count == 0) {
+        std::swap(from, to);
+        return;
+    }
+    to.reserve(to.count + std::size_t{from.count});
+    const auto copy = [&](const auto& a, auto& b) {
+        std::copy_n(a.begin(), from.count, b.begin() + to.count);
+    };
+    copy(from.x, to.x);
+    copy(from.y, to.y);
+    copy(from.z, to.z);
+    copy(from.id, to.id);
+    to.count += from.count;
+}
+
 } // namespace
+
+Effort quick_tiles(std::uint64_t tets) noexcept {
+    const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 8, 32);
+    return {0, {lookups, 2 * lookups + 32, lookups + 8}, std::max<std::size_t>(lookups, 16), true};
+}
 
 FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
                    std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
@@ -180,16 +202,8 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
         pool.cells.add(cells_met(sides_of(window).w));
-        pool.points.reserve(pool.points.count + std::size_t{points.count});
-        const auto append = [&](const auto& from, auto& to) {
-            std::copy_n(from.begin(), points.count, to.begin() + pool.points.count);
-        };
-        append(points.x, pool.points.x);
-        append(points.y, pool.points.y);
-        append(points.z, pool.points.z);
         for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
-        append(points.id, pool.points.id);
-        pool.points.count += points.count;
+        append(points, pool.points);
         const auto look = [&](std::uint32_t b, Box where) {
             fast::intersect(where, window);
             boxes.for_tiles(b, where, [&](Box box) {
@@ -213,7 +227,7 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         for (const Reach& r : own) look(r.b, r.region);
     }
     for (Pool& pool : pools_) {
-        pool.profile.count_points(pool.points);
+        pool.profile.count_points(pool.points, Occupied::not_counted);
         pool.smallest_cell /= pool.windows;
     }
 }

@@ -47,6 +47,36 @@ double crossing(const CostFunction& cost, double limit, double inside, double ou
 
 } // namespace
 
+CostMinimum golden_section(const CostFunction& cost, const CellSizeRange& range, double tolerance) {
+    const double golden = (std::sqrt(5.0) - 1) / 2;
+    CostMinimum best{range.min, std::numeric_limits<double>::infinity()};
+    const auto consider = [&](double logarithm) {
+        const double cell_size = std::exp(logarithm), c = finite_cost(cost, cell_size);
+        if (c < best.cost) best = {cell_size, c};
+        return c;
+    };
+    double a = std::log(range.min), b = std::log(range.max);
+    double left = b - golden * (b - a), right = a + golden * (b - a);
+    double cost_left = consider(left), cost_right = consider(right);
+    // Nearer to a minimum than the root of the precision, a function is flat as computed.
+    while (b - a > std::max(tolerance, 1e-8)) {
+        if (cost_left <= cost_right) {
+            b = right;
+            right = left;
+            cost_right = cost_left;
+            left = b - golden * (b - a);
+            cost_left = consider(left);
+        } else {
+            a = left;
+            left = right;
+            cost_left = cost_right;
+            right = a + golden * (b - a);
+            cost_right = consider(right);
+        }
+    }
+    return best;
+}
+
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance) {
     const double low = std::log(range.min), high = std::log(range.max);
     const int scan_count = static_cast<int>(
@@ -57,38 +87,16 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, doubl
                                      : std::exp(low + (high - low) * i / (scan_count - 1));
     };
     CostMinimum best{range.min, std::numeric_limits<double>::infinity()};
-    const auto consider = [&](double cell_size) {
-        const double c = finite_cost(cost, cell_size);
-        if (c < best.cost) best = {cell_size, c};
-        return c;
-    };
     int place = 0;
     for (int i = 0; i < scan_count; ++i) {
-        const double before = best.cost;
-        if (consider(at(i)) < before) place = i;
+        const double c = finite_cost(cost, at(i));
+        if (!(c < best.cost)) continue;
+        best = {at(i), c};
+        place = i;
     }
-    const double golden = (std::sqrt(5.0) - 1) / 2;
-    double a = std::log(at(place > 0 ? place - 1 : 0));
-    double b = std::log(at(place < scan_count - 1 ? place + 1 : scan_count - 1));
-    double left = b - golden * (b - a), right = a + golden * (b - a);
-    double cost_left = consider(std::exp(left)), cost_right = consider(std::exp(right));
-    // Nearer to a minimum than the root of the precision, a function is flat as computed.
-    while (b - a > std::max(tolerance, 1e-8)) {
-        if (cost_left <= cost_right) {
-            b = right;
-            right = left;
-            cost_right = cost_left;
-            left = b - golden * (b - a);
-            cost_left = consider(std::exp(left));
-        } else {
-            a = left;
-            left = right;
-            cost_left = cost_right;
-            right = a + golden * (b - a);
-            cost_right = consider(std::exp(right));
-        }
-    }
-    return best;
+    const CostMinimum found = golden_section(
+        cost, {at(place > 0 ? place - 1 : 0), at(std::min(place + 1, scan_count - 1))}, tolerance);
+    return found.cost < best.cost ? found : best;
 }
 
 Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,

@@ -25,6 +25,9 @@ struct CostMinimum {
 // the scan can be missed. The place is found to within this part of it.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance = 1e-8);
 
+// The golden-section search alone: for a function with one minimum in the range, at a place inside it.
+CostMinimum golden_section(const CostFunction& cost, const CellSizeRange& range, double tolerance);
+
 // The interval around the minimum where the cost is at most `limit`, as far as the range goes.
 Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
                  const CellSizeRange& range);

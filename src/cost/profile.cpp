@@ -29,7 +29,7 @@ std::uint64_t next_random(std::uint64_t& state) {
 
 // floor(random * below), without the bias mattering.
 std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
-    return static_cast<std::uint64_t>(std::ldexp(static_cast<double>(next_random(state) >> 11), -53) *
+    return static_cast<std::uint64_t>(static_cast<double>(next_random(state) >> 11) * 0x1p-53 *
                                       static_cast<double>(below));
 }
 
@@ -78,7 +78,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
         return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
     };
     const std::size_t rows_y = hi[1] - lo[1] + 1, rows = rows_y * (hi[2] - lo[2] + 1);
-    const std::size_t row_stride = (rows + most_rows - 1) / most_rows;
+    const std::size_t most = std::min(most_rows, in.most_near), row_stride = (rows + most - 1) / most;
     const auto row_of = [&](std::size_t r) {
         const std::size_t y = lo[1] + r % rows_y, z = lo[2] + r / rows_y;
         return (z * lattice.cells[1] + y) * lattice.cells[0];
@@ -112,18 +112,21 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
 
 // ---- sums -----------------------------------------------------------------------------------------
 
-std::size_t PointsMet::class_of(double distance) const noexcept {
-    const double ratio = distance * inverse_least_;
+// Octave and sixteenth are the bits above the rest of the mantissa: even within an octave, not in the
+// logarithm, which does not matter.
+constexpr int rest_bits = 48;
+
+std::size_t PointsMet::class_of(double ratio) noexcept {
     if (!(ratio >= 1)) return 0;
-    // Octave and sixteenth are the bits above the rest of the mantissa: even within an octave, not in the
-    // logarithm, which does not matter.
-    const std::uint64_t c = (std::bit_cast<std::uint64_t>(ratio) >> 48) - (std::uint64_t{1023} << 4) + 1;
+    const std::uint64_t c =
+        (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) - (std::uint64_t{1023} << (52 - rest_bits)) + 1;
     return c < classes ? static_cast<std::size_t>(c) : classes;
 }
 
-void PointsMet::add(const double (&e)[3], double weight) noexcept {
-    const std::size_t c = class_of(std::max({e[0], e[1], e[2]}));
+void PointsMet::add(const double (&e)[3], double weight) {
+    const std::size_t c = class_of(std::max({e[0], e[1], e[2]}) * inverse_least_);
     if (c == classes) return;
+    if (c >= sums_.size()) sums_.resize(c + 1);
     Moments& m = sums_[c];
     m.sum[0] += weight;
     m.sum[1] -= weight * (e[0] + e[1] + e[2]);
@@ -134,24 +137,25 @@ void PointsMet::add(const double (&e)[3], double weight) noexcept {
 // Of points about as far away as the cell size, next to none are met; their class comes in little by little,
 // so that the sum is continuous.
 double PointsMet::at(double cell_size) const noexcept {
-    const std::size_t c = class_of(cell_size);
+    const double ratio = cell_size * inverse_least_;
+    const std::size_t c = class_of(ratio);
     if (c == 0) return sums_[0].sum[0];
-    if (c >= classes) return sums_[classes - 1].at(cell_size);
-    const double ratio = cell_size * inverse_least_, octave = std::exp2(std::floor(std::log2(ratio)));
-    const double place = (ratio / octave - 1) * steps;
-    const double part = place - std::floor(place), below = sums_[c - 1].at(cell_size);
+    if (c >= sums_.size()) return sums_.back().at(cell_size);
+    constexpr std::uint64_t rest = std::uint64_t{1} << rest_bits;
+    const double part = static_cast<double>(std::bit_cast<std::uint64_t>(ratio) & (rest - 1)) / double{rest};
+    const double below = sums_[c - 1].at(cell_size);
     return below + part * (sums_[c].at(cell_size) - below);
 }
 
 void PointsMet::finish() noexcept {
-    for (std::size_t c = 1; c < classes; ++c) sums_[c].add(sums_[c - 1]);
+    for (std::size_t c = 1; c < sums_.size(); ++c) sums_[c].add(sums_[c - 1]);
 }
 
 // ---- lookups --------------------------------------------------------------------------------------
 
 SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std::pmr::memory_resource* memory)
-    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e)), tested(std::ldexp(1.0, e)),
-      sample(memory) {
+    : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e), memory),
+      tested(std::ldexp(1.0, e), memory), sample(memory) {
     sample.reserve(most_samples);
 }
 
@@ -177,6 +181,7 @@ void Profile::add(const Lookup& lookup, double weight) {
     const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
                          lookup.hi[2] - lookup.lo[2]};
     c.count += weight;
+    if (lookup.jumps) c.jumped += weight;
     c.added += 1;
     c.cells.add(cells_met(w), weight);
     c.rows.add(rows_met(w), weight);
@@ -188,7 +193,7 @@ void Profile::add(const Lookup& lookup, double weight) {
     if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
-void Profile::count_points(const fast::Points& points) {
+void Profile::count_points(const fast::Points& points, Occupied occupied) {
     const double lookups = count();
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
@@ -222,6 +227,7 @@ void Profile::count_points(const fast::Points& points) {
                                           .add(d.along, each * w);
                                   });
             }
+            if (occupied == Occupied::not_counted) continue;
             count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
         }
     }
@@ -242,7 +248,7 @@ void Profile::count_crowds(const SizeClass& c, std::size_t wanted, double near, 
     for (std::size_t i = 0; i < size; ++i) {
         Lookup corner = c.sample[i];
         for (int a = 0; a < 3; ++a) corner.hi[a] = corner.lo[a];
-        PointsMet met(std::ldexp(1.0, c.exponent));
+        PointsMet met(std::ldexp(1.0, c.exponent), classes_.get_allocator().resource());
         for_points_around(corner, near, in, random_,
                           [&](std::uint32_t, const Distances& d, double w) { met.add(d.along, w); });
         met.finish();
@@ -285,15 +291,6 @@ double Profile::tested(double cell_size) const noexcept {
 double Profile::candidates() const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.tested.inside();
-    return sum;
-}
-
-double Profile::found(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) {
-        const double cells = c.cells.at(cell_size), read = c.passed.at(cell_size) + c.tested.at(cell_size);
-        sum += cells * -std::expm1(-read / cells);
-    }
     return sum;
 }
 

@@ -42,9 +42,10 @@ public:
     // Sums of points by the largest of their distances, in classes of a sixteenth of an octave from `scale` /
     // 256 on, where `scale` is a length of the size of the boxes; points further away than 4096 times that do
     // not count.
-    explicit PointsMet(double scale) noexcept : inverse_least_(256 / scale) {}
+    PointsMet(double scale, std::pmr::memory_resource* memory)
+        : inverse_least_(256 / scale), sums_(1, memory) {}
 
-    void add(const double (&distance)[3], double weight) noexcept;
+    void add(const double (&distance)[3], double weight);
     // Once, after the last add(): makes of each class the sum of all up to it.
     void finish() noexcept;
 
@@ -54,10 +55,10 @@ public:
 private:
     static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
 
-    std::size_t class_of(double distance) const noexcept;
+    static std::size_t class_of(double ratio) noexcept; // of a distance to the least
 
     double inverse_least_;
-    std::array<Moments, classes> sums_{};
+    std::pmr::vector<Moments> sums_; // of the first class and all up to the last with any
 };
 
 // Something that is looked up in the lattice: a box, the points that it looks at there, and those of them
@@ -67,6 +68,7 @@ struct Lookup {
     std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
     bool may_meet = true; // points that it tests may be near it: such lookups are sampled for themselves
+    bool jumps = false;   // it is away from the one before, so that what it meets was not looked at just now
 };
 
 // Lookups whose longest side is at least 2^exponent and less than twice that, and that may meet something, or
@@ -77,6 +79,7 @@ struct SizeClass {
     int exponent;
     bool may_meet;
     double count = 0;        // of lookups
+    double jumped = 0;       // of them, those that jump
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
@@ -89,6 +92,9 @@ struct SampleSizes {
     std::size_t lookups, near_points, far_points;
 };
 
+// Whether it is told how many cells have a point in them, which takes a look of its own.
+enum class Occupied : bool { not_counted, counted };
+
 class Profile {
 public:
     Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory);
@@ -98,7 +104,7 @@ public:
     void add(const Lookup& lookup, double weight = 1);
     // Once, when all are there: the points around the samples. `points` are those of the scene, their ids
     // what the lookups mean by an index; all are finite.
-    void count_points(const fast::Points& points);
+    void count_points(const fast::Points& points, Occupied occupied);
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept;
@@ -107,7 +113,6 @@ public:
     double read(double cell_size) const noexcept;
     double tested(double cell_size) const noexcept;
     double candidates() const noexcept;               // tested points that are in the boxes themselves
-    double found(double cell_size) const noexcept;    // of the cells: those with a point in them, about
     double occupied(double cell_size) const noexcept; // cells with a point in them, in all the world, about
     // Sides of lookups that have any, to within a factor of two; false: none has.
     bool sides(double& smallest, double& largest) const noexcept;

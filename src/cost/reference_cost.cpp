@@ -35,6 +35,14 @@ struct Corner {
     double c[3];
 };
 
+// A second-level cache, less what passes through it: positions, boxes, tetrahedra.
+constexpr double cache_bytes = 512 << 10;
+// What a visit beyond it costs more, and what a cell with vertices costs more than an empty one, in visits;
+// and what fetching a vertex costs beside reading it, in readings. Fitted, as the weights are.
+constexpr double far_visit = 0.8, open_cell = 1.6, fetch = 0.9;
+// Of the engine's tables: a bucket's head, an occupied cell, a particle.
+constexpr double bucket_bytes = 4, cell_bytes = 24, particle_bytes = 16;
+
 // A flat one holds nothing, and the engine gives it no box.
 bool has_volume(const std::array<Corner, 4>& p) {
     double e[3][3];
@@ -46,13 +54,29 @@ bool has_volume(const std::array<Corner, 4>& p) {
            0;
 }
 
+// From the box of the tetrahedron before.
+bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
+    if (tet == 0) return true;
+    bool below[3] = {true, true, true}, above[3] = {true, true, true};
+    for (const std::uint32_t v : body.tets[tet - 1].v) {
+        const Vec3f p = body.positions[v];
+        const double x[3] = {p.x, p.y, p.z};
+        for (int a = 0; a < 3; ++a) {
+            below[a] = below[a] && x[a] < box.lo[a];
+            above[a] = above[a] && x[a] > box.hi[a];
+        }
+    }
+    return below[0] || below[1] || below[2] || above[0] || above[1] || above[2];
+}
+
 } // namespace
 
 Effort quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
     return {std::clamp<std::size_t>(t / 8, 512, 1u << 15),
-            {std::clamp<std::size_t>(t / 256, 64, 256), 256, std::clamp<std::size_t>(t / 64, 64, 256)},
-            64};
+            {std::clamp<std::size_t>(t / 400, 64, 256), 128, std::clamp<std::size_t>(t / 256, 64, 192)},
+            64,
+            true};
 }
 
 ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
@@ -114,6 +138,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
                 lookup.lo[a] = lo;
                 lookup.hi[a] = hi;
             }
+            lookup.jumps = is_apart(body, t, lookup);
             // Also through cells as large as it is itself.
             const double margin = std::max(
                 {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]});
@@ -132,7 +157,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         const fast::Box box = fast::bounds(points);
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
-    profile_.count_points(points);
+    profile_.count_points(points, Occupied::counted);
 }
 
 bool ReferenceCost::range(double& min, double& max) const noexcept {
@@ -171,27 +196,72 @@ double ReferenceCost::occupied(double cell_size) const noexcept {
     return std::min(profile_.occupied(cell_size), vertices_);
 }
 
-// A box that meets more cells than are occupied goes through those instead.
-ReferenceCost::Visits ReferenceCost::visits(const SizeClass& c, double cell_size, double occupied) noexcept {
-    const double cells = c.cells.at(cell_size), scanned = occupied * c.count;
-    return cells > scanned ? Visits{0, scanned} : Visits{cells, 0};
+// Of what is looked at at random, the part beyond the caches.
+double ReferenceCost::share_beyond(double cell_size, double occupied) const noexcept {
+    const double bytes =
+        buckets(cell_size) * bucket_bytes + occupied * cell_bytes + vertices_ * particle_bytes;
+    return std::max(1 - cache_bytes / bytes, 0.0);
+}
+
+double ReferenceCost::fetch_factor(double share_beyond) noexcept { return fetch * (1 + share_beyond); }
+
+// A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex:
+// m of them in a cell leave exp(-m) of the cells empty where they lie at random (Poisson), and fewer where
+// they keep apart, as in a mesh: the square fits lattices and what generators write.
+ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, double occupied) noexcept {
+    Work work;
+    const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
+    work.tested = c.tested.at(cell_size);
+    work.read = passed + work.tested;
+    work.fetched = passed * c.jumped / c.count;
+    if (cells > scanned) {
+        work.scanned = scanned;
+    } else {
+        work.visited = cells;
+        const double m = work.read / cells;
+        work.opened = cells * -std::expm1(-m * (1 + m / 2));
+    }
+    return work;
+}
+
+ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
+    const double occupied_cells = occupied(cell_size);
+    Work sum;
+    for (const SizeClass& c : profile_.classes()) {
+        const Work own = work(c, cell_size, occupied_cells);
+        sum.visited += own.visited;
+        sum.opened += own.opened;
+        sum.scanned += own.scanned;
+        sum.read += own.read;
+        sum.fetched += own.fetched;
+        sum.tested += own.tested;
+    }
+    return sum;
+}
+
+double ReferenceCost::visit_units(double cell_size) const noexcept {
+    const Work w = work(cell_size);
+    return w.visited * (1 + far_visit * share_beyond(cell_size, occupied(cell_size))) + w.opened * open_cell;
+}
+
+double ReferenceCost::read_units(double cell_size) const noexcept {
+    const Work w = work(cell_size);
+    return w.read + w.fetched * fetch_factor(share_beyond(cell_size, occupied(cell_size)));
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
-    const double occupied_cells = occupied(cell_size);
-    Visits cells{0, 0};
-    for (const SizeClass& c : profile_.classes()) {
-        const Visits own = visits(c, cell_size, occupied_cells);
-        cells.visited += own.visited;
-        cells.scanned += own.scanned;
-    }
+    const Work w = work(cell_size);
+    const double beyond = share_beyond(cell_size, occupied(cell_size));
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
-    terms.add("visit a cell", cells.visited, weights_.reference_visit_cell);
-    terms.add("scan an occupied cell", cells.scanned, weights_.reference_scan_cell);
-    terms.add("read a vertex", profile_.read(cell_size), weights_.reference_read_vertex);
-    terms.add("test a box", profile_.tested(cell_size), weights_.reference_test_box);
+    terms.add("visit a cell", w.visited, weights_.reference_visit_cell);
+    terms.add("open a cell's list", w.opened, open_cell * weights_.reference_visit_cell);
+    terms.add("go far for a cell", w.visited * beyond, far_visit * weights_.reference_visit_cell);
+    terms.add("scan an occupied cell", w.scanned, weights_.reference_scan_cell);
+    terms.add("read a vertex", w.read, weights_.reference_read_vertex);
+    terms.add("fetch a vertex", w.fetched, fetch_factor(beyond) * weights_.reference_read_vertex);
+    terms.add("test a box", w.tested, weights_.reference_test_box);
     terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
     return terms;
@@ -203,11 +273,12 @@ double ReferenceCost::of_grid(double cell_size) const noexcept {
 }
 
 double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
-    const Visits cells = visits(c, cell_size, occupied);
-    const double tested = c.tested.at(cell_size);
-    return cells.visited * weights_.reference_visit_cell + cells.scanned * weights_.reference_scan_cell +
-           (c.passed.at(cell_size) + tested) * weights_.reference_read_vertex +
-           tested * weights_.reference_test_box;
+    const Work w = work(c, cell_size, occupied);
+    const double beyond = share_beyond(cell_size, occupied);
+    return (w.visited * (1 + far_visit * beyond) + w.opened * open_cell) * weights_.reference_visit_cell +
+           w.scanned * weights_.reference_scan_cell +
+           (w.read + w.fetched * fetch_factor(beyond)) * weights_.reference_read_vertex +
+           w.tested * weights_.reference_test_box;
 }
 
 double ReferenceCost::shared() const noexcept {

@@ -3,7 +3,10 @@
 //   T(d) = c_bin n                        classify every vertex
 //        + c_prepare m                    box of every tetrahedron
 //        + c_visit sum over tets of the cells their boxes meet
+//        + c_open  those of them that hold a vertex: a list to go to, and to come back from
+//        + c_far   those visits that find their bucket and cell beyond the caches
 //        + c_read  sum over tets of the vertices in these cells
+//        + c_fetch those of them that are only passed over, and that no tetrahedron just before has read
 //        + c_box   those of them that are another body's, or any where the body collides with itself
 //        + c_tet   those of them that are in the box, corners of the tet itself included: independent of d
 //        + c_scan  occupied cells gone through, for boxes that meet more cells than are occupied
@@ -53,11 +56,21 @@ public:
     double shared() const noexcept;
     double occupied(double cell_size) const noexcept;
 
+    // All that visits cost, in visits of empty cells nearby, and all that reading costs, in readings of
+    // vertices at hand.
+    double visit_units(double cell_size) const noexcept;
+    double read_units(double cell_size) const noexcept;
+
 private:
-    struct Visits {
-        double visited, scanned;
+    // How often each piece is done that depends on the cell size.
+    struct Work {
+        double visited = 0, opened = 0, scanned = 0; // cells
+        double read = 0, fetched = 0, tested = 0;    // vertices
     };
-    static Visits visits(const SizeClass& c, double cell_size, double occupied) noexcept;
+    static Work work(const SizeClass& c, double cell_size, double occupied) noexcept;
+    Work work(double cell_size) const noexcept;
+    static double fetch_factor(double share_beyond) noexcept;
+    double share_beyond(double cell_size, double occupied) const noexcept;
     double buckets(double cell_size) const noexcept;
 
     Profile profile_;

@@ -158,28 +158,6 @@ HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Sca
         QuantiseTets<4>(corners, s);
 }
 
-// For each vertex of a tile the set of tets that have it as a corner.
-HWY_INLINE void ListOwners(const std::uint8_t* HWY_RESTRICT corners, std::uint32_t vertex_count,
-                           std::uint64_t* HWY_RESTRICT own) {
-    const Bytes d;
-    constexpr std::size_t lanes = hn::MaxLanes(Bytes());
-    for (std::size_t j = 0; j < tile_size; j += lanes) {
-        const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
-        const auto c2 = hn::LoadU(d, corners + 2 * tile_size + j),
-                   c3 = hn::LoadU(d, corners + 3 * tile_size + j);
-        for (std::uint32_t v = 0; v < vertex_count; ++v) {
-            const auto local = hn::Set(d, static_cast<std::uint8_t>(v));
-            const auto is_corner = hn::Or(hn::Or(hn::Eq(c0, local), hn::Eq(c1, local)),
-                                          hn::Or(hn::Eq(c2, local), hn::Eq(c3, local)));
-            std::uint64_t part = 0;
-            alignas(8) std::uint8_t bits[8];
-            hn::StoreMaskBits(d, is_corner, bits);
-            std::memcpy(&part, bits, lanes / 8);
-            own[v] = j == 0 ? part : own[v] | part << j;
-        }
-    }
-}
-
 // For each candidate the set of tets whose quantised box it meets, less those that `own` it. Candidates that
 // meet none are dropped; returns how many are left. Nothing branches: what a candidate meets is hard to
 // predict.
@@ -345,18 +323,16 @@ struct TileWork {
 HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_count) {
     QueryScratch& s = w.s;
     const Tile& tile = w.tile;
-    const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
-    const std::uint8_t* corners = w.query.tiles->corners.data() + index * 4 * tile_size;
     if (!w.ready) {
         if (!w.loaded) LoadTile<false>(*w.query.tiles, w.query.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
-        QuantiseTile(corners, w.scales, tile.vertex_count, s);
+        const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
+        QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
         w.constants = MakeConstants(w.box, w.query.rounded);
         w.ready = true;
     }
     if (own_count && !w.stamped) {
         w.stamped = true;
-        ListOwners(corners, tile.vertex_count, s.own);
         s.tag += 1u << 6;
         const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
         for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.query.stamps[vertices[i]] = s.tag | i;
@@ -365,11 +341,12 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
+    const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
     const std::uint32_t* stamps = w.query.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
             const std::uint32_t stamp = stamps[s.candidate_id[i]];
-            return stamp >> 6 == s.tag >> 6 ? s.own[stamp & 63] : 0;
+            return stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
         });
     const std::uint32_t left = TestBoxes(s, own_count, count, left_of_own, tile.all_tets(),
                                          [](std::uint32_t) { return std::uint64_t{0}; });

@@ -65,9 +65,8 @@ struct alignas(64) QueryScratch : TileVertices {
     BarycentricBlock<float> points[most_findings / barycentric_block]; // of findings
     std::uint32_t finding_count = 0;
     // Self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the tile at
-    // hand, which then is a corner of the tets own[local index].
+    // hand.
     std::uint32_t tag = 0;
-    std::uint64_t own[tile_size];
     QueryCounters counters;
 };
 

@@ -61,12 +61,17 @@ private:
         const std::uint32_t t = places_.of_tet[tet] / tile_size, place = places_.of_tet[tet] % tile_size;
         Tile& tile = tiles_.tiles[t];
         std::uint8_t* corners = corners_of(t);
+        std::uint64_t* own = tiles_.own.data() + tile.first_vertex;
         std::uint32_t* tets = tiles_.tets.data() + tile.first_tet;
         const std::uint32_t last = --tile.tet_count;
+        for (std::uint32_t c = 0; c < 4; ++c) own[corners[c * tile_size + place]] &= ~bit(place);
         places_.of_tet[tet] = Places::none;
         if (place != last) {
-            for (std::uint32_t c = 0; c < 4; ++c)
-                corners[c * tile_size + place] = corners[c * tile_size + last];
+            for (std::uint32_t c = 0; c < 4; ++c) {
+                const std::uint8_t local = corners[c * tile_size + last];
+                own[local] = (own[local] & ~bit(last)) | bit(place);
+                corners[c * tile_size + place] = local;
+            }
             tets[place] = tets[last];
             places_.of_tet[tets[place]] = t * tile_size + place;
         }
@@ -83,6 +88,7 @@ private:
         for (std::uint32_t c = 0; c < 4; ++c) {
             const std::uint32_t local = local_index(t, corners.v[c]);
             corners_of(t)[c * tile_size + place] = static_cast<std::uint8_t>(local);
+            tiles_.own[tile.first_vertex + local] |= bit(place);
         }
         for (std::uint32_t i = tile.vertex_count; i % 4; ++i) // the list is padded with its last vertex
             tiles_.vertices[tile.first_vertex + i] =
@@ -141,6 +147,7 @@ private:
         tile.first_vertex = static_cast<std::uint32_t>(tiles_.vertices.size());
         tiles_.tets.resize(tiles_.tets.size() + tile_size);
         tiles_.vertices.resize(tiles_.vertices.size() + tile_size);
+        tiles_.own.resize(tiles_.vertices.size());
         tiles_.corners.resize(tiles_.corners.size() + 4 * tile_size, 0);
         tiles_.tiles.push_back(tile);
         places_.room.push_back({tile_size, tile_size});
@@ -173,6 +180,7 @@ private:
             room.tets = tile_size;
         }
         if (tile.vertex_count + vertices > room.vertices) {
+            (void)move_to_end(tiles_.own, tile.first_vertex, tile.vertex_count);
             tile.first_vertex = move_to_end(tiles_.vertices, tile.first_vertex, tile.vertex_count);
             room.vertices = tile_size;
         }
@@ -185,6 +193,7 @@ private:
         const auto found = std::find(first, last, vertex);
         if (found != last) return static_cast<std::uint32_t>(found - first);
         *last = vertex;
+        tiles_.own[tile.first_vertex + tile.vertex_count] = 0;
         tile.holds_last_vertex |= vertex == body_.vertex_count - 1;
         const std::pmr::vector<std::uint32_t>&blocks = tiles_.block_first, &supers = tiles_.super_first;
         const auto block = static_cast<std::uint32_t>(std::upper_bound(blocks.begin(), blocks.end(), vertex) -

@@ -78,6 +78,7 @@ private:
             stamp_ = 1;
         }
         std::uint32_t list[tile_size];
+        std::uint64_t own[tile_size] = {};
         std::uint8_t corner[4 * tile_size] = {};
         std::uint32_t found = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -91,6 +92,7 @@ private:
                 }
                 const std::uint32_t local = seen_[v] & 63;
                 corner[c * tile_size + i] = static_cast<std::uint8_t>(local);
+                own[local] |= std::uint64_t{1} << i;
             }
         }
         Tile tile{};
@@ -101,7 +103,11 @@ private:
         for (std::uint32_t i = 0; i < found; ++i) tile.holds_last_vertex |= list[i] == vertex_count_ - 1;
         for (std::uint32_t i = 0; i < count; ++i) out_.tets.push_back(items[i].tet);
         out_.vertices.insert(out_.vertices.end(), list, list + found);
-        while (out_.vertices.size() % 4) out_.vertices.push_back(list[found - 1]);
+        out_.own.insert(out_.own.end(), own, own + found);
+        while (out_.vertices.size() % 4) {
+            out_.vertices.push_back(list[found - 1]);
+            out_.own.push_back(own[found - 1]);
+        }
         out_.corners.insert(out_.corners.end(), corner, corner + 4 * tile_size);
         out_.tiles.push_back(tile);
         return true;
@@ -197,6 +203,7 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
         made.corners.reserve(tiles * 4 * tile_size);
         made.tets.reserve(items.size());
         made.vertices.reserve(tiles * 36);
+        made.own.reserve(tiles * 36);
         if (!items.empty())
             Splitter(tets, vertex_count, made).split(items.data(), static_cast<std::uint32_t>(items.size()));
     }
@@ -205,6 +212,7 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
     made.tiles.shrink_to_fit();
     made.corners.shrink_to_fit();
     made.vertices.shrink_to_fit();
+    made.own.shrink_to_fit();
     made.blocks.shrink_to_fit();
     out = std::move(made);
 }

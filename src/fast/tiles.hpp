@@ -20,7 +20,7 @@ inline constexpr std::uint32_t block_size = 8;       // most vertices of a block
 
 struct Tile {
     std::uint32_t first_tet;    // in Tiles::tets
-    std::uint32_t first_vertex; // in Tiles::vertices; a multiple of four
+    std::uint32_t first_vertex; // in Tiles::vertices and Tiles::own; a multiple of four
     std::uint8_t tet_count;     // 1 to 64; 0 where all were switched off
     std::uint8_t vertex_count;  // 1 to 64; the list is padded with its last vertex to a multiple of four
     bool holds_last_vertex;     // of the mesh: 16 bytes from its position on reach past the caller's array
@@ -33,13 +33,14 @@ struct Tile {
 
 struct Tiles {
     explicit Tiles(std::pmr::memory_resource* memory) noexcept
-        : tiles(memory), corners(memory), tets(memory), vertices(memory), block_first(memory),
+        : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_first(memory),
           super_first(memory), blocks(memory) {}
 
     std::pmr::vector<Tile> tiles;
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
     std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
     std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
+    std::pmr::vector<std::uint64_t> own; // for each of `vertices`: the tile's tets that have it as a corner
     // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     std::pmr::vector<std::uint32_t> block_first;

@@ -1,6 +1,7 @@
 // The cost models' counts against those of the engines themselves, in scenes of every kind; and the search
 // for the least cost, alone.
 #include "cost/adaptive.hpp"
+#include "cost/cost_table.hpp"
 #include "cost/fast_cost.hpp"
 #include "cost/levels.hpp"
 #include "cost/minimise.hpp"
@@ -12,9 +13,12 @@
 #include "suite.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory_resource>
+#include <set>
 #include <string>
 
 using namespace vox;
@@ -163,6 +167,107 @@ START_TEST(reference_quick_look) {
 }
 END_TEST
 
+// Of the cells that boxes meet, counted one by one.
+double cells_with_vertices(Scene& scene, double cell_size) {
+    const auto cell_of = [&](float x) { return std::int64_t(std::floor(double(x) / cell_size)); };
+    using At = std::array<std::int64_t, 3>;
+    std::set<At> occupied;
+    for (const Mesh& mesh : scene.meshes())
+        for (const Vec3f& p : mesh.positions) occupied.insert({cell_of(p.x), cell_of(p.y), cell_of(p.z)});
+    double count = 0;
+    for (const Mesh& mesh : scene.meshes())
+        for (const Tet& tet : mesh.tets) {
+            At lo{}, hi{};
+            for (int i = 0; i < 4; ++i) {
+                const Vec3f& p = mesh.positions[tet.v[i]];
+                const At at{cell_of(p.x), cell_of(p.y), cell_of(p.z)};
+                for (std::size_t a = 0; a < 3; ++a) {
+                    lo[a] = i ? std::min(lo[a], at[a]) : at[a];
+                    hi[a] = i ? std::max(hi[a], at[a]) : at[a];
+                }
+            }
+            for (std::int64_t k = lo[2]; k <= hi[2]; ++k)
+                for (std::int64_t j = lo[1]; j <= hi[1]; ++j)
+                    for (std::int64_t i = lo[0]; i <= hi[0]; ++i) count += double(occupied.count({i, j, k}));
+        }
+    return count;
+}
+
+double term(const CostTerms& terms, const std::string& name) {
+    for (const CostTerm& t : terms)
+        if (t.name == name) return t.count;
+    ck_abort_msg("no term %s", name.c_str());
+    return 0;
+}
+
+// How many of the cells have a vertex is not counted in the mean but by a formula, which knows nothing of a
+// fine body that is all in few of the cells.
+START_TEST(reference_opens_lists) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    for (const double size : {0.7, 1.0, 1.5, 2.2}) {
+        const double cell_size = size * named.unit;
+        ck_near(named, size, "cells with vertices", term(cost.terms(cell_size), "open a cell's list"),
+                cells_with_vertices(scene, cell_size), named.unit < 0.5 ? 1 : 0.15);
+    }
+}
+END_TEST
+
+// Vertices are fetched where a tet is not beside the one before: in next to none of a mesh in the order of a
+// lattice, in all of a mesh in no order. Nothing else depends on the order.
+START_TEST(tets_in_no_order_fetch_their_vertices) {
+    Scene scene;
+    scenes[0].fill(scene);
+    scene.prepare();
+    const auto terms = [&] {
+        return ReferenceCost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap)
+            .terms(1.5);
+    };
+    const CostTerms before = terms();
+    Random random{5};
+    for (Mesh& mesh : scene.meshes())
+        for (std::size_t t = mesh.tets.size() - 1; t > 0; --t)
+            std::swap(mesh.tets[t], mesh.tets[random.next() % (t + 1)]);
+    scene.prepare();
+    const CostTerms after = terms();
+    ck_assert_double_lt(term(before, "fetch a vertex"), 0.1 * term(before, "read a vertex"));
+    ck_assert_double_gt(term(after, "fetch a vertex"), 0.9 * term(after, "read a vertex"));
+    ck_assert_double_le(term(after, "fetch a vertex"), term(after, "read a vertex"));
+    ck_assert_double_eq_tol(term(after, "visit a cell"), term(before, "visit a cell"),
+                            1e-6 * term(before, "visit a cell"));
+    ck_assert_double_eq_tol(term(after, "read a vertex"), term(before, "read a vertex"),
+                            0.05 * term(before, "read a vertex"));
+    ck_assert_double_gt(after.cost(), before.cost());
+}
+END_TEST
+
+// All of a small scene is in the cache; of a large one's tables a part that grows with it.
+START_TEST(visits_beyond_the_caches) {
+    double before = 0;
+    for (const double tets : {2e4, 3e5, 1e6}) {
+        Scene scene;
+        scene.add(jittered_ball(tets, 1, 0.3, 0.1, 0.2, 1));
+        scene.prepare();
+        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, quick(std::uint64_t(tets)),
+                                 shipped_weights(), heap);
+        const CostTerms terms = cost.terms(1.8);
+        const double share = term(terms, "go far for a cell") / term(terms, "visit a cell");
+        if (tets < 1e5) ck_assert_double_eq(share, 0);
+        if (tets > 1e5) ck_assert_double_gt(share, before + 0.1);
+        ck_assert_double_lt(share, 1);
+        before = share;
+        // The parts that levels are chosen by add up to the whole.
+        double parts = cost.of_grid(1.8) + cost.shared();
+        for (const SizeClass& c : cost.profile().classes())
+            parts += cost.of_class(c, 1.8, cost.occupied(1.8));
+        ck_assert_double_eq_tol(parts, terms.cost(), 1e-9 * parts);
+    }
+}
+END_TEST
+
 // ---- the fast engine ------------------------------------------------------------------------------
 
 // How many vertices lie in few cells is a matter of luck, since a window's lattice begins at its corner:
@@ -199,6 +304,29 @@ START_TEST(fast_counts) {
         ck_near(named, size, "cells", predicted.visited_cells, cells, 0.1);
         ck_near(named, size, "vertices read", predicted.read, read, 0.1);
     }
+}
+END_TEST
+
+// As for the reference engine. Some scenes have next to no tiles to look at; the thorough model says what is
+// lost.
+START_TEST(fast_quick_look) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    std::vector<const fast::Tiles*> tiles;
+    for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
+    std::uint64_t tets = 0;
+    for (const Body& body : scene.bodies()) tets += body.tets.size();
+    const FastCost all(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
+    const FastCost some(scene.bodies(), tiles, {}, quick_tiles(tets), shipped_weights(), heap);
+    CellSizeRange range{};
+    ck_assert(all.range(range.min, range.max));
+    const CostMinimum best = minimise([&](double d) { return all(d); }, range);
+    const CostFunction quick_cost = [&](double d) { return some(d); };
+    const CostMinimum found = CostTable(quick_cost, range).minimum();
+    ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
+                  named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
 END_TEST
 
@@ -390,6 +518,31 @@ START_TEST(minimum_of_a_power_law) {
 }
 END_TEST
 
+// A table of two costs an octave tells the others, and where the least is, with few calls.
+START_TEST(table_of_a_cost) {
+    int calls = 0;
+    const CostFunction cost = [&](double d) {
+        ++calls;
+        return 3 / (d * d * d) + 5 / d + 2 + 0.5 * d * d * d;
+    };
+    const CellSizeRange range{0.05, 40};
+    const CostMinimum best = minimise(cost, range);
+    calls = 0;
+    CostTable table(cost, range);
+    const CostMinimum found = table.minimum();
+    ck_assert_double_le(found.cost, 1.0005 * best.cost);
+    ck_assert_double_ge(found.cost, best.cost * (1 - 1e-12));
+    for (double d = 0.02; d < 100; d *= 1.01) (void)table(d);
+    ck_assert_int_le(calls, 2 + 2 * 15);
+    for (double d = 0.02; d < 100; d *= 1.01) ck_assert_double_eq_tol(table(d), cost(d), 0.01 * cost(d));
+    ck_assert_double_eq(table(1e-6), cost(1e-6)); // beyond the table
+    ck_assert_double_eq(table(1e9), cost(1e9));
+    ck_assert_double_eq(CostTable(cost, {3, 3}).minimum().cell_size, 3);
+    const CostFunction nothing = [](double) { return 0.0; };
+    ck_assert_double_eq(CostTable(nothing, range)(1), 0);
+}
+END_TEST
+
 START_TEST(minimum_at_an_end_and_where_nothing_is_finite) {
     const CellSizeRange range{0.5, 8};
     ck_assert_double_eq(minimise([](double d) { return d; }, range).cell_size, 0.5);
@@ -413,12 +566,17 @@ int main() {
     const int scene_count = sizeof scenes / sizeof scenes[0];
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
+    tcase_add_loop_test(tests, reference_opens_lists, 0, scene_count);
+    tcase_add_test(tests, tets_in_no_order_fetch_their_vertices);
+    tcase_add_test(tests, visits_beyond_the_caches);
     tcase_add_loop_test(tests, fast_counts, 0, scene_count);
+    tcase_add_loop_test(tests, fast_quick_look, 0, scene_count);
     tcase_add_test(tests, fast_bodies_at_rest);
     tcase_add_test(tests, levels_where_they_pay);
     tcase_add_test(tests, levels_are_one_engine);
     tcase_add_test(tests, adaptive_follows);
     tcase_add_test(tests, minimum_of_a_power_law);
+    tcase_add_test(tests, table_of_a_cost);
     tcase_add_test(tests, minimum_at_an_end_and_where_nothing_is_finite);
     suite_add_tcase(suite, tests);
     return run_suite(suite);

@@ -266,6 +266,7 @@ void check_tiles(const Edited& e, const fast::Tiles& tiles, const fast::Places& 
             ck_assert(tile.tet_count <= fast::tile_size && tile.vertex_count <= fast::tile_size);
             ck_assert_uint_eq(tile.first_vertex % 4, 0);
             const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+            std::vector<std::uint64_t> own(tile.vertex_count);
             for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
                 const std::uint32_t tet = tiles.tets[tile.first_tet + i];
                 ck_assert_uint_eq(places.of_tet[tet], t * fast::tile_size + i);
@@ -275,9 +276,11 @@ void check_tiles(const Edited& e, const fast::Tiles& tiles, const fast::Places& 
                     const std::uint8_t local = tiles.corners[(t * 4 + c) * fast::tile_size + i];
                     ck_assert_uint_lt(local, tile.vertex_count);
                     ck_assert_uint_eq(vertices[local], e.mesh.tets[tet].v[c]);
+                    own[local] |= std::uint64_t{1} << i;
                 }
             }
             for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
+                ck_assert_uint_eq(tiles.own[tile.first_vertex + i], own[i]);
                 ck_assert(tile.holds_last_vertex || vertices[i] != vertex_count(e.mesh) - 1);
                 ck_assert(taken.insert({1, tile.first_vertex + i}).second);
                 const std::span<const std::uint32_t> blocks = tiles.blocks[s];

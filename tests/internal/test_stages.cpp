@@ -59,11 +59,13 @@ void check_tiles(const Mesh& mesh, const char* name) {
         next_tet += tile.tet_count;
         ck_assert_uint_eq(tile.first_vertex % 4, 0);
         const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+        const std::uint64_t* own = tiles.own.data() + tile.first_vertex;
         const std::uint32_t count = tile.vertex_count;
         const std::set<std::uint32_t> different(vertices, vertices + count);
         ck_assert_msg(different.size() == count, "%s: tile %zu lists a vertex twice", name, t);
         ck_assert_int_eq(tile.holds_last_vertex, different.count(vertex_count(mesh) - 1) != 0);
         for (std::uint32_t i = count; i % 4; ++i) ck_assert_uint_eq(vertices[i], vertices[count - 1]);
+        std::vector<std::uint64_t> expected_own(count);
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t tet = tiles.tets[tile.first_tet + i];
             ck_assert_uint_lt(tet, mesh.tets.size());
@@ -73,8 +75,11 @@ void check_tiles(const Mesh& mesh, const char* name) {
                 ck_assert_uint_lt(local, count);
                 ck_assert_msg(vertices[local] == mesh.tets[tet].v[c], "%s: corner %u of tet %u is %u", name,
                               c, tet, vertices[local]);
+                expected_own[local] |= std::uint64_t{1} << i;
             }
         }
+        ck_assert_msg(std::equal(expected_own.begin(), expected_own.end(), own), "%s: owners in tile %zu",
+                      name, t);
     }
     for (std::size_t t = 0; t < seen.size(); ++t)
         ck_assert_msg(seen[t] == 1, "%s: tet %zu is in %d tiles", name, t, seen[t]);
