@@ -329,7 +329,7 @@ void vox_grid::step() {
         drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
-        if (carry) counters.carried_contacts = carry_contacts();
+        if (carry && counters.moved_meshes < bodies_.size()) counters.carried_contacts = carry_contacts();
         // Where these are all there were and all there are, they and what follows from them stay as they are.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();

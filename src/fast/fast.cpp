@@ -72,7 +72,10 @@ void FastMesh::prepare(const Body& body) {
     std::pmr::memory_resource* memory = surface.triangles.get_allocator().resource();
     FastMesh made(memory);
     fast::make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
-    if (body.self_collision) {
+    if (!body.self_collision) {
+        made.own.clear();
+        made.own.shrink_to_fit();
+    } else {
         fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
         if (!fast::surface_pays(made.surface.triangles.size(), made.tets.size()))
             made.surface = fast::Surface(memory);

@@ -1,7 +1,7 @@
-// The surface is the boundary of the chain of all tets: a facet is in it when tets on one side outnumber those
-// on the other, and faces away from them. It is there once, however many more they are: across it the winding
-// number falls, by how much does not matter to winding.cpp. So a facet is looked at again when a tet that has
-// it changes, and counted over the tets around it.
+// The surface is the boundary of the chain of all tets: a facet is in it when tets on one side outnumber
+// those on the other, and faces away from them. It is there once, however many more they are: across it the
+// winding number falls, by how much does not matter to winding.cpp. So a facet is looked at again when a tet
+// that has it changes, and counted over the tets around it.
 #include "repair.hpp"
 
 #include <algorithm>
@@ -61,15 +61,15 @@ private:
         const std::uint32_t t = places_.of_tet[tet] / tile_size, place = places_.of_tet[tet] % tile_size;
         Tile& tile = tiles_.tiles[t];
         std::uint8_t* corners = corners_of(t);
-        std::uint64_t* own = tiles_.own.data() + tile.first_vertex;
+        std::uint64_t* own = keeps_own_ ? tiles_.own.data() + tile.first_vertex : nullptr;
         std::uint32_t* tets = tiles_.tets.data() + tile.first_tet;
         const std::uint32_t last = --tile.tet_count;
-        for (std::uint32_t c = 0; c < 4; ++c) own[corners[c * tile_size + place]] &= ~bit(place);
+        for (std::uint32_t c = 0; own && c < 4; ++c) own[corners[c * tile_size + place]] &= ~bit(place);
         places_.of_tet[tet] = Places::none;
         if (place != last) {
             for (std::uint32_t c = 0; c < 4; ++c) {
                 const std::uint8_t local = corners[c * tile_size + last];
-                own[local] = (own[local] & ~bit(last)) | bit(place);
+                if (own) own[local] = (own[local] & ~bit(last)) | bit(place);
                 corners[c * tile_size + place] = local;
             }
             tets[place] = tets[last];
@@ -88,7 +88,7 @@ private:
         for (std::uint32_t c = 0; c < 4; ++c) {
             const std::uint32_t local = local_index(t, corners.v[c]);
             corners_of(t)[c * tile_size + place] = static_cast<std::uint8_t>(local);
-            tiles_.own[tile.first_vertex + local] |= bit(place);
+            if (keeps_own_) tiles_.own[tile.first_vertex + local] |= bit(place);
         }
         for (std::uint32_t i = tile.vertex_count; i % 4; ++i) // the list is padded with its last vertex
             tiles_.vertices[tile.first_vertex + i] =
@@ -147,7 +147,7 @@ private:
         tile.first_vertex = static_cast<std::uint32_t>(tiles_.vertices.size());
         tiles_.tets.resize(tiles_.tets.size() + tile_size);
         tiles_.vertices.resize(tiles_.vertices.size() + tile_size);
-        tiles_.own.resize(tiles_.vertices.size());
+        if (keeps_own_) tiles_.own.resize(tiles_.vertices.size());
         tiles_.corners.resize(tiles_.corners.size() + 4 * tile_size, 0);
         tiles_.tiles.push_back(tile);
         places_.room.push_back({tile_size, tile_size});
@@ -180,7 +180,7 @@ private:
             room.tets = tile_size;
         }
         if (tile.vertex_count + vertices > room.vertices) {
-            (void)move_to_end(tiles_.own, tile.first_vertex, tile.vertex_count);
+            if (keeps_own_) (void)move_to_end(tiles_.own, tile.first_vertex, tile.vertex_count);
             tile.first_vertex = move_to_end(tiles_.vertices, tile.first_vertex, tile.vertex_count);
             room.vertices = tile_size;
         }
@@ -193,7 +193,7 @@ private:
         const auto found = std::find(first, last, vertex);
         if (found != last) return static_cast<std::uint32_t>(found - first);
         *last = vertex;
-        tiles_.own[tile.first_vertex + tile.vertex_count] = 0;
+        if (keeps_own_) tiles_.own[tile.first_vertex + tile.vertex_count] = 0;
         tile.holds_last_vertex |= vertex == body_.vertex_count - 1;
         const std::pmr::vector<std::uint32_t>&blocks = tiles_.block_first, &supers = tiles_.super_first;
         const auto block = static_cast<std::uint32_t>(std::upper_bound(blocks.begin(), blocks.end(), vertex) -
@@ -264,6 +264,7 @@ private:
     Places& places_;
     const Body& body_;
     const Lists& tets_of_;
+    const bool keeps_own_ = body_.self_collision || !tiles_.own.empty();
 };
 
 } // namespace

@@ -40,7 +40,9 @@ struct Tiles {
     std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
     std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
     std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
-    std::pmr::vector<std::uint64_t> own; // for each of `vertices`: the tile's tets that have it as a corner
+    // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
+    // self-collision.
+    std::pmr::vector<std::uint64_t> own;
     // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     std::pmr::vector<std::uint32_t> block_first;
