@@ -40,7 +40,7 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of one query at a time (one worker). About 50 KiB.
+// Buffers of one query at a time (one worker). About 40 KiB.
 struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 512; // handled at a time
     static constexpr std::uint32_t most_pairs = 2048;

@@ -142,7 +142,29 @@ struct Table {
     }
 };
 
+#if HWY_TARGET == HWY_AVX2
+// A table of 48 floats: six permutations of eight, and choices among them, take half the time of a gather.
+struct SmallTable {
+    const float* values;
+    explicit SmallTable(const float* from) : values(from) {}
+    HWY_INLINE __m256 Part(int part, __m256i index) const { // permutations look at the low three bits alone
+        return _mm256_permutevar8x32_ps(_mm256_load_ps(values + 8 * part), index);
+    }
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
+        const __m256i i = index.raw; // choices look at the top bit
+        const __m256 bit3 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 28));
+        const __m256 bit4 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 27));
+        const __m256 bit5 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 26));
+        const __m256 quarter0 = _mm256_blendv_ps(Part(0, i), Part(1, i), bit3);
+        const __m256 quarter1 = _mm256_blendv_ps(Part(2, i), Part(3, i), bit3);
+        const __m256 quarter2 = _mm256_blendv_ps(Part(4, i), Part(5, i), bit3);
+        const __m256 half0 = _mm256_blendv_ps(quarter0, quarter1, bit4);
+        return hn::Vec<Floats>{_mm256_blendv_ps(half0, quarter2, bit5)};
+    }
+};
+#else
 using SmallTable = Table; // no faster if it is smaller
+#endif
 
 struct WordTable {
     const std::uint32_t* values;
