@@ -80,6 +80,8 @@ def goals(scenes):
         print("The figures to reach are for a million tetrahedra; this run has no such scene.\n")
         return
     table(["scene", "tets", "× as fast as the reference engine", "× as fast as the best peer", "× a floor"], rows)
+    print("What is missed, why, and what was tried: "
+          "[bench/README.md](../bench/README.md#what-misses-its-figure-and-why).\n")
 
 
 def memory_and_insertion(scenes):
