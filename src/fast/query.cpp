@@ -341,7 +341,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
-    const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
+    const std::uint64_t* own = own_count ? w.query.tiles->own.data() + tile.first_vertex : nullptr;
     const std::uint32_t* stamps = w.query.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
