@@ -326,6 +326,62 @@ START_TEST(growing_from_nothing) {
 }
 END_TEST
 
+/* A new vertex close to a facet splits a tetrahedron inside a compact body; a small step later it is beyond
+ * the facet. All others are far from turning over, which the engine may know; of a sliver that came with a
+ * cut it knows nothing. */
+START_TEST(sliver_that_came_turns_over) {
+    const uint32_t n = 20, m = n + 1, cube = (10 * n + 10) * n + 10;
+    body box = make_box(n, 1, 0, 0, 0);
+    const uint32_t *middle = box.tets + 4 * (5 * cube + 4), corner_tet = 5 * cube, p = box.vertex_count;
+    float* positions = (float*)malloc(3 * sizeof(float) * (p + 1));
+    const uint32_t a = middle[0], b = middle[1], c = middle[2], d = middle[3];
+    const uint32_t split[4][4] = {{a, b, c, p}, {a, b, p, d}, {a, p, c, d}, {p, b, c, d}};
+    const uint32_t replaced = 5 * cube + 4;
+    uint32_t first = 0;
+    ck_assert_uint_eq(a + b + c + d,
+                      ((10 * m + 10) * m + 10) * 4 + 2 + 2 * m + 2 * m * m); /* 1, 2, 4, 7 of 8 */
+    vox_mesh_desc desc = body_desc(&box);
+    vox_contact_view view;
+    vox_mesh mesh = 0;
+    vox_grid* grid = make_grid();
+    memcpy(positions, box.positions, 3 * sizeof(float) * p);
+    for (int i = 0; i < 3; ++i) {
+        const float facet = (positions[3 * a + i] + positions[3 * b + i] + positions[3 * c + i]) / 3;
+        positions[3 * p + i] = facet + 0.01f * (positions[3 * d + i] - facet);
+    }
+    desc.positions = positions;
+    desc.vertex_count = p + 1;
+    desc.flags = VOX_MESH_SELF_COLLISION;
+    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    for (int i = 0; i < 3; ++i) {
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_eq(view.count, 1);
+        ck_assert_uint_eq(view.data[0].tet, replaced);
+    }
+    ck_ok(vox_mesh_replace_tets(grid, mesh, &replaced, 1, split[0]));
+    ck_ok(vox_mesh_append_tets(grid, mesh, split[1], 3, &first));
+    for (int i = 0; i < 2; ++i) {
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_eq(view.count, 0);
+    }
+
+    for (int i = 0; i < 3; ++i) {
+        const float facet = (positions[3 * a + i] + positions[3 * b + i] + positions[3 * c + i]) / 3;
+        positions[3 * p + i] = facet - 0.01f * (positions[3 * d + i] - facet);
+    }
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_contacts(grid, &view));
+    ck_assert_uint_eq(view.count, 1);
+    ck_assert_uint_eq(view.data[0].vertex, p);
+    ck_assert_uint_eq(view.data[0].tet, corner_tet);
+    vox_grid_destroy(grid);
+    free(positions);
+    free_body(&box);
+}
+END_TEST
+
 START_TEST(positions_of_its_own) {
     /* An empty mesh that copies positions: the array given with the first vertices is not read any more. */
     vox_mesh_desc desc = vox_default_mesh_desc(), solid = array_desc(unit_tet_positions, 4, unit_tet, 1);
@@ -464,6 +520,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, off_and_on);
     tcase_add_test(tests, topology_keeps_what_is_not_topology);
     tcase_add_test(tests, growing_from_nothing);
+    tcase_add_test(tests, sliver_that_came_turns_over);
     tcase_add_test(tests, positions_of_its_own);
     tcase_add_test(tests, queries_and_suggestions_see_it);
     tcase_add_test(tests, cell_size_follows_a_cut);
