@@ -98,7 +98,8 @@ bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, cons
         turning.slack.resize(super_tile_count());
         turning.boxes.resize(super_tile_count());
         for (const TetChange& change : changes)
-            if (change.is_on) turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
+            if (places.of_tet[change.tet] != fast::Places::none)
+                turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
     }
     return true;
 }
