@@ -176,7 +176,8 @@ void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CA
     count = 0;
     for (const CostTerm& term : terms) {
         vox_cost_share& share = out[count++];
-        std::snprintf(share.name, sizeof share.name, "%s", term.name);
+        const std::size_t length = std::min(std::strlen(term.name), sizeof share.name - 1);
+        *std::copy_n(term.name, length, share.name) = '\0';
         share.count = term.count;
         share.cost = term.count * term.weight;
         share.share = cost > 0 ? share.cost / cost : 0;
@@ -197,11 +198,17 @@ void explain(vox_suggestion& result, const vox_suggest_desc& desc, const Geometr
                          cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
                          cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
     write_shares(terms, result.terms, result.term_count);
+}
 
-    // From an eighth of the best cell size to eight times it.
+constexpr double curve_octaves = 6; // from an eighth of the best cell size to eight times it
+
+double curve_begin(const vox_suggestion& result) { return result.cell_size * std::exp2(-curve_octaves / 2); }
+
+void draw(vox_suggestion& result, const CostFunction& cost) {
     result.curve_count = VOX_COST_CURVE_CAPACITY;
+    const double last = result.curve_count - 1;
     for (std::uint32_t i = 0; i < result.curve_count; ++i) {
-        const double at = result.cell_size * std::exp2(6.0 * i / (result.curve_count - 1) - 3);
+        const double at = curve_begin(result) * std::exp2(curve_octaves * i / last);
         result.curve[i] = {at, cost(at)};
     }
 }
@@ -233,9 +240,9 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
     result.zone_min = zone.min * s;
     result.zone_max = zone.max * s;
     result.predicted_cost = paper.cost(x);
-    explain(
-        result, desc, geometry, [&](double d) { return paper.cost(d / s); },
-        paper_terms(desc, paper, result.cell_size));
+    const CostFunction cost = [&](double d) { return paper.cost(d / s); };
+    explain(result, desc, geometry, cost, paper_terms(desc, paper, result.cell_size));
+    draw(result, cost);
     return result;
 }
 
@@ -247,20 +254,28 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-// Fills in the least cost and the zone around it. Returns the cost as a curve, which is that of the table
-// where there is one; both must stay.
-CostFunction minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
-                           CostTable* table, const CellSizeRange& range) {
+void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
+                   CostTable* table, const CellSizeRange& range) {
     constexpr double near = 1e-4; // no model is as good as that
     const CostMinimum best = table ? table->minimum() : minimise(cost, range, near);
-    CostFunction curve = cost;
-    if (table) curve = [table, best](double d) { return std::max((*table)(d), best.cost); };
-    const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range);
+    const double limit = (1 + desc.zone_loss) * best.cost;
+    const Zone zone = table ? table->zone(best, limit) : zone_around(best, limit, cost, range);
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
-    return curve;
+}
+
+// What the rest of a suggestion says about the cell size in it. Costs are those of the table where there is
+// one; between its nodes it may be a little below the least cost.
+void explain_model(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
+                   const CostFunction& cost, CostTable* table, const CostTerms& terms) {
+    const CostFunction tabulated = [&](double d) { return std::max((*table)(d), result.predicted_cost); };
+    explain(result, desc, geometry, table ? tabulated : cost, terms);
+    if (!table) return draw(result, cost);
+    result.curve_count = VOX_COST_CURVE_CAPACITY;
+    table->sample(curve_begin(result), curve_octaves, result.curve);
+    for (vox_cost_sample& sample : result.curve) sample.cost = std::max(sample.cost, result.predicted_cost);
 }
 
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
@@ -275,14 +290,14 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     range.min = std::max(range.min, result.budget_cell_size);
     range.max = std::max(range.max, range.min);
     const CostFunction function = [&](double d) { return cost(d); };
-    CostTable table(function, range);
-    const CostFunction curve =
-        minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
+    CostTable made(function, range, memory);
+    CostTable* table = scene.effort.tabulated ? &made : nullptr;
+    minimise_into(result, desc, function, table, range);
     const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
     for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
-    explain(result, desc, geometry, curve, cost.terms(result.cell_size));
+    explain_model(result, desc, geometry, function, table, cost.terms(result.cell_size));
     return result;
 }
 
@@ -295,17 +310,18 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geomet
     const bool any = cost.range(range.min, range.max);
     vox_suggestion result{};
     const CostFunction function = [&](double d) { return cost(d); };
-    CostFunction curve = function;
-    CostTable table(function, range);
+    CostTable made(function, range, memory);
+    CostTable* table = any && scene.effort.tabulated ? &made : nullptr;
     if (any) {
-        curve = minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
+        minimise_into(result, desc, function, table, range);
     } else {
         result.cell_size = 2 * geometry.stats.mean_box_side;
         result.zone_min = range.min;
         result.zone_max = range.max;
         result.predicted_cost = cost(result.cell_size);
     }
-    explain(result, desc, geometry, curve, cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
+    explain_model(result, desc, geometry, function, table,
+                  cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
     return result;
 }
 

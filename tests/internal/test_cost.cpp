@@ -324,7 +324,7 @@ START_TEST(fast_quick_look) {
     ck_assert(all.range(range.min, range.max));
     const CostMinimum best = minimise([&](double d) { return all(d); }, range);
     const CostFunction quick_cost = [&](double d) { return some(d); };
-    const CostMinimum found = CostTable(quick_cost, range).minimum();
+    const CostMinimum found = CostTable(quick_cost, range, heap).minimum();
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -528,7 +528,7 @@ START_TEST(table_of_a_cost) {
     const CellSizeRange range{0.05, 40};
     const CostMinimum best = minimise(cost, range);
     calls = 0;
-    CostTable table(cost, range);
+    CostTable table(cost, range, heap);
     const CostMinimum found = table.minimum();
     ck_assert_double_le(found.cost, 1.0005 * best.cost);
     ck_assert_double_ge(found.cost, best.cost * (1 - 1e-12));
@@ -537,9 +537,9 @@ START_TEST(table_of_a_cost) {
     for (double d = 0.02; d < 100; d *= 1.01) ck_assert_double_eq_tol(table(d), cost(d), 0.01 * cost(d));
     ck_assert_double_eq(table(1e-6), cost(1e-6)); // beyond the table
     ck_assert_double_eq(table(1e9), cost(1e9));
-    ck_assert_double_eq(CostTable(cost, {3, 3}).minimum().cell_size, 3);
+    ck_assert_double_eq(CostTable(cost, {3, 3}, heap).minimum().cell_size, 3);
     const CostFunction nothing = [](double) { return 0.0; };
-    ck_assert_double_eq(CostTable(nothing, range)(1), 0);
+    ck_assert_double_eq(CostTable(nothing, range, heap)(1), 0);
 }
 END_TEST
 
