@@ -12,9 +12,14 @@
 #include "suggest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cinttypes>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
+#include <optional>
+#include <span>
 #include <vector>
 
 using namespace vox;
@@ -75,33 +80,52 @@ std::vector<Body> read_bodies(const vox_mesh_desc* meshes, std::uint64_t count) 
 // Bodies with what the models need of them.
 class Scene {
 public:
-    Scene(vox_cost_model model, std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+    Scene(vox_cost_model model, std::vector<Body> bodies)
+        : memory_(std::pmr::get_default_resource()), bodies_(bodies.begin(), bodies.end(), memory_),
+          made_(memory_), tiles_(bodies_.size(), nullptr, memory_), activity_(memory_) {
         geometry_ = measure(bodies_);
-        tiles_.resize(bodies_.size());
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
 
     // A grid asks between its steps, and should not wait longer than for one of them: from a sample.
-    Scene(vox_cost_model model, vox_grid::Known known)
-        : bodies_(std::move(known.bodies)), tiles_(std::move(known.tiles)),
+    Scene(vox_cost_model model, vox_grid::Known known, std::pmr::memory_resource* memory)
+        : memory_(memory), bodies_(std::move(known.bodies)), made_(memory), tiles_(std::move(known.tiles)),
           activity_(std::move(known.activity)) {
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
-        const std::size_t samples = std::clamp<std::size_t>(tets / 48, 96, 256);
-        const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
-        geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
-        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles(tets) : quick(tets);
-        if (model == VOX_COST_MODEL_FAST) make_tiles();
+        if (model == VOX_COST_MODEL_FAST) {
+            effort_ = quick_tiles(tets);
+            make_tiles();
+            boxes_.emplace(bodies_, tiles_, memory_);
+        } else {
+            effort_ = quick(tets);
+        }
+        const std::size_t samples = sampled_tets(tets);
+        geometry_ = tets > 2 * samples && std::ranges::all_of(known.meshes, &Mesh::may_sample)
+                        ? sampled(known.meshes, samples)
+                        : measure_without_off();
     }
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
 
     const Geometry& geometry() const noexcept { return geometry_; }
-    SuggestScene view() const noexcept { return {bodies_, tiles_, activity_, effort_}; }
+    SuggestScene view() noexcept {
+        return {bodies_, tiles_, activity_, effort_, boxes_ ? &*boxes_ : nullptr};
+    }
 
 private:
+    Geometry sampled(std::span<const Mesh* const> meshes, std::size_t samples) const {
+        std::pmr::vector<const MeshSample*> of_meshes(memory_);
+        of_meshes.reserve(meshes.size());
+        for (const Mesh* mesh : meshes) of_meshes.push_back(&mesh->sample());
+        const std::span<const fast::Box> boxes = boxes_ ? boxes_->bodies() : std::span<const fast::Box>();
+        return estimate(bodies_, of_meshes, boxes, samples, memory_);
+    }
+
     // Of the tetrahedra that are not off.
     Geometry measure_without_off() const {
         std::vector<std::vector<Tet>> on;
-        std::vector<Body> bodies = bodies_;
+        std::vector<Body> bodies(bodies_.begin(), bodies_.end());
         for (Body& body : bodies) {
             if (body.off_count == 0) continue;
             std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
@@ -124,11 +148,13 @@ private:
         }
     }
 
-    std::vector<Body> bodies_;
+    std::pmr::memory_resource* memory_;
+    std::pmr::vector<Body> bodies_;
+    std::pmr::vector<fast::Tiles> made_;
+    std::pmr::vector<const fast::Tiles*> tiles_;
+    std::pmr::vector<Activity> activity_;
+    std::optional<SceneBoxes> boxes_; // for the fast engine's model
     Geometry geometry_{};
-    std::vector<fast::Tiles> made_;
-    std::vector<const fast::Tiles*> tiles_;
-    std::vector<Activity> activity_;
     Effort effort_ = thorough;
 };
 
@@ -202,7 +228,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     return border([&] {
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
-        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        Scene scene(settings.model, read_bodies(meshes, mesh_count));
         write_struct(out,
                      suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
                              std::pmr::get_default_resource()),
@@ -219,10 +245,10 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         if (!desc) grid->describe(settings);
         const double p_nc = grid->share_without_contact();
         if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
-        const Scene scene(settings.model, grid->known());
-        write_struct(out,
-                     suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
-                             std::pmr::get_default_resource()),
+        std::array<std::byte, std::size_t{1} << 15> room; // enough for a small scene
+        std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+        Scene scene(settings.model, grid->known(&memory), &memory);
+        write_struct(out, suggest(settings, scene.geometry(), scene.view(), weights_in_use(), &memory),
                      "out");
     });
 }
@@ -233,7 +259,7 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
         check_cells(cell_size, "cell_size");
-        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        Scene scene(settings.model, read_bodies(meshes, mesh_count));
         const CostTerms terms = predict(settings, scene.geometry(), scene.view(), weights_in_use(), cell_size,
                                         std::pmr::get_default_resource());
         vox_cost_prediction prediction{};

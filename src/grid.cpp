@@ -480,8 +480,10 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-vox_grid::Known vox_grid::known() const {
-    Known known;
+vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
+    Known known(memory);
+    const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
+    reserve(known.bodies, known.tiles, known.meshes, known.activity);
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
@@ -490,8 +492,7 @@ vox_grid::Known vox_grid::known() const {
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
         known.bodies.push_back(s.mesh.body(id));
         known.tiles.push_back(s.mesh.tiles_if_made());
-        const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
-        known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
+        known.meshes.push_back(&s.mesh);
         known.activity.push_back(s.body == Slot::none ? Activity{}
                                                       : fast_engine_.activity(s.body, s.mesh.vertex_count()));
     }

@@ -49,12 +49,15 @@ public:
     // fields of a desc that the grid knows, and the share of its tets that held no vertex in the last step.
     // Throws INVALID_STATE for a mesh without positions.
     struct Known {
-        std::vector<vox::Body> bodies;
-        std::vector<const vox::fast::Tiles*> tiles; // null where they were not made, as the next ones
-        std::vector<const vox::depth::Topology*> topologies;
-        std::vector<vox::Activity> activity;
+        explicit Known(std::pmr::memory_resource* memory)
+            : bodies(memory), tiles(memory), meshes(memory), activity(memory) {}
+
+        std::pmr::vector<vox::Body> bodies;
+        std::pmr::vector<const vox::fast::Tiles*> tiles; // null where they were not made
+        std::pmr::vector<const vox::Mesh*> meshes;
+        std::pmr::vector<vox::Activity> activity;
     };
-    Known known() const;
+    Known known(std::pmr::memory_resource* memory) const;
     void describe(vox_suggest_desc& desc) const noexcept;
     double share_without_contact() const noexcept;
 

@@ -303,7 +303,10 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
 
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                             const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastCost cost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory);
+    const FastCost cost =
+        scene.boxes
+            ? FastCost(scene.bodies, scene.tiles, scene.activity, *scene.boxes, scene.effort, weights, memory)
+            : FastCost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory);
     if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
     // Where no body is near another one any size will do; the usual one is there when some come near.
     CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};

@@ -3,6 +3,7 @@
 
 #include "cost/activity.hpp"
 #include "cost/effort.hpp"
+#include "cost/scene_boxes.hpp"
 #include "cost/terms.hpp"
 #include "fast/tiles.hpp"
 #include "geometry.hpp"
@@ -24,6 +25,7 @@ struct SuggestScene {
     std::span<const fast::Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone, as what follows
     std::span<const Activity> activity;        // of each body in the last step; none where there was none
     Effort effort = thorough;
+    SceneBoxes* boxes = nullptr; // of the bodies and tiles, if they are there already
 };
 
 // For a desc that passed the check. All fields but struct_size are set. Throws INVALID_ARGUMENT when the

@@ -1,9 +1,6 @@
 #include "fast_cost.hpp"
 
 #include "../fast/pairs.hpp"
-#include "../fast/query.hpp"
-#include "../fast/rest.hpp"
-#include "../fast/stream.hpp"
 #include "../filter.hpp"
 
 #include <algorithm>
@@ -33,79 +30,8 @@ struct Reach {
     Box region;
 };
 
-// The boxes of everything, one list for all bodies, found as the engine finds them: those of blocks from one
-// pass over the positions, those of tiles where somebody may look.
-class Boxes {
-public:
-    Boxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-          std::pmr::memory_resource* memory)
-        : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(memory), blocks_(memory),
-          tile_boxes_(memory), known_(memory), first_block_(memory), first_tile_(memory) {
-        std::size_t block_count = 0, tile_count = 0, rounded = 0;
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            first_block_.push_back(block_count);
-            first_tile_.push_back(tile_count);
-            block_count += tiles[b]->block_count();
-            tile_count += tiles[b]->tiles.size();
-            if (!fast::is_packed(bodies[b].positions)) rounded += 3 * std::size_t{bodies[b].vertex_count};
-        }
-        blocks_.resize(block_count);
-        tile_boxes_.resize(tile_count);
-        known_.resize(tile_count);
-        rounded_.resize(rounded);
-        float* copy = rounded_.data();
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const Body& body = bodies[b];
-            const float* positions = copy;
-            if (fast::is_packed(body.positions))
-                positions = reinterpret_cast<const float*>(body.positions.data);
-            else
-                for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-                    const Vec3f p = body.positions[v];
-                    for (const float x : {p.x, p.y, p.z}) *copy++ = x;
-                }
-            positions_.push_back(positions);
-            bodies_.push_back(fast::empty_box);
-            if (body.vertex_count > 0)
-                (void)fast::stream_boxes(positions, tiles[b]->block_first, blocks_.data() + first_block_[b],
-                                         bodies_.back());
-        }
-    }
-
-    const float* positions(std::size_t body) const noexcept { return positions_[body]; }
-    std::span<const Box> bodies() const noexcept { return bodies_; }
-    std::span<const Box> blocks(std::size_t body) const noexcept {
-        return {blocks_.data() + first_block_[body], tiles_[body]->block_count()};
-    }
-
-    // Calls visit(box) for the tiles of a body that meet a region.
-    template <class Visit>
-    void for_tiles(std::size_t body, const Box& region, Visit&& visit) {
-        const fast::Tiles& tiles = *tiles_[body];
-        Box* boxes = tile_boxes_.data() + first_tile_[body];
-        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            Box super = fast::empty_box;
-            for (const std::uint32_t block : tiles.blocks[s])
-                fast::add(super, blocks_[first_block_[body] + block]);
-            if (!fast::overlap(super, region)) continue;
-            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-            fast::tile_boxes(tiles, positions_[body], first, last, boxes, known_.data() + first_tile_[body]);
-            for (std::uint32_t t = first; t < last; ++t)
-                if (fast::overlap(boxes[t], region)) visit(boxes[t]);
-        }
-    }
-
-private:
-    std::span<const fast::Tiles* const> tiles_;
-    std::pmr::vector<float> rounded_;
-    std::pmr::vector<const float*> positions_; // of each body, packed
-    std::pmr::vector<Box> bodies_, blocks_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> known_;
-    std::pmr::vector<std::size_t> first_block_, first_tile_;
-};
-
 std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<const Activity> activity,
-                                     Boxes& boxes, std::pmr::memory_resource* memory) {
+                                     SceneBoxes& boxes, std::pmr::memory_resource* memory) {
     fast::PairBuffers buffers(memory);
     std::pmr::vector<fast::Pair> pairs(memory);
     std::pmr::vector<Reach> reaches(memory);
@@ -129,7 +55,7 @@ std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<con
 }
 
 // The points of the blocks that meet one of the regions, and lie in the box around them all.
-void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, bool all,
+void collect(const SceneBoxes& boxes, const fast::Tiles& tiles, std::uint32_t body, bool all,
              std::span<const Reach> reaches, const Box& around, fast::Points& points) {
     const std::span<const Box> blocks = boxes.blocks(body);
     const auto is_wanted = [&](const Box& block) {
@@ -137,17 +63,21 @@ void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, b
                                   [&](const Reach& r) { return fast::overlap(block, r.region); });
     };
     points.count = 0;
-    for (std::size_t b = 0; b < blocks.size();) { // runs of wanted blocks
-        const std::size_t begin = b;
-        while (b < blocks.size() && is_wanted(blocks[b])) ++b;
-        if (b == begin) {
-            ++b;
-            continue;
-        }
-        const std::uint32_t first = tiles.block_first[begin], last = tiles.block_first[b];
+    std::uint32_t first = 0, last = 0; // of a run of wanted blocks
+    const auto collect_run = [&] {
+        if (first == last) return;
         points.reserve(std::size_t{points.count} + (last - first));
         fast::collect(boxes.positions(body), first, last, around, points);
+    };
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (!is_wanted(blocks[b])) continue;
+        if (tiles.block_first[b] != last) {
+            collect_run();
+            first = tiles.block_first[b];
+        }
+        last = tiles.block_first[b + 1];
     }
+    collect_run();
 }
 
 // The points may change places.
@@ -178,7 +108,20 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
                    std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
                    std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
-    Boxes boxes(bodies, tiles, memory);
+    SceneBoxes boxes(bodies, tiles, memory);
+    look(bodies, tiles, activity, boxes, effort, memory);
+}
+
+FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                   std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+                   const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+    : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
+    look(bodies, tiles, activity, boxes, effort, memory);
+}
+
+void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                    std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+                    std::pmr::memory_resource* memory) {
     const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, memory);
 
     fast::Points points(memory);
@@ -201,7 +144,9 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         Pool& pool = pool_of(1 / double{finest.inverse}, effort.sample);
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
-        pool.cells.add(cells_met(sides_of(window).w));
+        const Sides sides = sides_of(window);
+        pool.cells.add(cells_met(sides.w));
+        pool.largest_side = std::max({pool.largest_side, sides.w[0], sides.w[1], sides.w[2]});
         for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
         append(points, pool.points);
         const auto look = [&](std::uint32_t b, Box where) {
@@ -241,43 +186,57 @@ FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at
 // distance e from the side is in one of its cells with probability 1 - e/d.
+double FastCost::Pool::along(const Look& look, int axis, double inverse) noexcept {
+    const double below = std::min(look.below[axis] * inverse, 1.0),
+                 above = std::min(look.above[axis] * inverse, 1.0);
+    return look.side[axis] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
+}
+
 void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
+    sum.vertices += points.count;
+    sum.cells += cells.at(cell_size);
+    sum.looks += static_cast<double>(looks.size());
+    sum.tested += profile.candidates();
+    if (looks.empty()) return;
+    if (lie == Lie::in_the_mean) sum.rows += mean_rows(cell_size, most_looks);
+    sum.read += profile.read(cell_size) * (lie == Lie::as_it_is ? laid(cell_size, most_looks, sum) : 1);
+}
+
+double FastCost::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
+    if (cell_size >= largest_side) return static_cast<double>(looks.size()); // all in one cell
+    const std::size_t stride = looks.size() / most_looks + 1;
+    const double inverse = 1 / cell_size;
+    double rows = 0, count = 0;
+    for (std::size_t i = 0; i < looks.size(); i += stride, count += 1)
+        rows += std::max(along(looks[i], 1, inverse), 1.0) * std::max(along(looks[i], 2, inverse), 1.0);
+    return rows * (static_cast<double>(looks.size()) / count);
+}
+
+double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
     const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
     for (std::size_t i = 0; i < looks.size(); i += stride, count += 1) {
         const Look& look = looks[i];
-        double along[3];                    // cells along each axis
+        double cells[3];                    // along each axis
         double volume = 1, volume_laid = 1; // so much of them as is in the window
         for (int a = 0; a < 3; ++a) {
-            const double below = std::min(look.below[a] * inverse, 1.0),
-                         above = std::min(look.above[a] * inverse, 1.0);
-            const double side = look.side[a] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
-            volume *= side;
-            if (lie == Lie::in_the_mean) {
-                along[a] = std::max(side, 1.0);
-                continue;
-            }
+            volume *= along(look, a, inverse);
             const double first = std::floor(look.below[a] * inverse);
             const double last = std::floor((look.below[a] + look.side[a]) * inverse);
             const double end = (look.below[a] + look.side[a] + look.above[a]) * inverse;
-            along[a] = last - first + 1;
+            cells[a] = last - first + 1;
             volume_laid *= std::min(last + 1, end) - first;
         }
-        rows += along[1] * along[2];
-        visited += along[0] * along[1] * along[2];
+        rows += cells[1] * cells[2];
+        visited += cells[0] * cells[1] * cells[2];
         mean += volume;
         as_laid += volume_laid;
     }
-    sum.vertices += points.count;
-    sum.cells += cells.at(cell_size);
-    sum.looks += static_cast<double>(looks.size());
-    sum.tested += profile.candidates();
-    if (count == 0) return;
     const double scale = static_cast<double>(looks.size()) / count;
     sum.rows += rows * scale;
     sum.visited_cells += visited * scale;
-    sum.read += profile.read(cell_size) * (lie == Lie::as_it_is && mean > 0 ? as_laid / mean : 1);
+    return mean > 0 ? as_laid / mean : 1;
 }
 
 bool FastCost::range(double& min, double& max) const noexcept {

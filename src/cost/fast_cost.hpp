@@ -15,6 +15,7 @@
 #include "activity.hpp"
 #include "effort.hpp"
 #include "profile.hpp"
+#include "scene_boxes.hpp"
 #include "terms.hpp"
 
 #include "../fast/tiles.hpp"
@@ -36,6 +37,11 @@ public:
              std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
              std::pmr::memory_resource* memory);
 
+    // The same with boxes that are there already, of the same bodies and tiles.
+    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+             std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+
     // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
     // small windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size
     // and what to choose one by: bodies move on.
@@ -50,7 +56,8 @@ public:
     struct Counts {
         double vertices = 0, cells = 0; // binned, and of the windows
         double looks = 0;               // of tiles into windows
-        double rows = 0, visited_cells = 0, read = 0, tested = 0;
+        double rows = 0, read = 0, tested = 0;
+        double visited_cells = 0; // as they lie alone
     };
     Counts counts(double cell_size, Lie lie) const;
 
@@ -67,15 +74,23 @@ private:
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
         // From so many looks, evenly spread, at most.
         void add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept;
+        static double along(const Look& look, int axis, double inverse) noexcept; // cells, in the mean
+        double mean_rows(double cell_size, std::size_t most_looks) const noexcept;
+        // Adds rows and cells as they lie; returns how much of the window they cover, over that in the mean.
+        double laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept;
 
         int key;
         Profile profile;
         fast::Points points;
         std::pmr::vector<Look> looks;
         double windows = 0, smallest_cell = 0; // of a window, in the mean
+        double largest_side = 0;               // of a window
         Moments cells;                         // of the windows themselves
     };
 
+    void look(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+              std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+              std::pmr::memory_resource* memory);
     Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 
     std::pmr::vector<Pool> pools_;

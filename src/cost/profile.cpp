@@ -137,6 +137,7 @@ void PointsMet::add(const double (&e)[3], double weight) {
 // Of points about as far away as the cell size, next to none are met; their class comes in little by little,
 // so that the sum is continuous.
 double PointsMet::at(double cell_size) const noexcept {
+    if (sums_.size() == 1 && sums_[0].sum[0] == 0) return 0; // none
     const double ratio = cell_size * inverse_least_;
     const std::size_t c = class_of(ratio);
     if (c == 0) return sums_[0].sum[0];

@@ -24,7 +24,10 @@ namespace vox {
 struct Moments {
     double sum[4] = {0, 0, 0, 0};
 
-    double at(double d) const noexcept { return ((sum[3] / d + sum[2]) / d + sum[1]) / d + sum[0]; }
+    double at(double d) const noexcept {
+        const double inverse = 1 / d;
+        return ((sum[3] * inverse + sum[2]) * inverse + sum[1]) * inverse + sum[0];
+    }
     void add(const Moments& other, double weight = 1) noexcept {
         for (int i = 0; i < 4; ++i) sum[i] += weight * other.sum[i];
     }
