@@ -12,6 +12,10 @@ using fast::Box;
 
 namespace {
 
+// So many times the looks that are gone through for each cell size are enough to know how many of which size
+// there are.
+constexpr std::size_t looks_to_take = 16;
+
 // As in fast/body_window.cpp: most cells of a window.
 std::size_t most_cells(std::uint32_t points) { return 2 * std::size_t{points} + 64; }
 
@@ -28,10 +32,13 @@ Sides sides_of(const Box& box) {
 struct Reach {
     std::uint32_t a, b;
     Box region;
+    std::size_t first_tile, last_tile; // those tiles, in a list of their boxes
 };
 
+// `met` are the boxes of the tiles.
 std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<const Activity> activity,
-                                     SceneBoxes& boxes, std::pmr::memory_resource* memory) {
+                                     SceneBoxes& boxes, std::pmr::vector<Box>& met,
+                                     std::pmr::memory_resource* memory) {
     fast::PairBuffers buffers(memory);
     std::pmr::vector<fast::Pair> pairs(memory);
     std::pmr::vector<Reach> reaches(memory);
@@ -39,17 +46,22 @@ std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<con
     for (const fast::Pair& pair : pairs) {
         if (bodies[pair.b].tets.empty() || !collide(bodies[pair.a], bodies[pair.b])) continue;
         if (!activity.empty() && !activity[pair.a].moves && !activity[pair.b].moves) continue;
-        Reach reach{pair.a, pair.b, boxes.bodies()[pair.a]};
-        fast::intersect(reach.region, boxes.bodies()[pair.b]);
+        Box region = boxes.bodies()[pair.a];
+        fast::intersect(region, boxes.bodies()[pair.b]);
         Box covered = fast::empty_box;
         for (const Box& block : boxes.blocks(pair.a))
-            if (fast::overlap(block, reach.region)) fast::add(covered, block);
-        fast::intersect(reach.region, covered);
-        if (fast::is_empty(reach.region)) continue;
+            if (fast::overlap(block, region)) fast::add(covered, block);
+        fast::intersect(region, covered);
+        if (fast::is_empty(region)) continue;
+        const std::size_t first_tile = met.size();
+        boxes.find_tiles(pair.b, region, met);
         covered = fast::empty_box;
-        boxes.for_tiles(pair.b, reach.region, [&](const Box& tile) { fast::add(covered, tile); });
-        fast::intersect(reach.region, covered);
-        if (!fast::is_empty(reach.region)) reaches.push_back(reach);
+        for (std::size_t t = first_tile; t < met.size(); ++t) fast::add(covered, met[t]);
+        fast::intersect(region, covered);
+        if (fast::is_empty(region))
+            met.resize(first_tile);
+        else
+            reaches.push_back({pair.a, pair.b, region, first_tile, met.size()});
     }
     return reaches;
 }
@@ -122,7 +134,14 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
 void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
                     std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
                     std::pmr::memory_resource* memory) {
-    const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, memory);
+    std::pmr::vector<Box> met(memory);
+    const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, met, memory);
+    std::size_t all = met.size();
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (bodies[b].self_collision) all += tiles[b]->tiles.size();
+    // Of very many looks, every so many.
+    const std::size_t stride = all / (looks_to_take * most_looks_) + 1;
+    std::size_t seen = stride / 2;
 
     fast::Points points(memory);
     std::uint32_t first_vertex = 0;
@@ -149,12 +168,13 @@ void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* c
         pool.largest_side = std::max({pool.largest_side, sides.w[0], sides.w[1], sides.w[2]});
         for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
         append(points, pool.points);
-        const auto look = [&](std::uint32_t b, Box where) {
+        const auto look = [&](std::span<const Box> tile_boxes, Box where) {
             fast::intersect(where, window);
-            boxes.for_tiles(b, where, [&](Box box) {
+            for (Box box : tile_boxes) {
+                if (!fast::overlap(box, where) || seen++ % stride != 0) continue;
                 fast::intersect(box, where);
                 Lookup lookup{};
-                Look look{};
+                Look& look = pool.looks.emplace_back();
                 for (int i = 0; i < 3; ++i) {
                     lookup.lo[i] = box.lo[i];
                     lookup.hi[i] = box.hi[i];
@@ -162,14 +182,19 @@ void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* c
                     look.below[i] = double{box.lo[i]} - double{window.lo[i]};
                     look.above[i] = double{window.hi[i]} - double{box.hi[i]};
                 }
-                pool.looks.push_back(look);
                 lookup.first_read = first_vertex;
                 lookup.last_read = first_vertex + bodies[a].vertex_count;
-                pool.profile.add(lookup);
-            });
+                pool.profile.add(lookup, static_cast<double>(stride));
+            }
         };
-        if (self) look(a, region);
-        for (const Reach& r : own) look(r.b, r.region);
+        if (self) {
+            const std::size_t first_tile = met.size();
+            boxes.find_tiles(a, region, met);
+            look(std::span(met).subspan(first_tile), region);
+            met.resize(first_tile);
+        }
+        for (const Reach& r : own)
+            look(std::span(met).subspan(r.first_tile, r.last_tile - r.first_tile), r.region);
     }
     for (Pool& pool : pools_) {
         pool.profile.count_points(pool.points, Occupied::not_counted);
@@ -195,7 +220,7 @@ double FastCost::Pool::along(const Look& look, int axis, double inverse) noexcep
 void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
     sum.vertices += points.count;
     sum.cells += cells.at(cell_size);
-    sum.looks += static_cast<double>(looks.size());
+    sum.looks += profile.count();
     sum.tested += profile.candidates();
     if (looks.empty()) return;
     if (lie == Lie::in_the_mean) sum.rows += mean_rows(cell_size, most_looks);
@@ -203,13 +228,13 @@ void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Coun
 }
 
 double FastCost::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
-    if (cell_size >= largest_side) return static_cast<double>(looks.size()); // all in one cell
+    if (cell_size >= largest_side) return profile.count(); // all in one cell
     const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, count = 0;
     for (std::size_t i = 0; i < looks.size(); i += stride, count += 1)
         rows += std::max(along(looks[i], 1, inverse), 1.0) * std::max(along(looks[i], 2, inverse), 1.0);
-    return rows * (static_cast<double>(looks.size()) / count);
+    return rows * (profile.count() / count);
 }
 
 double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
@@ -233,7 +258,7 @@ double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& su
         mean += volume;
         as_laid += volume_laid;
     }
-    const double scale = static_cast<double>(looks.size()) / count;
+    const double scale = profile.count() / count;
     sum.rows += rows * scale;
     sum.visited_cells += visited * scale;
     return mean > 0 ? as_laid / mean : 1;

@@ -34,7 +34,7 @@ std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
 }
 
 double longest_side(const Lookup& l) {
-    return std::max({l.hi[0] - l.lo[0], l.hi[1] - l.lo[1], l.hi[2] - l.lo[2]});
+    return std::max(std::max(l.hi[0] - l.lo[0], l.hi[1] - l.lo[1]), l.hi[2] - l.lo[2]);
 }
 
 struct Distances {
@@ -45,7 +45,7 @@ struct Distances {
 Distances distances(const Lookup& l, const double (&p)[3]) {
     Distances d{};
     for (int a = 0; a < 3; ++a) {
-        d.along[a] = std::max({l.lo[a] - p[a], p[a] - l.hi[a], 0.0});
+        d.along[a] = std::max(std::max(l.lo[a] - p[a], p[a] - l.hi[a]), 0.0);
         d.largest = std::max(d.largest, d.along[a]);
     }
     return d;
@@ -124,7 +124,7 @@ std::size_t PointsMet::class_of(double ratio) noexcept {
 }
 
 void PointsMet::add(const double (&e)[3], double weight) {
-    const std::size_t c = class_of(std::max({e[0], e[1], e[2]}) * inverse_least_);
+    const std::size_t c = class_of(std::max(std::max(e[0], e[1]), e[2]) * inverse_least_);
     if (c == classes) return;
     if (c >= sums_.size()) sums_.resize(c + 1);
     Moments& m = sums_[c];
@@ -194,47 +194,66 @@ void Profile::add(const Lookup& lookup, double weight) {
     if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
+// Calls around(lookup, count) for the lookups of a class that are in the sample; there count(id, distances,
+// weight) takes a point. Returns how many they are.
+template <class Around>
+std::size_t Profile::count_around(SizeClass& c, double lookups, Around&& around) {
+    // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
+    const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
+    const auto size =
+        std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
+    const double each = c.count / static_cast<double>(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const Lookup& l = c.sample[i];
+        around(l, [&](std::uint32_t id, const Distances& d, double weight) {
+            if (id < l.first_read || id >= l.last_read) return;
+            (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, each * weight);
+        });
+    }
+    return size;
+}
+
 void Profile::count_points(const fast::Points& points, Occupied occupied) {
     const double lookups = count();
-    std::pmr::memory_resource* memory = classes_.get_allocator().resource();
-    fast::Bins bins(memory);
-    std::pmr::vector<std::uint32_t> buffer(memory);
-    if (points.count > 0) {
-        const fast::Box box = fast::bounds(points);
-        const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
-        bins.points.reserve(points.count);
-        const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
-        const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
-        double smallest = 1, largest = 1;
-        if (sides(smallest, largest)) {
-            first_size_ = smallest / 16;
-            size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
-        }
-        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
-                            points.count / sizes_.far_points + 1};
-        for (SizeClass& c : classes_) {
-            // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
-            const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
-            const auto size = std::min(
-                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
-            const double near = near_sides * std::ldexp(2.0, c.exponent);
-            const double each = c.count / static_cast<double>(size);
-            for (std::size_t i = 0; i < size; ++i) {
-                const Lookup& l = c.sample[i];
-                for_points_around(l, near, binned, random_,
-                                  [&](std::uint32_t id, const Distances& d, double w) {
-                                      if (id < l.first_read || id >= l.last_read) return;
-                                      (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested)
-                                          .add(d.along, each * w);
-                                  });
-            }
-            if (occupied == Occupied::not_counted) continue;
-            count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
-        }
+    if (occupied == Occupied::not_counted && points.count <= sizes_.near_points + sizes_.far_points) {
+        for (SizeClass& c : classes_) // all of them are around each
+            count_around(c, lookups, [&](const Lookup& l, auto&& count) {
+                for (std::uint32_t i = 0; i < points.count; ++i)
+                    count(points.id[i], distances(l, {points.x[i], points.y[i], points.z[i]}), 1.0);
+            });
+    } else {
+        count_binned(points, lookups, occupied);
     }
     for (SizeClass& c : classes_) {
         c.passed.finish();
         c.tested.finish();
+    }
+}
+
+void Profile::count_binned(const fast::Points& points, double lookups, Occupied occupied) {
+    if (points.count == 0) return;
+    std::pmr::memory_resource* memory = classes_.get_allocator().resource();
+    fast::Bins bins(memory);
+    std::pmr::vector<std::uint32_t> buffer(memory);
+    const fast::Box box = fast::bounds(points);
+    const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
+    bins.points.reserve(points.count);
+    const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
+    const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
+    double smallest = 1, largest = 1;
+    if (sides(smallest, largest)) {
+        first_size_ = smallest / 16;
+        size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
+    }
+    const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
+                        points.count / sizes_.far_points + 1};
+    for (SizeClass& c : classes_) {
+        const double near = near_sides * std::ldexp(2.0, c.exponent);
+        const std::size_t size = count_around(c, lookups, [&](const Lookup& l, auto&& count) {
+            for_points_around(l, near, binned, random_, count);
+        });
+        if (occupied == Occupied::not_counted) continue;
+        count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
     }
 }
 

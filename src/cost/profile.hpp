@@ -124,6 +124,9 @@ private:
     static constexpr int exponents = 512;
 
     SizeClass& class_of(double side, bool may_meet);
+    template <class Around>
+    std::size_t count_around(SizeClass& c, double lookups, Around&& around);
+    void count_binned(const fast::Points& points, double lookups, Occupied occupied);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);

@@ -10,23 +10,19 @@ namespace vox {
 SceneBoxes::SceneBoxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
                        std::pmr::memory_resource* memory)
     : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(bodies.size(), fast::empty_box, memory),
-      blocks_(memory), super_boxes_(memory), tile_boxes_(memory), known_(memory),
-      supers_known_(bodies.size(), 0, memory), first_block_(memory), first_super_(memory),
+      blocks_(memory), tile_boxes_(memory), known_(memory), sides_(memory), first_block_(memory),
       first_tile_(memory) {
-    std::size_t block_count = 0, super_count = 0, tile_count = 0, rounded = 0;
+    std::size_t block_count = 0, tile_count = 0, rounded = 0;
     const auto reserve = [&](auto&... lists) { (lists.reserve(bodies.size()), ...); };
-    reserve(positions_, first_block_, first_super_, first_tile_);
+    reserve(positions_, first_block_, first_tile_);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         first_block_.push_back(block_count);
-        first_super_.push_back(super_count);
         first_tile_.push_back(tile_count);
         block_count += tiles[b]->block_count();
-        super_count += tiles[b]->super_tile_count();
         tile_count += tiles[b]->tiles.size();
         if (!fast::is_packed(bodies[b].positions)) rounded += 3 * std::size_t{bodies[b].vertex_count};
     }
     blocks_.resize(block_count);
-    super_boxes_.resize(super_count);
     tile_boxes_.resize(tile_count);
     known_.resize(tile_count);
     rounded_.resize(rounded);
@@ -48,24 +44,25 @@ SceneBoxes::SceneBoxes(std::span<const Body> bodies, std::span<const fast::Tiles
     }
 }
 
-std::span<const fast::Box> SceneBoxes::super_tiles(std::size_t body) {
+// A super-tile is out of reach when all of its blocks lie on the same side of the region.
+void SceneBoxes::find_tiles(std::size_t body, const fast::Box& region, std::pmr::vector<fast::Box>& out) {
     const fast::Tiles& tiles = *tiles_[body];
-    const std::span<fast::Box> supers{super_boxes_.data() + first_super_[body], tiles.super_tile_count()};
-    if (!supers_known_[body]) {
-        const std::span<const fast::Box> own = blocks(body);
-        for (std::uint32_t s = 0; s < supers.size(); ++s) {
-            fast::Box box = fast::empty_box;
-            for (const std::uint32_t block : tiles.blocks[s]) fast::add(box, own[block]);
-            supers[s] = box;
-        }
-        supers_known_[body] = 1;
+    fast::Box* boxes = tile_boxes_.data() + first_tile_[body];
+    std::uint8_t* known = known_.data() + first_tile_[body];
+    const std::span<const fast::Box> own = blocks(body);
+    if (sides_.size() < own.size()) sides_.resize(own.size());
+    for (std::size_t block = 0; block < own.size(); ++block)
+        sides_[block] = static_cast<std::uint8_t>(fast::sides_of(own[block], region));
+    for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
+        unsigned beyond = fast::all_sides;
+        for (const std::uint32_t block : tiles.blocks[s])
+            if ((beyond &= sides_[block]) == 0) break;
+        if (beyond != 0) continue;
+        const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+        fast::tile_boxes(tiles, positions_[body], first, last, boxes, known);
+        for (std::uint32_t t = first; t < last; ++t)
+            if (fast::overlap(boxes[t], region)) out.push_back(boxes[t]);
     }
-    return supers;
-}
-
-void SceneBoxes::know_tiles(std::size_t body, std::uint32_t first, std::uint32_t last) {
-    fast::tile_boxes(*tiles_[body], positions_[body], first, last, tile_boxes_.data() + first_tile_[body],
-                     known_.data() + first_tile_[body]);
 }
 
 } // namespace vox

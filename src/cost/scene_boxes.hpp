@@ -28,32 +28,17 @@ public:
         return {blocks_.data() + first_block_[body], tiles_[body]->block_count()};
     }
 
-    // Calls visit(box) for the tiles of a body that meet a region.
-    template <class Visit>
-    void for_tiles(std::size_t body, const fast::Box& region, Visit&& visit) {
-        const fast::Tiles& tiles = *tiles_[body];
-        const fast::Box* boxes = tile_boxes_.data() + first_tile_[body];
-        const std::span<const fast::Box> supers = super_tiles(body);
-        for (std::uint32_t s = 0; s < supers.size(); ++s) {
-            if (!fast::overlap(supers[s], region)) continue;
-            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-            know_tiles(body, first, last);
-            for (std::uint32_t t = first; t < last; ++t)
-                if (fast::overlap(boxes[t], region)) visit(boxes[t]);
-        }
-    }
+    // Appends the boxes of the tiles of a body that meet a region.
+    void find_tiles(std::size_t body, const fast::Box& region, std::pmr::vector<fast::Box>& out);
 
 private:
-    std::span<const fast::Box> super_tiles(std::size_t body);
-    void know_tiles(std::size_t body, std::uint32_t first, std::uint32_t last);
-
     std::span<const fast::Tiles* const> tiles_;
     std::pmr::vector<float> rounded_;
     std::pmr::vector<const float*> positions_; // of each body
-    std::pmr::vector<fast::Box> bodies_, blocks_, super_boxes_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> known_;        // of tile_boxes_
-    std::pmr::vector<std::uint8_t> supers_known_; // of each body: its super_boxes_
-    std::pmr::vector<std::size_t> first_block_, first_super_, first_tile_;
+    std::pmr::vector<fast::Box> bodies_, blocks_, tile_boxes_;
+    std::pmr::vector<std::uint8_t> known_; // of tile_boxes_
+    std::pmr::vector<std::uint8_t> sides_; // of the blocks of one body
+    std::pmr::vector<std::size_t> first_block_, first_tile_;
 };
 
 } // namespace vox
