@@ -5,6 +5,8 @@
 #include "cost/calibrate.hpp"
 #include "cost/minimise.hpp"
 #include "cost/weights.hpp"
+#include "fast/rest.hpp"
+#include "fast/stream.hpp"
 #include "geometry.hpp"
 #include "grid.hpp"
 #include "mesh_check.hpp"
@@ -82,7 +84,7 @@ class Scene {
 public:
     Scene(vox_cost_model model, std::vector<Body> bodies)
         : memory_(std::pmr::get_default_resource()), bodies_(bodies.begin(), bodies.end(), memory_),
-          made_(memory_), tiles_(bodies_.size(), nullptr, memory_), activity_(memory_) {
+          made_(memory_), tiles_(bodies_.size(), nullptr, memory_), activity_(memory_), body_boxes_(memory_) {
         geometry_ = measure(bodies_);
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
@@ -90,19 +92,25 @@ public:
     // A grid asks between its steps, and should not wait longer than for one of them: from a sample.
     Scene(vox_cost_model model, vox_grid::Known known, std::pmr::memory_resource* memory)
         : memory_(memory), bodies_(std::move(known.bodies)), made_(memory), tiles_(std::move(known.tiles)),
-          activity_(std::move(known.activity)) {
+          activity_(std::move(known.activity)), body_boxes_(memory) {
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
+        std::span<const fast::Box> boxes;
         if (model == VOX_COST_MODEL_FAST) {
             effort_ = quick_tiles(tets);
-            make_tiles();
-            boxes_.emplace(bodies_, tiles_, memory_);
+            if (known.last_step && !moved_since(*known.last_step)) {
+                last_step_ = known.last_step;
+                boxes = body_boxes_;
+            } else {
+                make_tiles();
+                boxes = boxes_.emplace(bodies_, tiles_, memory_).bodies();
+            }
         } else {
             effort_ = quick(tets);
         }
         const std::size_t samples = sampled_tets(tets);
         geometry_ = tets > 2 * samples && std::ranges::all_of(known.meshes, &Mesh::may_sample)
-                        ? sampled(known.meshes, samples)
+                        ? sampled(known.meshes, boxes, samples)
                         : measure_without_off();
     }
     Scene(const Scene&) = delete;
@@ -110,15 +118,34 @@ public:
 
     const Geometry& geometry() const noexcept { return geometry_; }
     SuggestScene view() noexcept {
-        return {bodies_, tiles_, activity_, effort_, boxes_ ? &*boxes_ : nullptr};
+        return {bodies_, tiles_, activity_, effort_, boxes_ ? &*boxes_ : nullptr, last_step_};
     }
 
 private:
-    Geometry sampled(std::span<const Mesh* const> meshes, std::size_t samples) const {
+    // Whether any of the bodies has another box than in a step. Those whose positions are not packed count as
+    // moved. What moves inside its box and nowhere reaches further than before is near enough where it was.
+    bool moved_since(const Fast& step) {
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            const Body& body = bodies_[b];
+            fast::Box& box = body_boxes_.emplace_back(fast::empty_box);
+            if (body.vertex_count == 0) continue;
+            if (!fast::is_packed(body.positions)) return true;
+            const std::uint32_t ends[2] = {0, body.vertex_count};
+            fast::Box block{};
+            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
+                check_finite(body);
+            if (!std::equal(box.lo, box.lo + 3, step.box(b).lo) ||
+                !std::equal(box.hi, box.hi + 3, step.box(b).hi))
+                return true;
+        }
+        return false;
+    }
+
+    Geometry sampled(std::span<const Mesh* const> meshes, std::span<const fast::Box> boxes,
+                     std::size_t samples) const {
         std::pmr::vector<const MeshSample*> of_meshes(memory_);
         of_meshes.reserve(meshes.size());
         for (const Mesh* mesh : meshes) of_meshes.push_back(&mesh->sample());
-        const std::span<const fast::Box> boxes = boxes_ ? boxes_->bodies() : std::span<const fast::Box>();
         return estimate(bodies_, of_meshes, boxes, samples, memory_);
     }
 
@@ -153,7 +180,9 @@ private:
     std::pmr::vector<fast::Tiles> made_;
     std::pmr::vector<const fast::Tiles*> tiles_;
     std::pmr::vector<Activity> activity_;
-    std::optional<SceneBoxes> boxes_; // for the fast engine's model
+    std::pmr::vector<fast::Box> body_boxes_;
+    std::optional<SceneBoxes> boxes_; // this or the next one for the fast engine's model
+    const Fast* last_step_ = nullptr;
     Geometry geometry_{};
     Effort effort_ = thorough;
 };

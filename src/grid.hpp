@@ -56,6 +56,7 @@ public:
         std::pmr::vector<const vox::fast::Tiles*> tiles; // null where they were not made
         std::pmr::vector<const vox::Mesh*> meshes;
         std::pmr::vector<vox::Activity> activity;
+        const vox::Fast* last_step = nullptr; // null unless it was of the same bodies, but for their positions
     };
     Known known(std::pmr::memory_resource* memory) const;
     void describe(vox_suggest_desc& desc) const noexcept;
@@ -155,6 +156,8 @@ private:
     // They are what another step would find of meshes that were in the last one and have not moved since.
     // False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
+    // The meshes are those of the fast engine's last step, positions aside.
+    bool meshes_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
     vox::Readings readings_;

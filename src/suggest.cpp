@@ -301,12 +301,17 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     return result;
 }
 
+FastCost fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
+                   std::pmr::memory_resource* memory) {
+    if (scene.last_step) return {scene.bodies, *scene.last_step, scene.effort, weights, memory};
+    if (scene.boxes)
+        return {scene.bodies, scene.tiles, scene.activity, *scene.boxes, scene.effort, weights, memory};
+    return {scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory};
+}
+
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                             const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastCost cost =
-        scene.boxes
-            ? FastCost(scene.bodies, scene.tiles, scene.activity, *scene.boxes, scene.effort, weights, memory)
-            : FastCost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory);
+    const FastCost cost = fast_cost(scene, weights, memory);
     if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
     // Where no body is near another one any size will do; the usual one is there when some come near.
     CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};

@@ -35,79 +35,123 @@ struct Reach {
     std::size_t first_tile, last_tile; // those tiles, in a list of their boxes
 };
 
-// `met` are the boxes of the tiles.
-std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<const Activity> activity,
-                                     SceneBoxes& boxes, std::pmr::vector<Box>& met,
-                                     std::pmr::memory_resource* memory) {
-    fast::PairBuffers buffers(memory);
-    std::pmr::vector<fast::Pair> pairs(memory);
-    std::pmr::vector<Reach> reaches(memory);
-    fast::find_pairs(boxes.bodies(), buffers, pairs);
-    for (const fast::Pair& pair : pairs) {
-        if (bodies[pair.b].tets.empty() || !collide(bodies[pair.a], bodies[pair.b])) continue;
-        if (!activity.empty() && !activity[pair.a].moves && !activity[pair.b].moves) continue;
-        Box region = boxes.bodies()[pair.a];
-        fast::intersect(region, boxes.bodies()[pair.b]);
-        Box covered = fast::empty_box;
-        for (const Box& block : boxes.blocks(pair.a))
-            if (fast::overlap(block, region)) fast::add(covered, block);
-        fast::intersect(region, covered);
-        if (fast::is_empty(region)) continue;
-        const std::size_t first_tile = met.size();
-        boxes.find_tiles(pair.b, region, met);
-        covered = fast::empty_box;
-        for (std::size_t t = first_tile; t < met.size(); ++t) fast::add(covered, met[t]);
-        fast::intersect(region, covered);
-        if (fast::is_empty(region))
-            met.resize(first_tile);
-        else
-            reaches.push_back({pair.a, pair.b, region, first_tile, met.size()});
-    }
-    return reaches;
-}
-
-// The points of the blocks that meet one of the regions, and lie in the box around them all.
-void collect(const SceneBoxes& boxes, const fast::Tiles& tiles, std::uint32_t body, bool all,
-             std::span<const Reach> reaches, const Box& around, fast::Points& points) {
-    const std::span<const Box> blocks = boxes.blocks(body);
-    const auto is_wanted = [&](const Box& block) {
-        return all || std::any_of(reaches.begin(), reaches.end(),
-                                  [&](const Reach& r) { return fast::overlap(block, r.region); });
-    };
-    points.count = 0;
-    std::uint32_t first = 0, last = 0; // of a run of wanted blocks
-    const auto collect_run = [&] {
-        if (first == last) return;
-        points.reserve(std::size_t{points.count} + (last - first));
-        fast::collect(boxes.positions(body), first, last, around, points);
-    };
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        if (!is_wanted(blocks[b])) continue;
-        if (tiles.block_first[b] != last) {
-            collect_run();
-            first = tiles.block_first[b];
-        }
-        last = tiles.block_first[b + 1];
-    }
-    collect_run();
-}
-
-// The points may change places.
-void append(fast::Points& from, fast::Points& to) {
-    if (to.count == 0) {
-        std::swap(from, to);
-        return;
-    }
-    to.reserve(to.count + std::size_t{from.count});
+void append(const fast::Points& from, std::size_t first, std::uint32_t count, fast::Points& to) {
+    to.reserve(std::size_t{to.count} + count);
     const auto copy = [&](const auto& a, auto& b) {
-        std::copy_n(a.begin(), from.count, b.begin() + to.count);
+        std::copy_n(a.begin() + static_cast<std::ptrdiff_t>(first), count, b.begin() + to.count);
     };
     copy(from.x, to.x);
     copy(from.y, to.y);
     copy(from.z, to.z);
     copy(from.id, to.id);
-    to.count += from.count;
+    to.count += count;
 }
+
+// What is near what, from the positions as they are now.
+class FromPositions {
+public:
+    FromPositions(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                  std::span<const Activity> activity, SceneBoxes& boxes, std::pmr::memory_resource* memory)
+        : bodies_(bodies), tiles_(tiles), activity_(activity), boxes_(boxes), memory_(memory) {}
+
+    // `met` are the boxes of the tiles.
+    void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) {
+        fast::PairBuffers buffers(memory_);
+        std::pmr::vector<fast::Pair> pairs(memory_);
+        fast::find_pairs(boxes_.bodies(), buffers, pairs);
+        for (const fast::Pair& pair : pairs) {
+            if (bodies_[pair.b].tets.empty() || !collide(bodies_[pair.a], bodies_[pair.b])) continue;
+            if (!activity_.empty() && !activity_[pair.a].moves && !activity_[pair.b].moves) continue;
+            Box region = boxes_.bodies()[pair.a];
+            fast::intersect(region, boxes_.bodies()[pair.b]);
+            Box covered = fast::empty_box;
+            for (const Box& block : boxes_.blocks(pair.a))
+                if (fast::overlap(block, region)) fast::add(covered, block);
+            fast::intersect(region, covered);
+            if (fast::is_empty(region)) continue;
+            const std::size_t first_tile = met.size();
+            boxes_.find_tiles(pair.b, region, met);
+            covered = fast::empty_box;
+            for (std::size_t t = first_tile; t < met.size(); ++t) fast::add(covered, met[t]);
+            fast::intersect(region, covered);
+            if (fast::is_empty(region))
+                met.resize(first_tile);
+            else
+                reaches.push_back({pair.a, pair.b, region, first_tile, met.size()});
+        }
+    }
+
+    Box own_region(std::uint32_t body) const {
+        const bool self = bodies_[body].self_collision && !bodies_[body].tets.empty() &&
+                          (activity_.empty() || activity_[body].meets_itself);
+        return self ? boxes_.bodies()[body] : fast::empty_box;
+    }
+
+    void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) {
+        boxes_.find_tiles(body, region, met);
+    }
+
+    // The points of the blocks that meet one of the regions, and lie in the box around them all.
+    void collect(std::uint32_t body, std::span<const Reach> reaches, const Box& own, const Box& around,
+                 fast::Points& points) const {
+        const std::span<const Box> blocks = boxes_.blocks(body);
+        const std::pmr::vector<std::uint32_t>& first_of = tiles_[body]->block_first;
+        const bool all = !fast::is_empty(own);
+        const auto is_wanted = [&](const Box& block) {
+            return all || std::any_of(reaches.begin(), reaches.end(),
+                                      [&](const Reach& r) { return fast::overlap(block, r.region); });
+        };
+        std::uint32_t first = 0, last = 0; // of a run of wanted blocks
+        const auto collect_run = [&] {
+            if (first == last) return;
+            points.reserve(std::size_t{points.count} + (last - first));
+            fast::collect(boxes_.positions(body), first, last, around, points);
+        };
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (!is_wanted(blocks[b])) continue;
+            if (first_of[b] != last) {
+                collect_run();
+                first = first_of[b];
+            }
+            last = first_of[b + 1];
+        }
+        collect_run();
+    }
+
+private:
+    std::span<const Body> bodies_;
+    std::span<const fast::Tiles* const> tiles_;
+    std::span<const Activity> activity_;
+    SceneBoxes& boxes_;
+    std::pmr::memory_resource* memory_;
+};
+
+// The same from the engine's last step.
+class FromLastStep {
+public:
+    explicit FromLastStep(const Fast& engine) : engine_(engine) {}
+
+    void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) const {
+        engine_.for_reaches([&](std::uint32_t a, std::uint32_t b, const Box& region) {
+            const std::size_t first_tile = met.size();
+            find_tiles(b, region, met);
+            reaches.push_back({a, b, region, first_tile, met.size()});
+        });
+    }
+    Box own_region(std::uint32_t body) const { return engine_.own_region(body); }
+    void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
+        engine_.for_tiles(body, region, [&](const Box& box) { met.push_back(box); });
+    }
+    void collect(std::uint32_t body, std::span<const Reach>, const Box&, const Box&,
+                 fast::Points& points) const {
+        engine_.for_binned(body, [&](const fast::Points& from, std::size_t first, std::uint32_t count) {
+            append(from, first, count, points);
+        });
+    }
+
+private:
+    const Fast& engine_;
+};
 
 } // namespace
 
@@ -121,24 +165,31 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
                    std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
     SceneBoxes boxes(bodies, tiles, memory);
-    look(bodies, tiles, activity, boxes, effort, memory);
+    look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
 }
 
 FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
                    std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
                    const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
-    look(bodies, tiles, activity, boxes, effort, memory);
+    look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
 }
 
-void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-                    std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+FastCost::FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
+                   const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+    : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
+    look(bodies, FromLastStep(last_step), effort, memory);
+}
+
+template <class Source>
+void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort& effort,
                     std::pmr::memory_resource* memory) {
     std::pmr::vector<Box> met(memory);
-    const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, met, memory);
+    std::pmr::vector<Reach> reaches(memory);
+    source.find_reaches(reaches, met);
     std::size_t all = met.size();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (bodies[b].self_collision) all += tiles[b]->tiles.size();
+    for (const Body& body : bodies)
+        if (body.self_collision) all += body.tets.size() / fast::tile_size;
     // Of very many looks, every so many.
     const std::size_t stride = all / (looks_to_take * most_looks_) + 1;
     std::size_t seen = stride / 2;
@@ -150,12 +201,12 @@ void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* c
         const auto begin = reach;
         while (reach != reaches.end() && reach->a == a) ++reach;
         const std::span<const Reach> own(begin, reach);
-        const bool self = bodies[a].self_collision && !bodies[a].tets.empty() &&
-                          (activity.empty() || activity[a].meets_itself);
-        Box region = self ? boxes.bodies()[a] : fast::empty_box;
+        const Box own_region = source.own_region(a);
+        Box region = own_region;
         for (const Reach& r : own) fast::add(region, r.region);
         if (fast::is_empty(region)) continue;
-        collect(boxes, *tiles[a], a, self, own, region, points);
+        points.count = 0;
+        source.collect(a, own, own_region, region, points);
         if (points.count == 0) continue;
 
         const Box window = fast::bounds(points);
@@ -167,7 +218,10 @@ void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* c
         pool.cells.add(cells_met(sides.w));
         pool.largest_side = std::max({pool.largest_side, sides.w[0], sides.w[1], sides.w[2]});
         for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
-        append(points, pool.points);
+        if (pool.points.count == 0)
+            std::swap(points, pool.points);
+        else
+            append(points, 0, points.count, pool.points);
         const auto look = [&](std::span<const Box> tile_boxes, Box where) {
             fast::intersect(where, window);
             for (Box box : tile_boxes) {
@@ -187,10 +241,10 @@ void FastCost::look(std::span<const Body> bodies, std::span<const fast::Tiles* c
                 pool.profile.add(lookup, static_cast<double>(stride));
             }
         };
-        if (self) {
+        if (!fast::is_empty(own_region)) {
             const std::size_t first_tile = met.size();
-            boxes.find_tiles(a, region, met);
-            look(std::span(met).subspan(first_tile), region);
+            source.find_tiles(a, own_region, met);
+            look(std::span(met).subspan(first_tile), own_region);
             met.resize(first_tile);
         }
         for (const Reach& r : own)

@@ -18,7 +18,7 @@
 #include "scene_boxes.hpp"
 #include "terms.hpp"
 
-#include "../fast/tiles.hpp"
+#include "../fast.hpp"
 #include "../scene.hpp"
 
 #include <vox/vox.h>
@@ -40,6 +40,10 @@ public:
     // The same with boxes that are there already, of the same bodies and tiles.
     FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
              std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+
+    // The same from what the engine found in its last step, of these bodies where they were then.
+    FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
              const vox_cost_weights& weights, std::pmr::memory_resource* memory);
 
     // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
@@ -88,8 +92,8 @@ private:
         Moments cells;                         // of the windows themselves
     };
 
-    void look(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-              std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+    template <class Source>
+    void look(std::span<const Body> bodies, Source&& source, const Effort& effort,
               std::pmr::memory_resource* memory);
     Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 
