@@ -274,7 +274,7 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         if (!desc) grid->describe(settings);
         const double p_nc = grid->share_without_contact();
         if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
-        Scratch<std::size_t{1} << 15> memory; // enough for a small scene
+        Scratch<std::size_t{1} << 16> memory; // enough for a small scene
         Scene scene(settings.model, grid->known(&memory), &memory);
         write_struct(out, suggest(settings, scene.geometry(), scene.view(), weights_in_use(), &memory),
                      "out");

@@ -318,6 +318,16 @@ double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& su
     return mean > 0 ? as_laid / mean : 1;
 }
 
+FastCost::Work FastCost::work() const noexcept {
+    Work work;
+    for (const Pool& pool : pools_) {
+        const std::size_t stride = pool.looks.size() / most_looks_ + 1;
+        work.points += pool.profile.points_looked_at();
+        work.looks += (pool.looks.size() + stride - 1) / stride;
+    }
+    return work;
+}
+
 bool FastCost::range(double& min, double& max) const noexcept {
     bool any = false;
     for (const Pool& pool : pools_) {

@@ -23,6 +23,7 @@
 
 #include <vox/vox.h>
 
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -64,6 +65,12 @@ public:
         double visited_cells = 0; // as they lie alone
     };
     Counts counts(double cell_size, Lie lie) const;
+
+    // What it takes: points looked at near sampled tiles, once, and looks gone through for each cell size.
+    struct Work {
+        std::uint64_t points = 0, looks = 0;
+    };
+    Work work() const noexcept;
 
 private:
     // A tile's box in a window, cut to it: its sides, and how far the window goes on below and above.

@@ -206,6 +206,7 @@ std::size_t Profile::count_around(SizeClass& c, double lookups, Around&& around)
     for (std::size_t i = 0; i < size; ++i) {
         const Lookup& l = c.sample[i];
         around(l, [&](std::uint32_t id, const Distances& d, double weight) {
+            ++points_looked_at_;
             if (id < l.first_read || id >= l.last_read) return;
             (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, each * weight);
         });

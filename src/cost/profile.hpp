@@ -109,6 +109,9 @@ public:
     // what the lookups mean by an index; all are finite.
     void count_points(const fast::Points& points, Occupied occupied);
 
+    // How many points were looked at for that, once for each sample.
+    std::uint64_t points_looked_at() const noexcept { return points_looked_at_; }
+
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept;
     double cells(double cell_size) const noexcept;
@@ -134,7 +137,7 @@ private:
     SampleSizes sizes_;
     std::pmr::vector<SizeClass> classes_;           // those that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
-    std::uint64_t random_ = 0;
+    std::uint64_t random_ = 0, points_looked_at_ = 0;
     // Of cells with a point, for cell sizes that are even in the logarithm.
     static constexpr std::size_t occupied_sizes = 64;
     double first_size_ = 1, size_ratio_ = 2;

@@ -536,7 +536,31 @@ START_TEST(table_of_a_cost) {
     ck_assert_int_le(calls, 2 + 2 * 15);
     for (double d = 0.02; d < 100; d *= 1.01) ck_assert_double_eq_tol(table(d), cost(d), 0.01 * cost(d));
     ck_assert_double_eq(table(1e-6), cost(1e-6)); // beyond the table
+    // The zone, and points of the curve.
+    const double limit = 1.05 * found.cost;
+    const Zone zone = table.zone(found, limit), expected = zone_around(best, 1.05 * best.cost, cost, range);
+    ck_assert_double_eq_tol(zone.min, expected.min, 0.01 * expected.min);
+    ck_assert_double_eq_tol(zone.max, expected.max, 0.01 * expected.max);
+    const Zone all = table.zone(found, 1e9 * found.cost), none = table.zone(found, found.cost);
+    ck_assert_double_eq(all.min, range.min);
+    ck_assert_double_eq(all.max, range.max);
+    ck_assert_double_eq(none.min, found.cell_size);
+    ck_assert_double_eq(none.max, found.cell_size);
+    std::array<vox_cost_sample, 49> curve;
+    table.sample(0.1, 6, curve);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::exp2(double(i) / 8),
+                                1e-12 * curve[i].cell_size);
+        ck_assert_double_eq_tol(curve[i].cost, cost(curve[i].cell_size), 0.01 * curve[i].cost);
+    }
     ck_assert_double_eq(table(1e9), cost(1e9));
+    // All that a suggestion asks of it, with few calls.
+    calls = 0;
+    CostTable asked(cost, range, heap);
+    const CostMinimum least = asked.minimum();
+    (void)asked.zone(least, 1.05 * least.cost);
+    asked.sample(least.cell_size / 8, 6, curve);
+    ck_assert_int_le(calls, 2 + 2 * 12);
     ck_assert_double_eq(CostTable(cost, {3, 3}, heap).minimum().cell_size, 3);
     const CostFunction nothing = [](double) { return 0.0; };
     ck_assert_double_eq(CostTable(nothing, range, heap)(1), 0);
