@@ -129,7 +129,7 @@ private:
 // The same from the engine's last step.
 class FromLastStep {
 public:
-    explicit FromLastStep(const Fast& engine) : engine_(engine) {}
+    FromLastStep(std::span<const Body> bodies, const Fast& engine) : bodies_(bodies), engine_(engine) {}
 
     void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) const {
         engine_.for_reaches([&](std::uint32_t a, std::uint32_t b, const Box& region) {
@@ -138,7 +138,10 @@ public:
             reaches.push_back({a, b, region, first_tile, met.size()});
         });
     }
-    Box own_region(std::uint32_t body) const { return engine_.own_region(body); }
+    Box own_region(std::uint32_t body) const {
+        const bool self = engine_.activity(body, bodies_[body].vertex_count).meets_itself;
+        return self ? engine_.own_region(body) : fast::empty_box;
+    }
     void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
         engine_.for_tiles(body, region, [&](const Box& box) { met.push_back(box); });
     }
@@ -150,6 +153,7 @@ public:
     }
 
 private:
+    std::span<const Body> bodies_;
     const Fast& engine_;
 };
 
@@ -178,7 +182,7 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
 FastCost::FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
                    const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
-    look(bodies, FromLastStep(last_step), effort, memory);
+    look(bodies, FromLastStep(bodies, last_step), effort, memory);
 }
 
 template <class Source>
