@@ -160,7 +160,7 @@ private:
 } // namespace
 
 Effort quick_tiles(std::uint64_t tets) noexcept {
-    const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 8, 32);
+    const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 4, 32);
     return {0, {lookups, 2 * lookups + 32, lookups + 8}, std::max<std::size_t>(lookups, 16), true};
 }
 

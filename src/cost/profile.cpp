@@ -112,27 +112,8 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
 
 // ---- sums -----------------------------------------------------------------------------------------
 
-// Octave and sixteenth are the bits above the rest of the mantissa: even within an octave, not in the
-// logarithm, which does not matter.
-constexpr int rest_bits = 48;
-
-std::size_t PointsMet::class_of(double ratio) noexcept {
-    if (!(ratio >= 1)) return 0;
-    const std::uint64_t c =
-        (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) - (std::uint64_t{1023} << (52 - rest_bits)) + 1;
-    return c < classes ? static_cast<std::size_t>(c) : classes;
-}
-
-void PointsMet::add(const double (&e)[3], double weight) {
-    const std::size_t c = class_of(std::max(std::max(e[0], e[1]), e[2]) * inverse_least_);
-    if (c == classes) return;
-    if (c >= sums_.size()) sums_.resize(c + 1);
-    Moments& m = sums_[c];
-    m.sum[0] += weight;
-    m.sum[1] -= weight * (e[0] + e[1] + e[2]);
-    m.sum[2] += weight * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
-    m.sum[3] -= weight * (e[0] * e[1] * e[2]);
-}
+// By doubling.
+void PointsMet::grow(std::size_t to) { sums_.resize(std::min(std::max(to + 1, 2 * sums_.size()), classes)); }
 
 // Of points about as far away as the cell size, next to none are met; their class comes in little by little,
 // so that the sum is continuous.

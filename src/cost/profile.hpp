@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -48,7 +49,17 @@ public:
     PointsMet(double scale, std::pmr::memory_resource* memory)
         : inverse_least_(256 / scale), sums_(1, memory) {}
 
-    void add(const double (&distance)[3], double weight);
+    void add(const double (&e)[3], double weight) {
+        const std::size_t c = class_of(std::max(std::max(e[0], e[1]), e[2]) * inverse_least_);
+        if (c == classes) return;
+        if (c >= sums_.size()) grow(c);
+        Moments& m = sums_[c];
+        const double both = e[0] * e[1];
+        m.sum[0] += weight;
+        m.sum[1] -= weight * (e[0] + e[1] + e[2]);
+        m.sum[2] += weight * (both + (e[0] + e[1]) * e[2]);
+        m.sum[3] -= weight * (both * e[2]);
+    }
     // Once, after the last add(): makes of each class the sum of all up to it.
     void finish() noexcept;
 
@@ -58,7 +69,16 @@ public:
 private:
     static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
 
-    static std::size_t class_of(double ratio) noexcept; // of a distance to the least
+    // Of a distance, given over the least. Octave and sixteenth are the bits above the rest of the mantissa:
+    // even within an octave, not in the logarithm, which does not matter.
+    static constexpr int rest_bits = 48;
+    static std::size_t class_of(double ratio) noexcept {
+        if (!(ratio >= 1)) return 0;
+        const std::uint64_t c = (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) -
+                                (std::uint64_t{1023} << (52 - rest_bits)) + 1;
+        return c < classes ? static_cast<std::size_t>(c) : classes;
+    }
+    void grow(std::size_t to);
 
     double inverse_least_;
     std::pmr::vector<Moments> sums_; // of the first class and all up to the last with any
