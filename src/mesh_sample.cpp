@@ -32,7 +32,7 @@ void for_stratified(std::uint64_t count, std::size_t wanted, Visit&& visit) {
 } // namespace
 
 std::size_t sampled_tets(std::uint64_t tets) noexcept {
-    return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 48, 96, 256));
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 64, 64, 256));
 }
 
 MeshSample make_sample(const Body& body, const depth::Topology& topology, std::pmr::memory_resource* memory) {

@@ -112,8 +112,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
 
 // ---- sums -----------------------------------------------------------------------------------------
 
-// By doubling.
-void PointsMet::grow(std::size_t to) { sums_.resize(std::min(std::max(to + 1, 2 * sums_.size()), classes)); }
+void PointsMet::grow(std::size_t to) { sums_.resize(to + 1); }
 
 // Of points about as far away as the cell size, next to none are met; their class comes in little by little,
 // so that the sum is continuous.
