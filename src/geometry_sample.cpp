@@ -94,32 +94,41 @@ void add_tet(const MeshSample::SampledTet& sampled, const At& at, double weight,
     if (sampled.shared != MeshSample::SampledTet::no_facets) means.facet.add(own / count, weight * count);
 }
 
-// Calls visit(item, weight) for some of the items, which stand for `count`: as large a part as `wanted` is of
+// Takes some of a mesh's samples: of so many in the scene about `wanted`, as large a part as the mesh has of
 // `all`, and one at least.
-template <class Items, class Visit>
-void for_some(const Items& items, std::uint64_t count, double wanted, std::uint64_t all, Visit&& visit) {
-    if (items.empty()) return;
-    const double share = wanted * (static_cast<double>(count) / static_cast<double>(all));
-    const std::size_t size = items.size();
-    const std::size_t used = std::min(size, static_cast<std::size_t>(share) + 1);
-    const double weight = static_cast<double>(count) / static_cast<double>(used);
-    for (std::size_t i = 0; i < used; ++i) visit(items[(2 * i + 1) * size / (2 * used)], weight);
-}
+struct Share {
+    double wanted;
+    double place; // in the parts that a list is cut into, 0 to 1: another one for each mesh, as many may be
+                  // alike
 
-// A mesh's share of so many of all; `stats` has how many there are.
+    // Calls visit(item, weight) for the items, which stand for `count`.
+    template <class Items, class Visit>
+    void take(const Items& items, std::uint64_t count, std::uint64_t all, Visit&& visit) const {
+        if (items.empty()) return;
+        const auto size = static_cast<double>(items.size());
+        const double share = wanted * (static_cast<double>(count) / static_cast<double>(all));
+        const double used = std::min(size, std::floor(share) + 1), part = size / used;
+        for (double i = 0; i < used; ++i)
+            visit(items[std::min(static_cast<std::size_t>((i + place) * part), items.size() - 1)],
+                  static_cast<double>(count) / used);
+    }
+};
+
+// `stats` has how many there are of all.
 template <class At>
-void add_mesh(const Body& body, const MeshSample& sample, const At& at, double wanted,
+void add_mesh(const Body& body, const MeshSample& sample, const At& at, const Share& share,
               const vox_geometry_stats& stats, Means& means) {
-    for_some(sample.tets, body.tets.size() - body.off_count, wanted, stats.tets,
-             [&](const MeshSample::SampledTet& tet, double weight) { add_tet(tet, at, weight, means); });
-    for_some(sample.edges, sample.edge_count, wanted, stats.edges,
-             [&](const MeshSample::Edge& edge, double weight) {
-                 means.edge.add(length(between(at(edge[0]), at(edge[1]))), weight);
-             });
-    for_some(sample.facets, sample.boundary_facet_count, wanted / 2, stats.boundary_facets,
-             [&](const MeshSample::Facet& facet, double weight) {
-                 means.boundary_facet.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
-             });
+    share.take(sample.tets, body.tets.size() - body.off_count, stats.tets,
+               [&](const MeshSample::SampledTet& tet, double weight) { add_tet(tet, at, weight, means); });
+    share.take(sample.edges, sample.edge_count, stats.edges,
+               [&](const MeshSample::Edge& edge, double weight) {
+                   means.edge.add(length(between(at(edge[0]), at(edge[1]))), weight);
+               });
+    const Share half{share.wanted / 2, share.place};
+    half.take(sample.facets, sample.boundary_facet_count, stats.boundary_facets,
+              [&](const MeshSample::Facet& facet, double weight) {
+                  means.boundary_facet.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
+              });
 }
 
 // By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights.
@@ -207,17 +216,19 @@ Geometry estimate(std::span<const Body> bodies, std::span<const MeshSample* cons
         if (volume > 0) object_side.add(std::cbrt(volume), 1);
     }
     Means means(memory);
-    const auto wanted = static_cast<double>(samples);
+    constexpr double golden = 0.6180339887498949; // its multiples are spread evenly (H. Weyl, 1916)
+    Share share{static_cast<double>(samples), 0.5};
     means.box_sides.reserve(samples + bodies.size());
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t b = 0; b < bodies.size(); ++b, share.place += golden) {
+        share.place -= std::floor(share.place);
         const Positions& positions = bodies[b].positions;
         if (positions.rounded())
             add_mesh(
-                bodies[b], *meshes[b], [&](std::size_t v) { return positions.exact(v); }, wanted, stats,
+                bodies[b], *meshes[b], [&](std::size_t v) { return positions.exact(v); }, share, stats,
                 means);
         else
             add_mesh(
-                bodies[b], *meshes[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, wanted,
+                bodies[b], *meshes[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, share,
                 stats, means);
     }
     // Each facet of a tetrahedron is on the surface or shared by two, but for the odd one of more.

@@ -7,7 +7,7 @@
 #include "mesh_check.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <random>
 
 namespace vox {
 
@@ -20,11 +20,10 @@ void for_stratified(std::uint64_t count, std::size_t wanted, Visit&& visit) {
         for (std::uint64_t i = 0; i < count; ++i) visit(i);
         return;
     }
-    constexpr double golden = 0.6180339887498949;
+    std::minstd_rand random; // the same mesh gives the same sample, everywhere
     const double part = static_cast<double>(count) / static_cast<double>(wanted);
-    double place = 0.5;
-    for (std::size_t i = 0; i < wanted; ++i, place += golden) {
-        place -= std::floor(place);
+    for (std::size_t i = 0; i < wanted; ++i) {
+        const double place = static_cast<double>(random()) / (double{std::minstd_rand::max()} + 1);
         visit(std::min(static_cast<std::uint64_t>((static_cast<double>(i) + place) * part), count - 1));
     }
 }
@@ -32,7 +31,7 @@ void for_stratified(std::uint64_t count, std::size_t wanted, Visit&& visit) {
 } // namespace
 
 std::size_t sampled_tets(std::uint64_t tets) noexcept {
-    return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 64, 64, 256));
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 48, 96, 256));
 }
 
 MeshSample make_sample(const Body& body, const depth::Topology& topology, std::pmr::memory_resource* memory) {

@@ -99,8 +99,8 @@ START_TEST(samples_of_meshes_are_small) {
         ck_assert_uint_le(sample.tets.size(), 256);
         ck_assert_uint_le(sample.edges.size(), sample.tets.size());
         ck_assert_uint_le(sample.facets.size(), sample.tets.size() / 2);
-        ck_assert_uint_ge(sample.edges.size(), 64);
-        ck_assert_uint_ge(sample.facets.size(), 32);
+        ck_assert_uint_ge(sample.edges.size(), 96);
+        ck_assert_uint_ge(sample.facets.size(), 48);
     }
     ck_assert_uint_eq(sampled_tets(0), sampled_tets(4000));
     ck_assert_uint_eq(sampled_tets(1u << 30), 256);
