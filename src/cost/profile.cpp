@@ -200,7 +200,8 @@ void Profile::count_points(const fast::Points& points, Occupied occupied) {
         for (SizeClass& c : classes_) // all of them are around each
             count_around(c, lookups, [&](const Lookup& l, auto&& count) {
                 for (std::uint32_t i = 0; i < points.count; ++i)
-                    count(points.id[i], distances(l, {points.x[i], points.y[i], points.z[i]}), 1.0);
+                    if (points.id[i] >= l.first_read && points.id[i] < l.last_read)
+                        count(points.id[i], distances(l, {points.x[i], points.y[i], points.z[i]}), 1.0);
             });
     } else {
         count_binned(points, lookups, occupied);
