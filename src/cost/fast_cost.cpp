@@ -183,10 +183,11 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
 
     fast::Points points(memory);
     std::uint32_t first_vertex = 0;
-    auto reach = reaches.begin(); // sorted by a
+    const Reach* reach = reaches.data(); // sorted by a
+    const Reach* const last_reach = reach + reaches.size();
     for (std::uint32_t a = 0; a < bodies.size(); first_vertex += bodies[a].vertex_count, ++a) {
-        const auto begin = reach;
-        while (reach != reaches.end() && reach->a == a) ++reach;
+        const Reach* const begin = reach;
+        while (reach != last_reach && reach->a == a) ++reach;
         const std::span<const Reach> own(begin, reach);
         const bool self = bodies[a].self_collision && !bodies[a].tets.empty() &&
                           (activity.empty() || activity[a].meets_itself);
