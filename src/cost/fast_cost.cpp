@@ -200,10 +200,11 @@ void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort&
 
     fast::Points points(memory);
     std::uint32_t first_vertex = 0;
-    auto reach = reaches.begin(); // sorted by a
+    const Reach* reach = reaches.data(); // sorted by a
+    const Reach* const last_reach = reach + reaches.size();
     for (std::uint32_t a = 0; a < bodies.size(); first_vertex += bodies[a].vertex_count, ++a) {
-        const auto begin = reach;
-        while (reach != reaches.end() && reach->a == a) ++reach;
+        const Reach* const begin = reach;
+        while (reach != last_reach && reach->a == a) ++reach;
         const std::span<const Reach> own(begin, reach);
         const Box own_region = source.own_region(a);
         Box region = own_region;

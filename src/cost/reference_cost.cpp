@@ -108,12 +108,13 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
     fast::PairBuffers buffers(memory);
     std::pmr::vector<fast::Pair> pairs(memory);
     fast::find_pairs(boxes, buffers, pairs);
-    auto pair = pairs.begin(); // sorted by a
+    const fast::Pair* pair = pairs.data(); // sorted by a
+    const fast::Pair* const last_pair = pair + pairs.size();
     std::uint32_t first = 0;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
         const Body& body = bodies[b];
-        const auto begin = pair;
-        while (pair != pairs.end() && pair->a == b) ++pair;
+        const fast::Pair* const begin = pair;
+        while (pair != last_pair && pair->a == b) ++pair;
         const std::span<const fast::Pair> others(begin, pair);
         Lookup lookup{};
         lookup.last_read = static_cast<std::uint32_t>(vertices);
