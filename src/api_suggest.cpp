@@ -109,9 +109,10 @@ public:
             effort_ = quick(tets);
         }
         const std::size_t samples = sampled_tets(tets);
-        geometry_ = tets > 2 * samples && std::ranges::all_of(known.meshes, &Mesh::may_sample)
-                        ? sampled(known.meshes, boxes, samples)
-                        : measure_without_off();
+        const bool may_sample = std::all_of(known.meshes.begin(), known.meshes.end(),
+                                            [](const Mesh* mesh) { return mesh->may_sample(); });
+        geometry_ =
+            tets > 2 * samples && may_sample ? sampled(known.meshes, boxes, samples) : measure_without_off();
     }
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
