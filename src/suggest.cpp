@@ -254,16 +254,20 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
-                   CostTable* table, const CellSizeRange& range) {
-    constexpr double near = 1e-4; // no model is as good as that
-    const CostMinimum best = table ? table->minimum() : minimise(cost, range, near);
-    const double limit = (1 + desc.zone_loss) * best.cost;
-    const Zone zone = table ? table->zone(best, limit) : zone_around(best, limit, cost, range);
+constexpr double near = 1e-4; // no model is as good as that
+
+void write_minimum(vox_suggestion& result, const CostMinimum& best, const Zone& zone) {
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
+}
+
+void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
+                   CostTable* table, const CellSizeRange& range) {
+    const CostMinimum best = table ? table->minimum() : minimise(cost, range, {.tolerance = near});
+    const double limit = (1 + desc.zone_loss) * best.cost;
+    write_minimum(result, best, table ? table->zone(best, limit) : zone_around(best, limit, cost, range));
 }
 
 // What the rest of a suggestion says about the cell size in it. Costs are those of the table where there is
@@ -289,15 +293,22 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
         result.budget_cell_size = cost.least_cell_size(static_cast<double>(desc.byte_budget), range);
     range.min = std::max(range.min, result.budget_cell_size);
     range.max = std::max(range.max, range.min);
-    const CostFunction function = [&](double d) { return cost(d); };
-    CostTable made(function, range, memory);
-    CostTable* table = scene.effort.tabulated ? &made : nullptr;
-    minimise_into(result, desc, function, table, range);
+    // The table is of what is smooth; what the lists' lengths make of it is added, and costs little to ask.
+    const CostFunction smooth = [&](double d) { return cost(d) - cost.of_changes(d); };
+    CostTable table(smooth, range, memory);
+    const CostFunction function = [&](double d) {
+        return scene.effort.tabulated ? table(d) + cost.of_changes(d) : cost(d);
+    };
+    const double scans = scene.effort.sample.listed > 0 ? 32 : 5;
+    CostMinimum best = minimise(function, range, {.scans_per_octave = scans, .tolerance = near});
+    best.cost = cost(best.cell_size);
+    const CostFunction curve = [&](double d) { return std::max(function(d), best.cost); };
+    write_minimum(result, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range));
     const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
     for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
-    explain_model(result, desc, geometry, function, table, cost.terms(result.cell_size));
+    explain_model(result, desc, geometry, curve, nullptr, cost.terms(result.cell_size));
     return result;
 }
 

@@ -1091,7 +1091,7 @@ typedef struct vox_cost_weights {
     uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
     double reference_classify_vertex;
     double reference_prepare_tet; /* its box */
-    double reference_visit_cell; /* an empty one; with vertices, and beyond the caches, in proportion */
+    double reference_visit_cell; /* whose list is as long as the one before; others in proportion */
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;

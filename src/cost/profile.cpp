@@ -27,10 +27,11 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
+double next_part(std::uint64_t& state) { return static_cast<double>(next_random(state) >> 11) * 0x1p-53; }
+
 // floor(random * below), without the bias mattering.
 std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
-    return static_cast<std::uint64_t>(static_cast<double>(next_random(state) >> 11) * 0x1p-53 *
-                                      static_cast<double>(below));
+    return static_cast<std::uint64_t>(next_part(state) * static_cast<double>(below));
 }
 
 double longest_side(const Lookup& l) {
@@ -60,12 +61,9 @@ struct Binned {
     std::size_t stride;         // every so many points are the few
 };
 
-// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
-// from the few. The weight is how many of their like they stand for.
-template <class Count>
-void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
-    const fast::Lattice& lattice = in.window.lattice;
-    std::uint32_t lo[3], hi[3];
+// The cells that hold all that is not further from a box than `near`.
+void cells_around(const Lookup& l, double near, const fast::Lattice& lattice, std::uint32_t (&lo)[3],
+                  std::uint32_t (&hi)[3]) {
     // As floats no further in than they are.
     constexpr double largest = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
@@ -74,6 +72,15 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
         lo[a] = lattice.cell(std::nextafter(below, -fast::infinity), a);
         hi[a] = lattice.cell(std::nextafter(above, fast::infinity), a);
     }
+}
+
+// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
+// from the few. The weight is how many of their like they stand for.
+template <class Count>
+void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
+    const fast::Lattice& lattice = in.window.lattice;
+    std::uint32_t lo[3], hi[3];
+    cells_around(l, near, lattice, lo, hi);
     const auto position = [&](std::size_t i) {
         return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
     };
@@ -108,6 +115,35 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
     }
 }
 
+// The points nearer to a box than `most`; than less where those are too many, and 0 where those nearer than
+// the smallest cell size are. Returns how near.
+double gather(const Lookup& l, const ListChanges& changes, double most, const Binned& in,
+              std::pmr::vector<ListChanges::Point>& points) {
+    const fast::Lattice& lattice = in.window.lattice;
+    const auto in_scale = [&](double length) { return static_cast<float>(length / changes.scale()); };
+    for (double near = most; near >= changes.first_size(); near *= 0.8) {
+        points.clear();
+        std::uint32_t lo[3], hi[3];
+        cells_around(l, near, lattice, lo, hi);
+        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+            for (std::uint32_t y = lo[1]; y <= hi[1] && points.size() <= ListChanges::most_points; ++y) {
+                const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
+                for (std::size_t i = in.begin[row + lo[0]]; i < in.begin[row + hi[0] + 1]; ++i) {
+                    const double p[3] = {in.points.x[i], in.points.y[i], in.points.z[i]};
+                    const double distance = distances(l, p).largest;
+                    if (distance >= near) continue;
+                    points.push_back(
+                        {{in_scale(p[0] - l.lo[0]), in_scale(p[1] - l.lo[1]), in_scale(p[2] - l.lo[2])},
+                         in_scale(distance)});
+                    if (points.size() > ListChanges::most_points) break;
+                }
+            }
+        if (points.size() <= ListChanges::most_points) return near;
+    }
+    points.clear();
+    return 0;
+}
+
 } // namespace
 
 // ---- sums -----------------------------------------------------------------------------------------
@@ -136,7 +172,7 @@ void PointsMet::finish() noexcept {
 
 SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std::pmr::memory_resource* memory)
     : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e), memory),
-      tested(std::ldexp(1.0, e), memory), sample(memory) {
+      tested(std::ldexp(1.0, e), memory), changes(std::ldexp(1.0, e)), sample(memory) {
     sample.reserve(most_samples);
 }
 
@@ -207,6 +243,7 @@ void Profile::count_points(const fast::Points& points, Occupied occupied) {
         count_binned(points, lookups, occupied);
     }
     for (SizeClass& c : classes_) {
+        c.changes.finish();
         c.passed.finish();
         c.tested.finish();
     }
@@ -217,6 +254,7 @@ void Profile::count_binned(const fast::Points& points, double lookups, Occupied 
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
     std::pmr::vector<std::uint32_t> buffer(memory);
+    std::pmr::vector<ListChanges::Point> around(memory);
     const fast::Box box = fast::bounds(points);
     const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
     bins.points.reserve(points.count);
@@ -234,8 +272,23 @@ void Profile::count_binned(const fast::Points& points, double lookups, Occupied 
         const std::size_t size = count_around(c, lookups, [&](const Lookup& l, auto&& count) {
             for_points_around(l, near, binned, random_, count);
         });
+        count_lists(c, size * sizes_.listed / sizes_.lookups, binned, around);
         if (occupied == Occupied::not_counted) continue;
         count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
+    }
+}
+
+template <class In>
+void Profile::count_lists(SizeClass& c, std::size_t wanted, const In& in,
+                          std::pmr::vector<ListChanges::Point>& points) {
+    const double least = c.changes.first_size(), most = c.changes.last_size();
+    double near = most;
+    for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
+        const Lookup& l = c.sample[i];
+        const double known = gather(l, c.changes, near, in, points);
+        near = std::clamp(1.2 * known, 2 * least, most); // the next one is likely to be like this one
+        points_looked_at_ += points.size();
+        c.changes.add(l.lo, l.hi, points, known);
     }
 }
 

@@ -9,6 +9,8 @@
 // slivers and bodies of unlike resolution come out as they are.
 #pragma once
 
+#include "list_changes.hpp"
+
 #include "../fast/window.hpp"
 
 #include <algorithm>
@@ -106,6 +108,7 @@ struct SizeClass {
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
+    ListChanges changes;
     std::pmr::vector<Lookup> sample;
 };
 
@@ -113,6 +116,7 @@ struct SizeClass {
 // from them all.
 struct SampleSizes {
     std::size_t lookups, near_points, far_points;
+    std::size_t listed = 0; // lookups whose cells are filled and gone through
 };
 
 // Whether it is told how many cells have a point in them, which takes a look of its own.
@@ -150,6 +154,9 @@ private:
     template <class Around>
     std::size_t count_around(SizeClass& c, double lookups, Around&& around);
     void count_binned(const fast::Points& points, double lookups, Occupied occupied);
+    template <class In>
+    void count_lists(SizeClass& c, std::size_t wanted, const In& in,
+                     std::pmr::vector<ListChanges::Point>& points);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
