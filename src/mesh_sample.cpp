@@ -1,6 +1,6 @@
-// Stratified sampling: a list is cut into equal parts, and one item is taken from each, at places that go
-// round by the golden ratio (H. Weyl, 1916), so that what repeats in the list, as in a lattice, is met in all
-// its kinds.
+// Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): a list is cut into equal parts, and one
+// item is taken from each, at a random place: what repeats in the list, as in a lattice, is met in all its
+// kinds.
 #include "mesh_sample.hpp"
 
 #include "bits.hpp"
