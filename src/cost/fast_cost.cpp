@@ -146,7 +146,7 @@ void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, b
         }
         const std::uint32_t first = tiles.block_first[begin], last = tiles.block_first[b];
         points.reserve(std::size_t{points.count} + (last - first));
-        fast::collect(boxes.positions(body), first, last, around, points);
+        fast::collect(boxes.positions(body), first, last, tiles.block_first.back(), around, points);
     }
 }
 
