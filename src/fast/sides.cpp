@@ -21,27 +21,24 @@ class Sides {
 public:
     static constexpr std::uint32_t at_once = 8;
 
-    HWY_INLINE explicit Sides(const Box& region) : region_(region) {
-        alignas(64) float bound[16], sign[16];
-        for (std::size_t i = 0; i < 16; ++i) {
-            const bool high = i & 4; // where the high corner of a box is
-            bound[i] = high ? -region.lo[i & 3] : region.hi[i & 3];
-            sign[i] = high ? -0.0f : 0.0f;
-        }
-        bound_ = hn::Load(d, bound);
-        sign_ = hn::Load(d, sign);
-    }
+    HWY_INLINE explicit Sides(const Box& region)
+        : sign_(hn::OddEvenBlocks(hn::Set(d, -0.0f), hn::Zero(d))), // odd blocks are high corners
+          bound_(hn::Xor(hn::OddEvenBlocks(hn::LoadDup128(d, region.lo), hn::LoadDup128(d, region.hi)),
+                         sign_)),
+          region_(region) {}
 
     HWY_INLINE std::uint64_t operator()(const Box* boxes) const {
         std::uint64_t sides = 0;
         constexpr std::size_t lanes = hn::MaxLanes(d);
         if constexpr (lanes >= 8) { // whole boxes
-            std::uint8_t bytes[at_once + 8];
             for (std::size_t i = 0; i < at_once; i += lanes / 8) {
                 const auto corners = hn::Xor(hn::Load(d, boxes[i].lo), sign_);
-                hn::StoreMaskBits(d, hn::Gt(corners, bound_), bytes + i);
+                std::uint8_t bits[8];
+                hn::StoreMaskBits(d, hn::Gt(corners, bound_), bits);
+                std::uint64_t some = 0;
+                std::memcpy(&some, bits, lanes / 8);
+                sides |= some << (8 * i);
             }
-            std::memcpy(&sides, bytes, sizeof sides);
         } else {
             for (unsigned i = 0; i < at_once; ++i)
                 sides |= std::uint64_t{sides_of(boxes[i], region_)} << (8 * i);
@@ -59,7 +56,7 @@ public:
 private:
     static constexpr std::uint64_t each_byte = 0x0101010101010101u;
     static constexpr hn::CappedTag<float, 16> d{};
-    hn::Vec<hn::CappedTag<float, 16>> bound_, sign_;
+    hn::Vec<hn::CappedTag<float, 16>> sign_, bound_;
     const Box& region_;
 };
 
