@@ -206,20 +206,85 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
     return left;
 }
 
+// The coordinates of the corners of some tets, looked up by lane.
+#if HWY_TARGET == HWY_AVX3
+// In tables of floats in registers.
+template <class TableOf>
+class Corners {
+public:
+    struct Tets {
+        hn::Vec<Words> corners;
+    };
+
+    static void Prepare(QueryScratch&, std::uint32_t) {}
+    explicit Corners(const QueryScratch& s)
+        : table_{TableOf(s.x), TableOf(s.y), TableOf(s.z)}, corners_(s.corners) {}
+    HWY_INLINE Tets operator[](const std::uint32_t* pairs) const {
+        return {corners_(hn::And(hn::LoadU(Words(), pairs), hn::Set(Words(), 63)))};
+    }
+    template <int kCorner>
+    HWY_INLINE void Load(const Tets& tets, V* out) const {
+        const auto index = hn::And(hn::ShiftRight<8 * kCorner>(tets.corners), hn::Set(Words(), 255));
+        for (int a = 0; a < 3; ++a) out[a] = table_[a](index);
+    }
+
+private:
+    TableOf table_[3];
+    WordTable corners_;
+};
+using FewCorners = Corners<SmallTable>; // of at most few_vertices
+using ManyCorners = Corners<Table>;
+#else
+// Vertex by vertex, transposed: half the time of gathers, and two thirds of that of permutations of registers.
+class Corners {
+public:
+    struct Tets {
+        const std::uint32_t* pairs;
+    };
+
+    static void Prepare(QueryScratch& s, std::uint32_t vertex_count) {
+        const Floats d;
+        for (std::uint32_t i = 0; i < vertex_count; i += static_cast<std::uint32_t>(hn::Lanes(d)))
+            hn::StoreInterleaved4(hn::Load(d, s.x + i), hn::Load(d, s.y + i), hn::Load(d, s.z + i), hn::Zero(d), d,
+                                  s.xyz + 4 * i);
+    }
+    explicit Corners(const QueryScratch& s)
+        : xyz_(s.xyz), corners_(reinterpret_cast<const std::uint8_t*>(s.corners)) {}
+    HWY_INLINE Tets operator[](const std::uint32_t* pairs) const { return {pairs}; }
+    template <int kCorner>
+    HWY_INLINE void Load(const Tets& tets, V* out) const {
+        const auto vertex = [&](std::size_t i) HWY_ATTR {
+            const std::size_t v = corners_[4 * (tets.pairs[i] & 63) + kCorner];
+#if HWY_TARGET == HWY_AVX2
+            const std::size_t v4 = corners_[4 * (tets.pairs[i + 4] & 63) + kCorner];
+            return hn::Combine(Floats(), hn::Load(Four(), xyz_ + 4 * v4), hn::Load(Four(), xyz_ + 4 * v));
+#else
+            return hn::Load(Four(), xyz_ + 4 * v);
+#endif
+        };
+        Transpose(Floats(), vertex(0), vertex(1), vertex(2), vertex(3), out);
+    }
+
+private:
+    const float* xyz_;
+    const std::uint8_t* corners_;
+};
+using FewCorners = Corners;
+using ManyCorners = Corners;
+#endif
+
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
 
-// Decides `count` pairs. TableOf: of the tile's coordinates.
-template <bool kRounded, class TableOf>
+// Decides `count` pairs.
+template <bool kRounded, class CornersOf>
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const TableOf table[3] = {TableOf(s.x), TableOf(s.y), TableOf(s.z)};
-    const WordTable corner_table(s.corners);
+    const CornersOf corners(s);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
-    const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
     for (std::uint32_t i = 0; i < lanes; ++i) s.pairs[count + i] = s.pairs[count - 1]; // whole registers
     std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
@@ -228,23 +293,25 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const std::uint32_t first = s.pairs[i] >> 6;
         const auto candidate =
             hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
-        const auto corners = corner_table(hn::And(pair, low6));
-        const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
-        const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
+        const auto tets_of = corners[s.pairs + i];
+        V va[3], vb[3], vc[3], vd[3];
+        corners.template Load<0>(tets_of, va);
+        corners.template Load<1>(tets_of, vb);
+        corners.template Load<2>(tets_of, vc);
+        corners.template Load<3>(tets_of, vd);
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
-            const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
             const V p = hn::TableLookupLanes(hn::LoadU(d, candidates[a] + first), candidate);
-            const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
-                    hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
+            const V lo = hn::Min(hn::Min(va[a], vb[a]), hn::Min(vc[a], vd[a])),
+                    hi = hn::Max(hn::Max(va[a], vb[a]), hn::Max(vc[a], vd[a]));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
             side[a] = hn::Sub(hi, lo);
             volume = hn::Mul(volume, side[a]);
-            e1[a] = hn::Sub(vb, va);
-            e2[a] = hn::Sub(vc, va);
-            e3[a] = hn::Sub(vd, va);
-            q[a] = hn::Sub(p, va);
+            e1[a] = hn::Sub(vb[a], va[a]);
+            e2[a] = hn::Sub(vc[a], va[a]);
+            e3[a] = hn::Sub(vd[a], va[a]);
+            q[a] = hn::Sub(p, va[a]);
         }
         if (hn::AllFalse(d, inside)) continue;
         s.counters.candidates += hn::CountTrue(d, inside);
@@ -318,11 +385,11 @@ struct TileWork {
     void narrow(const std::uint32_t* tets, std::uint32_t count) {
         const bool few = tile.vertex_count <= few_vertices;
         if (query.rounded)
-            few ? Narrow<true, SmallTable>(tets, s, count, constants, out)
-                : Narrow<true, Table>(tets, s, count, constants, out);
+            few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
+                : Narrow<true, ManyCorners>(tets, s, count, constants, out);
         else
-            few ? Narrow<false, SmallTable>(tets, s, count, constants, out)
-                : Narrow<false, Table>(tets, s, count, constants, out);
+            few ? Narrow<false, FewCorners>(tets, s, count, constants, out)
+                : Narrow<false, ManyCorners>(tets, s, count, constants, out);
     }
 };
 
@@ -335,6 +402,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
+        ManyCorners::Prepare(s, tile.vertex_count);
         w.constants = MakeConstants(w.box, w.query.rounded);
         w.ready = true;
     }
