@@ -133,17 +133,24 @@ public:
         return size;
     }
 
-    // Time of a suggestion over that of a step, each the median of some.
-    double steps_to_suggest() {
-        std::vector<double> ratios;
-        for (int i = 0; i < 5; ++i) {
-            const double step = turn(0);
-            vox_suggestion suggestion{};
-            suggestion.struct_size = sizeof suggestion;
-            ratios.push_back(
-                seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &suggestion)); }) / step);
+    struct Suggestion {
+        double step_seconds, steps; // of a step, and the suggestion's time over it: medians
+        vox_suggestion answer;      // the last one
+    };
+    // Of some: the first ones are slower, the code and what it reads being far away.
+    Suggestion suggest(int times) {
+        Suggestion result{};
+        std::vector<double> steps, ratios;
+        for (int i = 0; i < times; ++i) {
+            steps.push_back(turn(0));
+            result.answer.struct_size = sizeof result.answer;
+            const double seconds =
+                seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &result.answer)); });
+            ratios.push_back(seconds / steps.back());
         }
-        return median(ratios);
+        result.step_seconds = median(steps);
+        result.steps = median(ratios);
+        return result;
     }
 
 private:
@@ -351,8 +358,37 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     grid.turn(0);
     for (std::size_t i = 0; i < rules.size(); ++i)
         row.size[i] = (rule[i].size > 0 ? rule[i].size : grid.cell_size()) / scene.mean_edge;
-    row.suggest_steps = Grid(engine, scene, vox_default_grid_desc().flags).steps_to_suggest();
+    row.suggest_steps = Grid(engine, scene, vox_default_grid_desc().flags).suggest(5).steps;
     return row;
+}
+
+// ---- suggestions alone ----------------------------------------------------------------------------
+
+// What a suggestion costs in a grid with the depth stage, and without, and how good it is: the cost at its
+// size over the least one, both by the model that looks at everything.
+std::string suggestions(Scene& scene, vox_engine engine) {
+    scene.pose(0);
+    const std::vector<vox_mesh_desc> meshes = Grid::descs(scene);
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    desc.model = engine == VOX_ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    vox_suggestion model{};
+    model.struct_size = sizeof model;
+    must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
+    std::string text = "," + std::to_string(scene.tet_count());
+    for (const std::uint32_t flags : {std::uint32_t{VOX_GRID_PENETRATIONS}, std::uint32_t{0}}) {
+        const Grid::Suggestion found = Grid(engine, scene, flags).suggest(15);
+        const double size = found.answer.cell_size;
+        char part[120];
+        std::snprintf(part, sizeof part, ",%.2f,%.3f,%.3f,%.3f", found.step_seconds * 1e6, found.steps,
+                      size / model.cell_size, predicted(model, size) / model.predicted_cost - 1);
+        text += part;
+    }
+    return text + "\n";
+}
+
+std::string suggestions_head() {
+    return "engine,scene,asked,tets,step_us,suggest_steps,size_ratio,loss,"
+           "bare_step_us,bare_suggest_steps,bare_size_ratio,bare_loss\n";
 }
 
 // ---- results --------------------------------------------------------------------------------------
@@ -406,7 +442,7 @@ int run(int argc, char** argv) {
     std::string meshes, csv, curves;
     double most_tets = std::numeric_limits<double>::infinity(), stop_after = most_tets;
     Settings settings;
-    bool calibrate = false;
+    bool calibrate = false, only_suggest = false;
     app.add_option("--tets", tets, "Tetrahedra of a scene")->delimiter(',');
     app.add_option("--max-tets", most_tets, "Leave out the files' scenes of more");
     app.add_option("--engine", engines, "reference, fast")->delimiter(',');
@@ -420,13 +456,16 @@ int run(int argc, char** argv) {
     app.add_option("--curves", curves, "Append the sweeps to this file");
     app.add_option("--stop-after", stop_after, "Begin no scene after so many seconds");
     app.add_flag("--calibrate", calibrate, "Measure the weights first");
+    app.add_flag("--suggestions", only_suggest,
+                 "Measure what suggestions cost, and nothing else; --csv makes rows of their own kind");
     CLI11_PARSE(app, argc, argv);
     settings.least_rounds = std::min(settings.least_rounds, settings.most_rounds);
     if (calibrate) must(vox_cost_calibrate(nullptr));
 
     const std::set<std::string> done = csv.empty() ? std::set<std::string>{} : rows_of(csv);
-    if (!csv.empty() && done.empty()) append(csv, head());
-    std::printf("%s", head().c_str());
+    const std::string title = only_suggest ? suggestions_head() : head();
+    if (!csv.empty() && done.empty()) append(csv, title);
+    std::printf("%s", title.c_str());
     double spent = 0;
     for (const SceneMaker& maker : all_scenes(meshes)) {
         if (!scenes.empty() && std::find(scenes.begin(), scenes.end(), maker.name) == scenes.end()) continue;
@@ -442,12 +481,19 @@ int run(int argc, char** argv) {
                 if (static_cast<double>(scene.tet_count()) > most_tets) return;
                 for (const std::string& engine : left) {
                     std::vector<Sample> curve;
-                    Row row = measure(scene, engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE,
-                                      settings, curve);
-                    row.asked = asked;
-                    std::printf("%s", line(row).c_str());
+                    Row row{};
+                    std::string text = key(engine, scene.name, asked);
+                    const vox_engine kind = engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+                    if (only_suggest) {
+                        text += suggestions(scene, kind);
+                    } else {
+                        row = measure(scene, kind, settings, curve);
+                        row.asked = asked;
+                        text = line(row);
+                    }
+                    std::printf("%s", text.c_str());
                     std::fflush(stdout);
-                    if (!csv.empty()) append(csv, line(row));
+                    if (!csv.empty()) append(csv, text);
                     for (const Sample& s : curve) {
                         if (curves.empty()) break;
                         char text[120];

@@ -5,16 +5,23 @@
 #include "cost/calibrate.hpp"
 #include "cost/minimise.hpp"
 #include "cost/weights.hpp"
+#include "fast/rest.hpp"
+#include "fast/stream.hpp"
 #include "geometry.hpp"
 #include "grid.hpp"
 #include "mesh_check.hpp"
+#include "scratch.hpp"
 #include "structs.hpp"
 #include "suggest.hpp"
 
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
+#include <optional>
+#include <span>
 #include <vector>
 
 using namespace vox;
@@ -75,33 +82,78 @@ std::vector<Body> read_bodies(const vox_mesh_desc* meshes, std::uint64_t count) 
 // Bodies with what the models need of them.
 class Scene {
 public:
-    Scene(vox_cost_model model, std::vector<Body> bodies) : bodies_(std::move(bodies)) {
+    Scene(vox_cost_model model, std::vector<Body> bodies)
+        : memory_(std::pmr::get_default_resource()), bodies_(bodies.begin(), bodies.end(), memory_),
+          made_(memory_), tiles_(bodies_.size(), nullptr, memory_), activity_(memory_), body_boxes_(memory_) {
         geometry_ = measure(bodies_);
-        tiles_.resize(bodies_.size());
         if (model == VOX_COST_MODEL_FAST) make_tiles();
     }
 
     // A grid asks between its steps, and should not wait longer than for one of them: from a sample.
-    Scene(vox_cost_model model, vox_grid::Known known)
-        : bodies_(std::move(known.bodies)), tiles_(std::move(known.tiles)),
-          activity_(std::move(known.activity)) {
+    Scene(vox_cost_model model, vox_grid::Known known, std::pmr::memory_resource* memory)
+        : memory_(memory), bodies_(std::move(known.bodies)), made_(memory), tiles_(std::move(known.tiles)),
+          activity_(std::move(known.activity)), body_boxes_(memory) {
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
-        const std::size_t samples = std::clamp<std::size_t>(tets / 48, 96, 256);
-        const bool sampled = tets > 2 * samples && std::ranges::count(known.topologies, nullptr) == 0;
-        geometry_ = sampled ? estimate(bodies_, known.topologies, samples) : measure_without_off();
-        effort_ = model == VOX_COST_MODEL_FAST ? quick_tiles(tets) : quick(tets);
-        if (model == VOX_COST_MODEL_FAST) make_tiles();
+        std::span<const fast::Box> boxes;
+        if (model == VOX_COST_MODEL_FAST) {
+            effort_ = quick_tiles(tets);
+            if (known.last_step && !moved_since(*known.last_step)) {
+                last_step_ = known.last_step;
+                boxes = body_boxes_;
+            } else {
+                make_tiles();
+                boxes = boxes_.emplace(bodies_, tiles_, memory_).bodies();
+            }
+        } else {
+            effort_ = quick(tets);
+        }
+        const std::size_t samples = sampled_tets(tets);
+        const bool may_sample = std::all_of(known.meshes.begin(), known.meshes.end(),
+                                            [](const Mesh* mesh) { return mesh->may_sample(); });
+        geometry_ =
+            tets > 2 * samples && may_sample ? sampled(known.meshes, boxes, samples) : measure_without_off();
     }
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
 
     const Geometry& geometry() const noexcept { return geometry_; }
-    SuggestScene view() const noexcept { return {bodies_, tiles_, activity_, effort_}; }
+    SuggestScene view() noexcept {
+        return {bodies_, tiles_, activity_, effort_, boxes_ ? &*boxes_ : nullptr, last_step_};
+    }
 
 private:
+    // Whether any of the bodies has another box than in a step. Those whose positions are not packed count as
+    // moved. What moves inside its box and nowhere reaches further than before is near enough where it was.
+    bool moved_since(const Fast& step) {
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            const Body& body = bodies_[b];
+            fast::Box& box = body_boxes_.emplace_back(fast::empty_box);
+            if (body.vertex_count == 0) continue;
+            if (!fast::is_packed(body.positions)) return true;
+            const std::uint32_t ends[2] = {0, body.vertex_count};
+            fast::Box block{};
+            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
+                check_finite(body);
+            if (!std::equal(box.lo, box.lo + 3, step.box(b).lo) ||
+                !std::equal(box.hi, box.hi + 3, step.box(b).hi))
+                return true;
+        }
+        return false;
+    }
+
+    Geometry sampled(std::span<const Mesh* const> meshes, std::span<const fast::Box> boxes,
+                     std::size_t samples) const {
+        std::pmr::vector<const MeshSample*> of_meshes(memory_);
+        of_meshes.reserve(meshes.size());
+        for (const Mesh* mesh : meshes) of_meshes.push_back(&mesh->sample());
+        return estimate(bodies_, of_meshes, boxes, samples, memory_);
+    }
+
     // Of the tetrahedra that are not off.
     Geometry measure_without_off() const {
         std::vector<std::vector<Tet>> on;
-        std::vector<Body> bodies = bodies_;
+        std::vector<Body> bodies(bodies_.begin(), bodies_.end());
         for (Body& body : bodies) {
             if (body.off_count == 0) continue;
             std::vector<Tet>& tets = on.emplace_back(); // whose elements stay where they are as `on` grows
@@ -124,11 +176,15 @@ private:
         }
     }
 
-    std::vector<Body> bodies_;
+    std::pmr::memory_resource* memory_;
+    std::pmr::vector<Body> bodies_;
+    std::pmr::vector<fast::Tiles> made_;
+    std::pmr::vector<const fast::Tiles*> tiles_;
+    std::pmr::vector<Activity> activity_;
+    std::pmr::vector<fast::Box> body_boxes_;
+    std::optional<SceneBoxes> boxes_; // this or the next one for the fast engine's model
+    const Fast* last_step_ = nullptr;
     Geometry geometry_{};
-    std::vector<fast::Tiles> made_;
-    std::vector<const fast::Tiles*> tiles_;
-    std::vector<Activity> activity_;
     Effort effort_ = thorough;
 };
 
@@ -202,7 +258,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     return border([&] {
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
-        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        Scene scene(settings.model, read_bodies(meshes, mesh_count));
         write_struct(out,
                      suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
                              std::pmr::get_default_resource()),
@@ -219,10 +275,9 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         if (!desc) grid->describe(settings);
         const double p_nc = grid->share_without_contact();
         if (p_nc > 0 && p_nc < 1 && settings.p_nc == suggest_defaults().p_nc) settings.p_nc = p_nc;
-        const Scene scene(settings.model, grid->known());
-        write_struct(out,
-                     suggest(settings, scene.geometry(), scene.view(), weights_in_use(),
-                             std::pmr::get_default_resource()),
+        Scratch<std::size_t{1} << 16> memory; // enough for a small scene
+        Scene scene(settings.model, grid->known(&memory), &memory);
+        write_struct(out, suggest(settings, scene.geometry(), scene.view(), weights_in_use(), &memory),
                      "out");
     });
 }
@@ -233,7 +288,7 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
         check_cells(cell_size, "cell_size");
-        const Scene scene(settings.model, read_bodies(meshes, mesh_count));
+        Scene scene(settings.model, read_bodies(meshes, mesh_count));
         const CostTerms terms = predict(settings, scene.geometry(), scene.view(), weights_in_use(), cell_size,
                                         std::pmr::get_default_resource());
         vox_cost_prediction prediction{};

@@ -89,6 +89,39 @@ public:
         return {state.moved, state.self && state.binned > vertices / 2};
     }
 
+    // What the last step found near each other, for the cost model: good while the bodies are those of that
+    // step. The box of a body, as rounded; where vertices in its windows may be in its own tets, empty: nowhere.
+    std::size_t body_count() const noexcept { return states_.size(); }
+    const fast::Box& box(std::size_t body) const noexcept { return body_boxes_[body]; }
+    fast::Box own_region(std::size_t body) const noexcept {
+        const BodyState& state = states_[body];
+        return state.self && state.bins ? state.own : fast::empty_box;
+    }
+    // Calls visit(a, b, region), sorted by a, then b: vertices of a in the region may be in tets of b.
+    template <class Visit>
+    void for_reaches(Visit&& visit) const {
+        for (const Reach& reach : reaches_)
+            if (!fast::is_empty(reach.region)) visit(reach.a, reach.b, reach.region);
+    }
+    // Calls visit(points, first, count) for the vertices in each window of a body.
+    template <class Visit>
+    void for_binned(std::size_t body, Visit&& visit) const {
+        const BodyState& state = states_[body];
+        if (!state.bins) return;
+        for (std::uint32_t w = state.root; w < state.bins->windows[state.root].end; ++w) {
+            const fast::Window& window = state.bins->windows[w];
+            if (window.count) visit(state.bins->points, window.first_point, window.count);
+        }
+    }
+    // Calls visit(box) for the tiles of a body that were looked at and meet a region.
+    template <class Visit>
+    void for_tiles(std::size_t body, const fast::Box& region, Visit&& visit) const {
+        const std::size_t end =
+            body + 1 < states_.size() ? states_[body + 1].first_tile : tile_boxes_.size();
+        for (std::size_t t = states_[body].first_tile; t < end; ++t)
+            if (tile_known_[t] && fast::overlap(tile_boxes_[t], region)) visit(tile_boxes_[t]);
+    }
+
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }
 

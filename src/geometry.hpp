@@ -2,7 +2,8 @@
 // in.
 #pragma once
 
-#include "depth/topology.hpp"
+#include "fast/box.hpp"
+#include "mesh_sample.hpp"
 #include "scene.hpp"
 
 #include <vox/vox.h>
@@ -27,11 +28,12 @@ struct Geometry {
 Geometry measure(std::span<const Body> bodies,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-// The same from about so many tetrahedra, edges and triangles, for large meshes whose topology is known: the
-// time goes into one pass over the vertices, for the bounds. Counts of edges and facets are the topology's, the
-// rest is an estimate, good to a few per cent where sizes are not spread far.
-Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology* const> topologies,
-                  std::size_t samples);
+// The same from about so many tetrahedra and edges and half as many boundary facets, for large meshes whose
+// samples are known: the time goes into one pass over the vertices, for the bounds, unless `boxes` has them:
+// of each body, around all of its vertices, which are finite then; empty: not known. Counts of edges and
+// facets are the topology's, the rest is an estimate, good to a few per cent where sizes are not spread far.
+Geometry estimate(std::span<const Body> bodies, std::span<const MeshSample* const> meshes,
+                  std::span<const fast::Box> boxes, std::size_t samples, std::pmr::memory_resource* memory);
 
 // The means of the statistics, however they were taken: of each quantity one that has a value().
 template <class Means>

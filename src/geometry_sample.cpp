@@ -1,5 +1,4 @@
-// Means over a part of the scene: tetrahedra, edges, facets and boundary triangles, each from as many equal
-// parts of their lists, so that large meshes are described in next to no time.
+// Means over a part of the scene: the samples of its meshes, or of many meshes some of these.
 #include "geometry.hpp"
 
 #include "bits.hpp"
@@ -9,9 +8,11 @@
 #include "predicates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -44,40 +45,33 @@ struct Mean {
     double value() const { return count > 0 ? sum / count : 0; }
 };
 
-struct Means {
-    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume, degenerate;
-    std::vector<std::pair<double, double>> box_sides; // and their weights
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// visit(index, weight) for some of `count` items: as large a part as `wanted` is of `all`, and a few at
-// least.
-template <class Visit>
-void for_some(std::size_t count, double wanted, double all, Visit&& visit) {
-    if (count == 0 || !(all > 0)) return; // all > 0 unless every tetrahedron is off
-    const double part = std::min(wanted / all, 1.0) * static_cast<double>(count);
-    const std::size_t samples = std::min(count, static_cast<std::size_t>(part) + 1);
-    const double each = static_cast<double>(count) / static_cast<double>(samples);
-    for (std::size_t i = 0; i < samples; ++i)
-        visit(static_cast<std::size_t>((static_cast<double>(i) + 0.5) * each), each);
-}
+struct Means {
+    explicit Means(std::pmr::memory_resource* memory) : box_sides(memory) {}
+
+    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume, degenerate;
+    std::pmr::vector<std::pair<double, double>> box_sides; // and their weights
+};
 
 // at(v) is the exact position of a vertex, here and below.
 template <class At>
-void sample_tet(const Body& body, const depth::Topology& topology, const At& at, std::size_t t, double weight,
-                Means& means) {
-    const Tet& tet = body.tets[t];
-    const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
+void add_tet(const MeshSample::SampledTet& sampled, const At& at, double weight, Means& means) {
+    const std::uint32_t* v = sampled.tet.v;
+    const Vec3d p[4] = {at(v[0]), at(v[1]), at(v[2]), at(v[3])};
     const Vector a = between(p[0], p[1]), b = between(p[0], p[2]), c = between(p[0], p[3]);
     const auto extent = [](double first, double second, double third) { // of three numbers and 0
         return std::max(std::max(first, second), std::max(third, 0.0)) -
                std::min(std::min(first, second), std::min(third, 0.0));
     };
-    const double side = std::max({extent(a.x, b.x, c.x), extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)});
+    const double side =
+        std::max(extent(a.x, b.x, c.x), std::max(extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)));
     means.box_side.add(side, weight);
     means.box_sides.emplace_back(side, weight);
     const Vector ab = between(p[1], p[2]), ac = between(p[1], p[3]), bc = between(p[2], p[3]);
-    const double longest = std::max(std::max({dot(a, a), dot(b, b), dot(c, c)}),
-                                    std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)}));
+    const double longest =
+        std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
+                 std::max(dot(ac, ac), dot(bc, bc)));
     means.longest_edge.add(std::sqrt(longest), weight);
     // Twice the facet opposite each corner, but for the sign.
     const Vector facets[4] = {cross(ab, ac), cross(b, c), cross(a, c), cross(a, b)};
@@ -89,55 +83,56 @@ void sample_tet(const Body& body, const depth::Topology& topology, const At& at,
         !(volume > 1e-12 * side * side * side) && orientation(p[0], p[1], p[2], p[3], exact_tests) == 0;
     means.degenerate.add(flat, weight);
     double all = 0, own = 0, count = 0; // facets that two tetrahedra share are met from both of them
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::uint32_t f = 0; f < 4; ++f) {
         const double facet = length(facets[f]) / 2;
-        const double part = (topology.across[t][f] & depth::Topology::surface_bit) == 0 ? 0.5 : 1.0;
+        const double part = (sampled.shared >> f & 1) != 0 ? 0.5 : 1.0;
         all += facet;
         own += facet * part;
         count += part;
     }
     means.tet_facet.add(all / 4, weight);
-    means.facet.add(own / count, weight * count);
+    if (sampled.shared != MeshSample::SampledTet::no_facets) means.facet.add(own / count, weight * count);
 }
 
-// Some edges at each of some vertices, at places in its list that go round by the golden ratio (Weyl).
-template <class At>
-void sample_edges(const Body& body, const depth::Topology& topology, const At& at, double wanted, double all,
-                  Mean& edge) {
-    constexpr std::size_t most = 2; // of a vertex
-    double place = 0.5;
-    for_some(body.vertex_count, wanted / most, all, [&](std::size_t v, double weight) {
-        const auto neighbours = topology.neighbours_of(static_cast<std::uint32_t>(v));
-        const std::size_t count = std::min(most, neighbours.size());
-        const Vec3d p = at(v);
-        for (std::size_t i = 0; i < count; ++i) {
-            place += 0.6180339887498949;
-            place -= std::floor(place);
-            const auto n = static_cast<std::size_t>(place * static_cast<double>(neighbours.size()));
-            // Each edge is met from both of its ends.
-            edge.add(length(between(p, at(neighbours[n]))),
-                     weight / 2 * static_cast<double>(neighbours.size()) / static_cast<double>(count));
-        }
-    });
-}
+// Takes some of a mesh's samples: of so many in the scene about `wanted`, as large a part as the mesh has of
+// `all`, and one at least.
+struct Share {
+    double wanted;
+    double place; // in the parts that a list is cut into, 0 to 1: another one for each mesh, as many may be
+                  // alike
 
-// Its share of so many of all; `stats` has how many there are.
+    // Calls visit(item, weight) for the items, which stand for `count`.
+    template <class Items, class Visit>
+    void take(const Items& items, std::uint64_t count, std::uint64_t all, Visit&& visit) const {
+        if (items.empty()) return;
+        const auto size = static_cast<double>(items.size());
+        const double share = wanted * (static_cast<double>(count) / static_cast<double>(all));
+        const double used = std::min(size, std::floor(share) + 1), part = size / used;
+        for (double i = 0; i < used; ++i)
+            visit(items[std::min(static_cast<std::size_t>((i + place) * part), items.size() - 1)],
+                  static_cast<double>(count) / used);
+    }
+};
+
+// `stats` has how many there are of all.
 template <class At>
-void sample_body(const Body& body, const depth::Topology& topology, const At& at, double wanted,
-                 const vox_geometry_stats& stats, Means& means) {
-    for_some(body.tets.size(), wanted, static_cast<double>(stats.tets), [&](std::size_t t, double weight) {
-        if (!has_bit(body.off, t)) sample_tet(body, topology, at, t, weight, means);
-    });
-    sample_edges(body, topology, at, wanted, static_cast<double>(stats.vertices), means.edge);
-    for_some(topology.triangles.size(), wanted / 2, static_cast<double>(stats.boundary_facets),
-             [&](std::size_t i, double weight) {
-                 const std::uint32_t* v = topology.triangles[i].v;
-                 means.boundary_facet.add(area(at(v[0]), at(v[1]), at(v[2])), weight);
-             });
+void add_mesh(const Body& body, const MeshSample& sample, const At& at, const Share& share,
+              const vox_geometry_stats& stats, Means& means) {
+    share.take(sample.tets, body.tets.size() - body.off_count, stats.tets,
+               [&](const MeshSample::SampledTet& tet, double weight) { add_tet(tet, at, weight, means); });
+    share.take(sample.edges, sample.edge_count, stats.edges,
+               [&](const MeshSample::Edge& edge, double weight) {
+                   means.edge.add(length(between(at(edge[0]), at(edge[1]))), weight);
+               });
+    const Share half{share.wanted / 2, share.place};
+    half.take(sample.facets, sample.boundary_facet_count, stats.boundary_facets,
+              [&](const MeshSample::Facet& facet, double weight) {
+                  means.boundary_facet.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
+              });
 }
 
 // By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights.
-double median(std::vector<std::pair<double, double>>& values) {
+double median(std::span<std::pair<double, double>> values) {
     double half = 0;
     for (const auto& [value, weight] : values) half += weight / 2;
     auto first = values.begin(), last = values.end();
@@ -156,38 +151,35 @@ double median(std::vector<std::pair<double, double>>& values) {
     return first == last ? 0 : first->first;
 }
 
-// Edges, each counted from both ends; and the box of the vertices that tetrahedra use, of all vertices for a
-// body without tetrahedra.
+// The box of the vertices that tetrahedra use, of all vertices for a body without tetrahedra.
 struct Extent {
-    std::uint64_t ends = 0;
     bool any = false;
-    double lo[3], hi[3];
+    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
 };
 
-Extent extent_of(const Body& body, const depth::Topology& topology) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Extent extent{0, false, {infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    bool some_unused = false;
-    for (std::uint32_t v = 0; v < topology.neighbours.size(); ++v) {
-        const std::size_t neighbours = topology.neighbours[v].size();
-        extent.ends += neighbours;
-        some_unused |= neighbours == 0;
-    }
+// `box` is that of all vertices, if it is known.
+Extent extent_of(const Body& body, const MeshSample& sample, const fast::Box* box) {
+    Extent extent;
+    const bool some_unused = !sample.unused_vertices.empty();
     if (body.vertex_count > 0 && !some_unused && fast::is_packed(body.positions)) {
-        const std::uint32_t all[2] = {0, body.vertex_count};
-        fast::Box box{}, same{};
-        if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), all, &box, same))
-            check_finite(body);
+        fast::Box all = fast::empty_box, same{};
+        if (box) {
+            all = *box;
+        } else {
+            const std::uint32_t ends[2] = {0, body.vertex_count};
+            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &all, same))
+                check_finite(body);
+        }
         extent.any = true;
         for (int a = 0; a < 3; ++a) {
-            extent.lo[a] = double{box.lo[a]};
-            extent.hi[a] = double{box.hi[a]};
+            extent.lo[a] = double{all.lo[a]};
+            extent.hi[a] = double{all.hi[a]};
         }
         return extent;
     }
     check_finite(body);
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-        if (!body.tets.empty() && topology.neighbours_of(v).empty()) continue;
+        if (some_unused && has_bit(sample.unused_vertices, v)) continue;
         const Vec3d p = body.positions.exact(v);
         const double x[3] = {p.x, p.y, p.z};
         extent.any = true;
@@ -201,40 +193,42 @@ Extent extent_of(const Body& body, const depth::Topology& topology) {
 
 } // namespace
 
-Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology* const> topologies,
-                  std::size_t samples) {
+Geometry estimate(std::span<const Body> bodies, std::span<const MeshSample* const> meshes,
+                  std::span<const fast::Box> boxes, std::size_t samples, std::pmr::memory_resource* memory) {
     Geometry result{};
     vox_geometry_stats& stats = result.stats;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    Extent bounds;
     Mean object_side;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const Extent own = extent_of(bodies[b], *topologies[b]);
+        const Extent own = extent_of(bodies[b], *meshes[b], boxes.empty() ? nullptr : &boxes[b]);
         stats.vertices += bodies[b].vertex_count;
         stats.tets += bodies[b].tets.size() - bodies[b].off_count;
-        stats.boundary_facets += topologies[b]->triangles.size();
-        stats.edges += own.ends / 2;
+        stats.boundary_facets += meshes[b]->boundary_facet_count;
+        stats.edges += meshes[b]->edge_count;
         if (!own.any) continue;
+        bounds.any = true;
         double volume = 1;
         for (int a = 0; a < 3; ++a) {
-            lo[a] = std::min(lo[a], own.lo[a]);
-            hi[a] = std::max(hi[a], own.hi[a]);
+            bounds.lo[a] = std::min(bounds.lo[a], own.lo[a]);
+            bounds.hi[a] = std::max(bounds.hi[a], own.hi[a]);
             volume *= own.hi[a] - own.lo[a];
         }
         if (volume > 0) object_side.add(std::cbrt(volume), 1);
     }
-    Means means;
-    const auto wanted = static_cast<double>(samples);
+    Means means(memory);
+    constexpr double golden = 0.6180339887498949; // its multiples are spread evenly (H. Weyl, 1916)
+    Share share{static_cast<double>(samples), 0.5};
     means.box_sides.reserve(samples + bodies.size());
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t b = 0; b < bodies.size(); ++b, share.place += golden) {
+        share.place -= std::floor(share.place);
         const Positions& positions = bodies[b].positions;
         if (positions.rounded())
-            sample_body(
-                bodies[b], *topologies[b], [&](std::size_t v) { return positions.exact(v); }, wanted, stats,
+            add_mesh(
+                bodies[b], *meshes[b], [&](std::size_t v) { return positions.exact(v); }, share, stats,
                 means);
         else
-            sample_body(
-                bodies[b], *topologies[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, wanted,
+            add_mesh(
+                bodies[b], *meshes[b], [&](std::size_t v) { return Vec3d(positions.floats(v)); }, share,
                 stats, means);
     }
     // Each facet of a tetrahedron is on the surface or shared by two, but for the odd one of more.
@@ -242,9 +236,9 @@ Geometry estimate(std::span<const Body> bodies, std::span<const depth::Topology*
     stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate.sum));
     write_means(means, stats);
     stats.median_box_side = median(means.box_sides);
-    for (int a = 0; a < 3 && lo[a] <= hi[a]; ++a) {
-        stats.bounds_min[a] = lo[a];
-        stats.bounds_max[a] = hi[a];
+    for (int a = 0; a < 3 && bounds.any; ++a) {
+        stats.bounds_min[a] = bounds.lo[a];
+        stats.bounds_max[a] = bounds.hi[a];
     }
     result.mean_object_side = object_side.value();
     return result;

@@ -120,6 +120,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     vertex_count_ += view.vertex_count;
     tet_count_ += view.tets.size();
     adaptive_.scene_changed();
+    meshes_hold_ = false;
     return make_id(slot, slots_[slot].generation);
 }
 
@@ -141,6 +142,7 @@ void vox_grid::clear() {
 }
 
 void vox_grid::mark_moved(vox_mesh id) {
+    meshes_hold_ = false;
     for (fast::Rest::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
 }
 
@@ -191,6 +193,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     made.take_over(std::move(changed));
     changed = std::move(made);
     if (view.vertex_count == 0) contacts_hold_ = false; // nothing of it can be seen to move
+    meshes_hold_ = false;
     adaptive_.scene_changed();
 }
 
@@ -245,6 +248,7 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     s.live = false;
     s.body = Slot::none;
     adaptive_.scene_changed();
+    meshes_hold_ = false;
     // A slot whose generations are used up is retired, so that no old id comes to life again.
     if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
 }
@@ -311,7 +315,7 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
 void vox_grid::step() {
     const std::uint64_t start = nanoseconds();
     const bool carry = contacts_hold_;
-    contacts_hold_ = false;
+    contacts_hold_ = meshes_hold_ = false;
     hits_.clear();
     events_.hide_pairs();
     events_.hide_events();
@@ -368,7 +372,7 @@ void vox_grid::step() {
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
-    contacts_hold_ = fast_;
+    contacts_hold_ = meshes_hold_ = fast_;
 }
 
 void vox_grid::gather_bodies(vox_counters& counters) {
@@ -480,8 +484,10 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-vox_grid::Known vox_grid::known() const {
-    Known known;
+vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
+    Known known(memory);
+    const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
+    reserve(known.bodies, known.tiles, known.meshes, known.activity);
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
@@ -490,11 +496,11 @@ vox_grid::Known vox_grid::known() const {
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
         known.bodies.push_back(s.mesh.body(id));
         known.tiles.push_back(s.mesh.tiles_if_made());
-        const bool has_topology = !s.mesh.topology().across.empty() || s.mesh.tet_count() == 0;
-        known.topologies.push_back(has_topology ? &s.mesh.topology() : nullptr);
+        known.meshes.push_back(&s.mesh);
         known.activity.push_back(s.body == Slot::none ? Activity{}
                                                       : fast_engine_.activity(s.body, s.mesh.vertex_count()));
     }
+    if (fast_ && meshes_hold_) known.last_step = &fast_engine_;
     return known;
 }
 

@@ -49,12 +49,16 @@ public:
     // fields of a desc that the grid knows, and the share of its tets that held no vertex in the last step.
     // Throws INVALID_STATE for a mesh without positions.
     struct Known {
-        std::vector<vox::Body> bodies;
-        std::vector<const vox::fast::Tiles*> tiles; // null where they were not made, as the next ones
-        std::vector<const vox::depth::Topology*> topologies;
-        std::vector<vox::Activity> activity;
+        explicit Known(std::pmr::memory_resource* memory)
+            : bodies(memory), tiles(memory), meshes(memory), activity(memory) {}
+
+        std::pmr::vector<vox::Body> bodies;
+        std::pmr::vector<const vox::fast::Tiles*> tiles; // null where they were not made
+        std::pmr::vector<const vox::Mesh*> meshes;
+        std::pmr::vector<vox::Activity> activity;
+        const vox::Fast* last_step = nullptr; // null unless it was of the same bodies, but for their positions
     };
-    Known known() const;
+    Known known(std::pmr::memory_resource* memory) const;
     void describe(vox_suggest_desc& desc) const noexcept;
     double share_without_contact() const noexcept;
 
@@ -152,6 +156,8 @@ private:
     // They are what another step would find of meshes that were in the last one and have not moved since.
     // False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
+    // The meshes are those of the fast engine's last step, positions aside.
+    bool meshes_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;
     vox::Readings readings_;

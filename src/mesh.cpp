@@ -36,6 +36,15 @@ void Mesh::make_topology() {
     has_topology_ = true;
 }
 
+// A const call may not take the grid's memory.
+const MeshSample& Mesh::sample() const {
+    return sample_.get([this] {
+        std::pmr::memory_resource* heap = std::pmr::new_delete_resource();
+        const Body own = body(VOX_NULL_MESH);
+        return has_topology_ ? make_sample(own, topology_, heap) : make_sample(own, heap);
+    });
+}
+
 void Mesh::make_rings() {
     if (has_rings_) return;
     self_filter_.rings = Rings(tets_, vertex_count_, filter_.self_rings, memory());

@@ -6,6 +6,8 @@
 #include "depth/topology.hpp"
 #include "fast.hpp"
 #include "filter.hpp"
+#include "lazy.hpp"
+#include "mesh_sample.hpp"
 #include "scene.hpp"
 
 #include <vox/vox.h>
@@ -34,6 +36,10 @@ public:
     // Prepares the depth stage, unless that is done.
     void make_topology();
     const depth::Topology& topology() const noexcept { return topology_; }
+
+    // What suggestions look at, made when the first one asks. From the topology where that is prepared.
+    const MeshSample& sample() const;
+    bool may_sample() const noexcept { return tets_.size() <= depth::most_tets; }
 
     // Makes the fast engine's tiles, unless that is done; needs positions.
     void make_tiles();
@@ -127,6 +133,7 @@ private:
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
     Lists tets_of_;                  // the tets around each vertex, once an edit needed them
     depth::Topology topology_;
+    Lazy<MeshSample> sample_;
     FastMesh tiles_;
     Positions positions_; // without the transform
     std::array<double, 12> transform_{};

@@ -286,6 +286,7 @@ void Mesh::forget_rings() noexcept {
 void Mesh::forget_prepared() noexcept {
     tets_of_ = Lists(memory());
     has_tets_of_ = false;
+    sample_.reset();
     forget_tiles();
     forget_topology();
     forget_rings();
@@ -293,6 +294,7 @@ void Mesh::forget_prepared() noexcept {
 
 void Mesh::follow(std::span<const TetChange> changes) noexcept {
     if (changes.empty()) return;
+    sample_.reset();
     const bool has_rings = has_rings_ && filter_.self_rings != 0;
     if (!has_tets_of_ && !has_tiles_ && !has_topology_ && !has_rings) return;
     // So many at once are more work than all anew.
@@ -330,6 +332,7 @@ void Mesh::follow(std::span<const TetChange> changes) noexcept {
 }
 
 void Mesh::follow_vertices(std::uint32_t count_before) noexcept {
+    sample_.reset();
     try {
         if (has_tets_of_) tets_of_.resize(vertex_count_);
         if (has_tiles_ && !tiles_.follow_vertices(body(VOX_NULL_MESH), count_before)) forget_tiles();

@@ -176,7 +176,8 @@ void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CA
     count = 0;
     for (const CostTerm& term : terms) {
         vox_cost_share& share = out[count++];
-        std::snprintf(share.name, sizeof share.name, "%s", term.name);
+        const std::size_t length = std::min(std::strlen(term.name), sizeof share.name - 1);
+        *std::copy_n(term.name, length, share.name) = '\0';
         share.count = term.count;
         share.cost = term.count * term.weight;
         share.share = cost > 0 ? share.cost / cost : 0;
@@ -197,11 +198,17 @@ void explain(vox_suggestion& result, const vox_suggest_desc& desc, const Geometr
                          cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
                          cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
     write_shares(terms, result.terms, result.term_count);
+}
 
-    // From an eighth of the best cell size to eight times it.
+constexpr double curve_octaves = 6; // from an eighth of the best cell size to eight times it
+
+double curve_begin(const vox_suggestion& result) { return result.cell_size * std::exp2(-curve_octaves / 2); }
+
+void draw(vox_suggestion& result, const CostFunction& cost) {
     result.curve_count = VOX_COST_CURVE_CAPACITY;
+    const double last = result.curve_count - 1;
     for (std::uint32_t i = 0; i < result.curve_count; ++i) {
-        const double at = result.cell_size * std::exp2(6.0 * i / (result.curve_count - 1) - 3);
+        const double at = curve_begin(result) * std::exp2(curve_octaves * i / last);
         result.curve[i] = {at, cost(at)};
     }
 }
@@ -233,9 +240,9 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
     result.zone_min = zone.min * s;
     result.zone_max = zone.max * s;
     result.predicted_cost = paper.cost(x);
-    explain(
-        result, desc, geometry, [&](double d) { return paper.cost(d / s); },
-        paper_terms(desc, paper, result.cell_size));
+    const CostFunction cost = [&](double d) { return paper.cost(d / s); };
+    explain(result, desc, geometry, cost, paper_terms(desc, paper, result.cell_size));
+    draw(result, cost);
     return result;
 }
 
@@ -247,20 +254,32 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-// Fills in the least cost and the zone around it. Returns the cost as a curve, which is that of the table
-// where there is one; both must stay.
-CostFunction minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
-                           CostTable* table, const CellSizeRange& range) {
-    constexpr double near = 1e-4; // no model is as good as that
-    const CostMinimum best = table ? table->minimum() : minimise(cost, range, near);
-    CostFunction curve = cost;
-    if (table) curve = [table, best](double d) { return std::max((*table)(d), best.cost); };
-    const Zone zone = zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range);
+constexpr double near = 1e-4; // no model is as good as that
+
+void write_minimum(vox_suggestion& result, const CostMinimum& best, const Zone& zone) {
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
-    return curve;
+}
+
+void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
+                   CostTable* table, const CellSizeRange& range) {
+    const CostMinimum best = table ? table->minimum() : minimise(cost, range, {.tolerance = near});
+    const double limit = (1 + desc.zone_loss) * best.cost;
+    write_minimum(result, best, table ? table->zone(best, limit) : zone_around(best, limit, cost, range));
+}
+
+// What the rest of a suggestion says about the cell size in it. Costs are those of the table where there is
+// one; between its nodes it may be a little below the least cost.
+void explain_model(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
+                   const CostFunction& cost, CostTable* table, const CostTerms& terms) {
+    const CostFunction tabulated = [&](double d) { return std::max((*table)(d), result.predicted_cost); };
+    explain(result, desc, geometry, table ? tabulated : cost, terms);
+    if (!table) return draw(result, cost);
+    result.curve_count = VOX_COST_CURVE_CAPACITY;
+    table->sample(curve_begin(result), curve_octaves, result.curve);
+    for (vox_cost_sample& sample : result.curve) sample.cost = std::max(sample.cost, result.predicted_cost);
 }
 
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
@@ -274,38 +293,54 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
         result.budget_cell_size = cost.least_cell_size(static_cast<double>(desc.byte_budget), range);
     range.min = std::max(range.min, result.budget_cell_size);
     range.max = std::max(range.max, range.min);
-    const CostFunction function = [&](double d) { return cost(d); };
-    CostTable table(function, range);
-    const CostFunction curve =
-        minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
+    // The table is of what is smooth; what the lists' lengths make of it is added, and costs little to ask.
+    const CostFunction smooth = [&](double d) { return cost(d) - cost.of_changes(d); };
+    CostTable table(smooth, range, memory);
+    const CostFunction function = [&](double d) {
+        return scene.effort.tabulated ? table(d) + cost.of_changes(d) : cost(d);
+    };
+    const double scans = scene.effort.sample.listed > 0 ? 32 : 5;
+    CostMinimum best = minimise(function, range, {.scans_per_octave = scans, .tolerance = near});
+    best.cost = cost(best.cell_size);
+    const CostFunction curve = [&](double d) { return std::max(function(d), best.cost); };
+    write_minimum(result, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range));
     const Levels levels = choose_levels(cost, range);
     if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
     for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
-    explain(result, desc, geometry, curve, cost.terms(result.cell_size));
+    explain_model(result, desc, geometry, curve, nullptr, cost.terms(result.cell_size));
     return result;
+}
+
+FastCost fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
+                   std::pmr::memory_resource* memory) {
+    if (scene.last_step) return {scene.bodies, *scene.last_step, scene.effort, weights, memory};
+    if (scene.boxes)
+        return {scene.bodies, scene.tiles, scene.activity, *scene.boxes, scene.effort, weights, memory};
+    return {scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory};
 }
 
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                             const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastCost cost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory);
+    const FastCost cost = fast_cost(scene, weights, memory);
     if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
     // Where no body is near another one any size will do; the usual one is there when some come near.
     CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};
     const bool any = cost.range(range.min, range.max);
     vox_suggestion result{};
     const CostFunction function = [&](double d) { return cost(d); };
-    CostFunction curve = function;
-    CostTable table(function, range);
+    CostTable made(function, range, memory);
+    CostTable* table = any && scene.effort.tabulated ? &made : nullptr;
     if (any) {
-        curve = minimise_into(result, desc, function, scene.effort.tabulated ? &table : nullptr, range);
+        minimise_into(result, desc, function, table, range);
     } else {
         result.cell_size = 2 * geometry.stats.mean_box_side;
         result.zone_min = range.min;
         result.zone_max = range.max;
         result.predicted_cost = cost(result.cell_size);
     }
-    explain(result, desc, geometry, curve, cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
+    explain_model(result, desc, geometry, function, table,
+                  cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
     return result;
 }
 

@@ -3,8 +3,9 @@
 
 #include "cost/activity.hpp"
 #include "cost/effort.hpp"
+#include "cost/scene_boxes.hpp"
 #include "cost/terms.hpp"
-#include "fast/tiles.hpp"
+#include "fast.hpp"
 #include "geometry.hpp"
 #include "scene.hpp"
 
@@ -24,6 +25,10 @@ struct SuggestScene {
     std::span<const fast::Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone, as what follows
     std::span<const Activity> activity;        // of each body in the last step; none where there was none
     Effort effort = thorough;
+    // For FAST, what there is already of either: the boxes of the bodies and tiles, or a step of the engine in
+    // which the bodies were where they are now; then there need be no tiles.
+    SceneBoxes* boxes = nullptr;
+    const Fast* last_step = nullptr;
 };
 
 // For a desc that passed the check. All fields but struct_size are set. Throws INVALID_ARGUMENT when the

@@ -15,9 +15,11 @@ namespace vox {
 
 namespace {
 
-// The size stays as long as following would change it by less than this part: that loses about half a per
-// cent.
-constexpr double hysteresis = 0.08;
+// The size stays as long as following would change it by less than this part: next to nothing is lost, also
+// where the vertices of a lattice make some sizes better than those beside them.
+constexpr double hysteresis = 0.03;
+// A choice that costs so much more than the best one is kept.
+constexpr double as_good = 1.02;
 // At most by this factor in one step: what is far off is off the straight line, too.
 constexpr double most_at_once = 2;
 // Beyond this factor from what the model chose it is asked again.
@@ -36,7 +38,7 @@ double choice_ns(double vertices, double tets, const Effort& effort) {
 }
 
 // What a visited cell costs, with its list, in visits.
-constexpr double cell_visits = 2.5;
+constexpr double cell_visits = 5;
 
 double step_ns(const vox_counters& c, const vox_cost_weights& w) {
     return static_cast<double>(c.vertices) * w.reference_classify_vertex +
@@ -128,14 +130,6 @@ void AdaptiveCellSize::scale(double factor) noexcept {
     }
 }
 
-bool AdaptiveCellSize::is_near(const Levels& other) const noexcept {
-    return std::ranges::equal(sizes_.list(), other.list(), [this](const CellLevel& a, const CellLevel& b) {
-        return a.cell_size >= floor_ && std::abs(std::log(a.cell_size / b.cell_size)) <= hysteresis &&
-               (a.longest_side == b.longest_side ||
-                std::abs(std::log(a.longest_side / b.longest_side)) <= hysteresis);
-    });
-}
-
 bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setting,
                               std::pmr::memory_resource* memory) {
     std::uint64_t tets = 0, vertices = 0;
@@ -159,14 +153,16 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
         range.max = std::max(range.max, range.min);
     }
     const Levels best = choose_levels(cost, range);
+    // Those that are about as good are kept.
+    const bool can_stay = sizes_.count != 0 && std::ranges::all_of(sizes_.list(), [this](const CellLevel& l) {
+                              return l.cell_size >= floor_;
+                          });
+    if (!can_stay || cost_of_levels(cost, sizes_.list()) > as_good * best.cost) sizes_ = best;
     // R / V with all cell sizes changed by the same factor.
     const auto balance = [&](double factor) {
         double read = 0, cells = 0;
         for (const SizeClass& c : cost.profile().classes()) {
-            const double side = std::ldexp(1.0, c.exponent); // the shortest there is
-            const auto level =
-                std::ranges::find_if(best.list(), [&](const CellLevel& l) { return side <= l.longest_side; });
-            const double d = level->cell_size * factor;
+            const double d = level_of(c, sizes_.list()).cell_size * factor;
             read += c.passed.at(d) + c.tested.at(d);
             cells += c.cells.at(d);
         }
@@ -174,8 +170,6 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
     };
     constexpr double nearby = 1.1;
     slope_ = (balance(nearby) - balance(1 / nearby)) / (2 * std::log(nearby));
-    // Those that are about as good are kept.
-    if (!is_near(best)) sizes_ = best;
     moved_ = 0;
     return true;
 }

@@ -54,7 +54,6 @@ private:
 
     void use(double cell_size) noexcept;
     void scale(double factor) noexcept;
-    bool is_near(const Levels& other) const noexcept;
 
     Levels sizes_{};     // none: not chosen yet
     double floor_ = 0;   // of the byte limit

@@ -16,7 +16,7 @@ struct Effort {
 };
 
 // For a person who asks.
-inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024}, 4096, false};
+inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024, 512}, 4096, false};
 
 // Within a step, where choosing has to cost less than that step.
 Effort quick(std::uint64_t tets) noexcept;

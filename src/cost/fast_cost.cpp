@@ -1,9 +1,6 @@
 #include "fast_cost.hpp"
 
 #include "../fast/pairs.hpp"
-#include "../fast/query.hpp"
-#include "../fast/rest.hpp"
-#include "../fast/stream.hpp"
 #include "../filter.hpp"
 
 #include <algorithm>
@@ -14,6 +11,10 @@ namespace vox {
 using fast::Box;
 
 namespace {
+
+// So many times the looks that are gone through for each cell size are enough to know how many of which size
+// there are.
+constexpr std::size_t looks_to_take = 16;
 
 // As in fast/body_window.cpp: most cells of a window.
 std::size_t most_cells(std::uint32_t points) { return 2 * std::size_t{points} + 64; }
@@ -31,146 +32,135 @@ Sides sides_of(const Box& box) {
 struct Reach {
     std::uint32_t a, b;
     Box region;
+    std::size_t first_tile, last_tile; // those tiles, in a list of their boxes
 };
 
-// The boxes of everything, one list for all bodies, found as the engine finds them: those of blocks from one
-// pass over the positions, those of tiles where somebody may look.
-class Boxes {
-public:
-    Boxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-          std::pmr::memory_resource* memory)
-        : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(memory), blocks_(memory),
-          tile_boxes_(memory), known_(memory), first_block_(memory), first_tile_(memory) {
-        std::size_t block_count = 0, tile_count = 0, rounded = 0;
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            first_block_.push_back(block_count);
-            first_tile_.push_back(tile_count);
-            block_count += tiles[b]->block_count();
-            tile_count += tiles[b]->tiles.size();
-            if (!fast::is_packed(bodies[b].positions)) rounded += 3 * std::size_t{bodies[b].vertex_count};
-        }
-        blocks_.resize(block_count);
-        tile_boxes_.resize(tile_count);
-        known_.resize(tile_count);
-        rounded_.resize(rounded);
-        float* copy = rounded_.data();
-        for (std::size_t b = 0; b < bodies.size(); ++b) {
-            const Body& body = bodies[b];
-            const float* positions = copy;
-            if (fast::is_packed(body.positions))
-                positions = reinterpret_cast<const float*>(body.positions.data);
-            else
-                for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-                    const Vec3f p = body.positions[v];
-                    for (const float x : {p.x, p.y, p.z}) *copy++ = x;
-                }
-            positions_.push_back(positions);
-            bodies_.push_back(fast::empty_box);
-            if (body.vertex_count > 0)
-                (void)fast::stream_boxes(positions, tiles[b]->block_first, blocks_.data() + first_block_[b],
-                                         bodies_.back());
-        }
-    }
-
-    const float* positions(std::size_t body) const noexcept { return positions_[body]; }
-    std::span<const Box> bodies() const noexcept { return bodies_; }
-    std::span<const Box> blocks(std::size_t body) const noexcept {
-        return {blocks_.data() + first_block_[body], tiles_[body]->block_count()};
-    }
-
-    // Calls visit(box) for the tiles of a body that meet a region.
-    template <class Visit>
-    void for_tiles(std::size_t body, const Box& region, Visit&& visit) {
-        const fast::Tiles& tiles = *tiles_[body];
-        Box* boxes = tile_boxes_.data() + first_tile_[body];
-        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            Box super = fast::empty_box;
-            for (const std::uint32_t block : tiles.blocks[s])
-                fast::add(super, blocks_[first_block_[body] + block]);
-            if (!fast::overlap(super, region)) continue;
-            const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-            fast::tile_boxes(tiles, positions_[body], first, last, boxes, known_.data() + first_tile_[body]);
-            for (std::uint32_t t = first; t < last; ++t)
-                if (fast::overlap(boxes[t], region)) visit(boxes[t]);
-        }
-    }
-
-private:
-    std::span<const fast::Tiles* const> tiles_;
-    std::pmr::vector<float> rounded_;
-    std::pmr::vector<const float*> positions_; // of each body, packed
-    std::pmr::vector<Box> bodies_, blocks_, tile_boxes_;
-    std::pmr::vector<std::uint8_t> known_;
-    std::pmr::vector<std::size_t> first_block_, first_tile_;
-};
-
-std::pmr::vector<Reach> find_reaches(std::span<const Body> bodies, std::span<const Activity> activity,
-                                     Boxes& boxes, std::pmr::memory_resource* memory) {
-    fast::PairBuffers buffers(memory);
-    std::pmr::vector<fast::Pair> pairs(memory);
-    std::pmr::vector<Reach> reaches(memory);
-    fast::find_pairs(boxes.bodies(), buffers, pairs);
-    for (const fast::Pair& pair : pairs) {
-        if (bodies[pair.b].tets.empty() || !collide(bodies[pair.a], bodies[pair.b])) continue;
-        if (!activity.empty() && !activity[pair.a].moves && !activity[pair.b].moves) continue;
-        Reach reach{pair.a, pair.b, boxes.bodies()[pair.a]};
-        fast::intersect(reach.region, boxes.bodies()[pair.b]);
-        Box covered = fast::empty_box;
-        for (const Box& block : boxes.blocks(pair.a))
-            if (fast::overlap(block, reach.region)) fast::add(covered, block);
-        fast::intersect(reach.region, covered);
-        if (fast::is_empty(reach.region)) continue;
-        covered = fast::empty_box;
-        boxes.for_tiles(pair.b, reach.region, [&](const Box& tile) { fast::add(covered, tile); });
-        fast::intersect(reach.region, covered);
-        if (!fast::is_empty(reach.region)) reaches.push_back(reach);
-    }
-    return reaches;
-}
-
-// The points of the blocks that meet one of the regions, and lie in the box around them all.
-void collect(const Boxes& boxes, const fast::Tiles& tiles, std::uint32_t body, bool all,
-             std::span<const Reach> reaches, const Box& around, fast::Points& points) {
-    const std::span<const Box> blocks = boxes.blocks(body);
-    const auto is_wanted = [&](const Box& block) {
-        return all || std::any_of(reaches.begin(), reaches.end(),
-                                  [&](const Reach& r) { return fast::overlap(block, r.region); });
-    };
-    points.count = 0;
-    for (std::size_t b = 0; b < blocks.size();) { // runs of wanted blocks
-        const std::size_t begin = b;
-        while (b < blocks.size() && is_wanted(blocks[b])) ++b;
-        if (b == begin) {
-            ++b;
-            continue;
-        }
-        const std::uint32_t first = tiles.block_first[begin], last = tiles.block_first[b];
-        points.reserve(std::size_t{points.count} + (last - first));
-        fast::collect(boxes.positions(body), first, last, tiles.block_first.back(), around, points);
-    }
-}
-
-// The points may change places.
-void append(fast::Points& from, fast::Points& to) {
-    if (to.count == 0) {
-        std::swap(from, to);
-        return;
-    }
-    to.reserve(to.count + std::size_t{from.count});
+void append(const fast::Points& from, std::size_t first, std::uint32_t count, fast::Points& to) {
+    to.reserve(std::size_t{to.count} + count);
     const auto copy = [&](const auto& a, auto& b) {
-        std::copy_n(a.begin(), from.count, b.begin() + to.count);
+        std::copy_n(a.begin() + static_cast<std::ptrdiff_t>(first), count, b.begin() + to.count);
     };
     copy(from.x, to.x);
     copy(from.y, to.y);
     copy(from.z, to.z);
     copy(from.id, to.id);
-    to.count += from.count;
+    to.count += count;
 }
+
+// What is near what, from the positions as they are now.
+class FromPositions {
+public:
+    FromPositions(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                  std::span<const Activity> activity, SceneBoxes& boxes, std::pmr::memory_resource* memory)
+        : bodies_(bodies), tiles_(tiles), activity_(activity), boxes_(boxes), memory_(memory) {}
+
+    // `met` are the boxes of the tiles.
+    void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) {
+        fast::PairBuffers buffers(memory_);
+        std::pmr::vector<fast::Pair> pairs(memory_);
+        fast::find_pairs(boxes_.bodies(), buffers, pairs);
+        for (const fast::Pair& pair : pairs) {
+            if (bodies_[pair.b].tets.empty() || !collide(bodies_[pair.a], bodies_[pair.b])) continue;
+            if (!activity_.empty() && !activity_[pair.a].moves && !activity_[pair.b].moves) continue;
+            Box region = boxes_.bodies()[pair.a];
+            fast::intersect(region, boxes_.bodies()[pair.b]);
+            Box covered = fast::empty_box;
+            for (const Box& block : boxes_.blocks(pair.a))
+                if (fast::overlap(block, region)) fast::add(covered, block);
+            fast::intersect(region, covered);
+            if (fast::is_empty(region)) continue;
+            const std::size_t first_tile = met.size();
+            boxes_.find_tiles(pair.b, region, met);
+            covered = fast::empty_box;
+            for (std::size_t t = first_tile; t < met.size(); ++t) fast::add(covered, met[t]);
+            fast::intersect(region, covered);
+            if (fast::is_empty(region))
+                met.resize(first_tile);
+            else
+                reaches.push_back({pair.a, pair.b, region, first_tile, met.size()});
+        }
+    }
+
+    Box own_region(std::uint32_t body) const {
+        const bool self = bodies_[body].self_collision && !bodies_[body].tets.empty() &&
+                          (activity_.empty() || activity_[body].meets_itself);
+        return self ? boxes_.bodies()[body] : fast::empty_box;
+    }
+
+    void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) {
+        boxes_.find_tiles(body, region, met);
+    }
+
+    // The points of the blocks that meet one of the regions, and lie in the box around them all.
+    void collect(std::uint32_t body, std::span<const Reach> reaches, const Box& own, const Box& around,
+                 fast::Points& points) const {
+        const std::span<const Box> blocks = boxes_.blocks(body);
+        const std::pmr::vector<std::uint32_t>& first_of = tiles_[body]->block_first;
+        const bool all = !fast::is_empty(own);
+        const auto is_wanted = [&](const Box& block) {
+            return all || std::any_of(reaches.begin(), reaches.end(),
+                                      [&](const Reach& r) { return fast::overlap(block, r.region); });
+        };
+        std::uint32_t first = 0, last = 0; // of a run of wanted blocks
+        const auto collect_run = [&] {
+            if (first == last) return;
+            points.reserve(std::size_t{points.count} + (last - first));
+            fast::collect(boxes_.positions(body), first, last, first_of.back(), around, points);
+        };
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            if (!is_wanted(blocks[b])) continue;
+            if (first_of[b] != last) {
+                collect_run();
+                first = first_of[b];
+            }
+            last = first_of[b + 1];
+        }
+        collect_run();
+    }
+
+private:
+    std::span<const Body> bodies_;
+    std::span<const fast::Tiles* const> tiles_;
+    std::span<const Activity> activity_;
+    SceneBoxes& boxes_;
+    std::pmr::memory_resource* memory_;
+};
+
+// The same from the engine's last step.
+class FromLastStep {
+public:
+    FromLastStep(std::span<const Body> bodies, const Fast& engine) : bodies_(bodies), engine_(engine) {}
+
+    void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) const {
+        engine_.for_reaches([&](std::uint32_t a, std::uint32_t b, const Box& region) {
+            const std::size_t first_tile = met.size();
+            find_tiles(b, region, met);
+            reaches.push_back({a, b, region, first_tile, met.size()});
+        });
+    }
+    Box own_region(std::uint32_t body) const {
+        const bool self = engine_.activity(body, bodies_[body].vertex_count).meets_itself;
+        return self ? engine_.own_region(body) : fast::empty_box;
+    }
+    void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
+        engine_.for_tiles(body, region, [&](const Box& box) { met.push_back(box); });
+    }
+    void collect(std::uint32_t body, std::span<const Reach>, const Box&, const Box&,
+                 fast::Points& points) const {
+        engine_.for_binned(body, [&](const fast::Points& from, std::size_t first, std::uint32_t count) {
+            append(from, first, count, points);
+        });
+    }
+
+private:
+    std::span<const Body> bodies_;
+    const Fast& engine_;
+};
 
 } // namespace
 
 Effort quick_tiles(std::uint64_t tets) noexcept {
-    const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 8, 32);
+    const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 4, 32);
     return {0, {lookups, 2 * lookups + 32, lookups + 8}, std::max<std::size_t>(lookups, 16), true};
 }
 
@@ -178,22 +168,50 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
                    std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
                    std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
-    Boxes boxes(bodies, tiles, memory);
-    const std::pmr::vector<Reach> reaches = find_reaches(bodies, activity, boxes, memory);
+    SceneBoxes boxes(bodies, tiles, memory);
+    look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
+}
+
+FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+                   std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+                   const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+    : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
+    look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
+}
+
+FastCost::FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
+                   const vox_cost_weights& weights, std::pmr::memory_resource* memory)
+    : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
+    look(bodies, FromLastStep(bodies, last_step), effort, memory);
+}
+
+template <class Source>
+void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort& effort,
+                    std::pmr::memory_resource* memory) {
+    std::pmr::vector<Box> met(memory);
+    std::pmr::vector<Reach> reaches(memory);
+    source.find_reaches(reaches, met);
+    std::size_t all = met.size();
+    for (const Body& body : bodies)
+        if (body.self_collision) all += body.tets.size() / fast::tile_size;
+    // Of very many looks, every so many.
+    const std::size_t stride = all / (looks_to_take * most_looks_) + 1;
+    std::size_t seen = stride / 2;
 
     fast::Points points(memory);
     std::uint32_t first_vertex = 0;
-    auto reach = reaches.begin(); // sorted by a
+    const Reach* reach = reaches.data(); // sorted by a
+    const Reach* const last_reach = reach + reaches.size();
     for (std::uint32_t a = 0; a < bodies.size(); first_vertex += bodies[a].vertex_count, ++a) {
-        const auto begin = reach;
-        while (reach != reaches.end() && reach->a == a) ++reach;
+        const Reach* const begin = reach;
+        while (reach != last_reach && reach->a == a) ++reach;
         const std::span<const Reach> own(begin, reach);
-        const bool self = bodies[a].self_collision && !bodies[a].tets.empty() &&
-                          (activity.empty() || activity[a].meets_itself);
-        Box region = self ? boxes.bodies()[a] : fast::empty_box;
+        const Box own_region = source.own_region(a);
+        Box region = own_region;
         for (const Reach& r : own) fast::add(region, r.region);
         if (fast::is_empty(region)) continue;
-        collect(boxes, *tiles[a], a, self, own, region, points);
+        points.count = 0;
+        source.collect(a, own, own_region, region, points);
         if (points.count == 0) continue;
 
         const Box window = fast::bounds(points);
@@ -201,15 +219,21 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
         Pool& pool = pool_of(1 / double{finest.inverse}, effort.sample);
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
-        pool.cells.add(cells_met(sides_of(window).w));
+        const Sides sides = sides_of(window);
+        pool.cells.add(cells_met(sides.w));
+        pool.largest_side = std::max({pool.largest_side, sides.w[0], sides.w[1], sides.w[2]});
         for (std::uint32_t i = 0; i < points.count; ++i) points.id[i] += first_vertex;
-        append(points, pool.points);
-        const auto look = [&](std::uint32_t b, Box where) {
+        if (pool.points.count == 0)
+            std::swap(points, pool.points);
+        else
+            append(points, 0, points.count, pool.points);
+        const auto look = [&](std::span<const Box> tile_boxes, Box where) {
             fast::intersect(where, window);
-            boxes.for_tiles(b, where, [&](Box box) {
+            for (Box box : tile_boxes) {
+                if (!fast::overlap(box, where) || seen++ % stride != 0) continue;
                 fast::intersect(box, where);
                 Lookup lookup{};
-                Look look{};
+                Look& look = pool.looks.emplace_back();
                 for (int i = 0; i < 3; ++i) {
                     lookup.lo[i] = box.lo[i];
                     lookup.hi[i] = box.hi[i];
@@ -217,14 +241,19 @@ FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* co
                     look.below[i] = double{box.lo[i]} - double{window.lo[i]};
                     look.above[i] = double{window.hi[i]} - double{box.hi[i]};
                 }
-                pool.looks.push_back(look);
                 lookup.first_read = first_vertex;
                 lookup.last_read = first_vertex + bodies[a].vertex_count;
-                pool.profile.add(lookup);
-            });
+                pool.profile.add(lookup, static_cast<double>(stride));
+            }
         };
-        if (self) look(a, region);
-        for (const Reach& r : own) look(r.b, r.region);
+        if (!fast::is_empty(own_region)) {
+            const std::size_t first_tile = met.size();
+            source.find_tiles(a, own_region, met);
+            look(std::span(met).subspan(first_tile), own_region);
+            met.resize(first_tile);
+        }
+        for (const Reach& r : own)
+            look(std::span(met).subspan(r.first_tile, r.last_tile - r.first_tile), r.region);
     }
     for (Pool& pool : pools_) {
         pool.profile.count_points(pool.points, Occupied::not_counted);
@@ -241,43 +270,67 @@ FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at
 // distance e from the side is in one of its cells with probability 1 - e/d.
+double FastCost::Pool::along(const Look& look, int axis, double inverse) noexcept {
+    const double below = std::min(look.below[axis] * inverse, 1.0),
+                 above = std::min(look.above[axis] * inverse, 1.0);
+    return look.side[axis] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
+}
+
 void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
+    sum.vertices += points.count;
+    sum.cells += cells.at(cell_size);
+    sum.looks += profile.count();
+    sum.tested += profile.candidates();
+    if (looks.empty()) return;
+    if (lie == Lie::in_the_mean) sum.rows += mean_rows(cell_size, most_looks);
+    sum.read += profile.read(cell_size) * (lie == Lie::as_it_is ? laid(cell_size, most_looks, sum) : 1);
+}
+
+double FastCost::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
+    if (cell_size >= largest_side) return profile.count(); // all in one cell
+    const std::size_t stride = looks.size() / most_looks + 1;
+    const double inverse = 1 / cell_size;
+    double rows = 0, count = 0;
+    for (std::size_t i = 0; i < looks.size(); i += stride, count += 1)
+        rows += std::max(along(looks[i], 1, inverse), 1.0) * std::max(along(looks[i], 2, inverse), 1.0);
+    return rows * (profile.count() / count);
+}
+
+double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
     const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
     for (std::size_t i = 0; i < looks.size(); i += stride, count += 1) {
         const Look& look = looks[i];
-        double along[3];                    // cells along each axis
+        double cells[3];                    // along each axis
         double volume = 1, volume_laid = 1; // so much of them as is in the window
         for (int a = 0; a < 3; ++a) {
-            const double below = std::min(look.below[a] * inverse, 1.0),
-                         above = std::min(look.above[a] * inverse, 1.0);
-            const double side = look.side[a] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
-            volume *= side;
-            if (lie == Lie::in_the_mean) {
-                along[a] = std::max(side, 1.0);
-                continue;
-            }
+            volume *= along(look, a, inverse);
             const double first = std::floor(look.below[a] * inverse);
             const double last = std::floor((look.below[a] + look.side[a]) * inverse);
             const double end = (look.below[a] + look.side[a] + look.above[a]) * inverse;
-            along[a] = last - first + 1;
+            cells[a] = last - first + 1;
             volume_laid *= std::min(last + 1, end) - first;
         }
-        rows += along[1] * along[2];
-        visited += along[0] * along[1] * along[2];
+        rows += cells[1] * cells[2];
+        visited += cells[0] * cells[1] * cells[2];
         mean += volume;
         as_laid += volume_laid;
     }
-    sum.vertices += points.count;
-    sum.cells += cells.at(cell_size);
-    sum.looks += static_cast<double>(looks.size());
-    sum.tested += profile.candidates();
-    if (count == 0) return;
-    const double scale = static_cast<double>(looks.size()) / count;
+    const double scale = profile.count() / count;
     sum.rows += rows * scale;
     sum.visited_cells += visited * scale;
-    sum.read += profile.read(cell_size) * (lie == Lie::as_it_is && mean > 0 ? as_laid / mean : 1);
+    return mean > 0 ? as_laid / mean : 1;
+}
+
+FastCost::Work FastCost::work() const noexcept {
+    Work work;
+    for (const Pool& pool : pools_) {
+        const std::size_t stride = pool.looks.size() / most_looks_ + 1;
+        work.points += pool.profile.points_looked_at();
+        work.looks += (pool.looks.size() + stride - 1) / stride;
+    }
+    return work;
 }
 
 bool FastCost::range(double& min, double& max) const noexcept {

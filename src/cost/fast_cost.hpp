@@ -15,13 +15,15 @@
 #include "activity.hpp"
 #include "effort.hpp"
 #include "profile.hpp"
+#include "scene_boxes.hpp"
 #include "terms.hpp"
 
-#include "../fast/tiles.hpp"
+#include "../fast.hpp"
 #include "../scene.hpp"
 
 #include <vox/vox.h>
 
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -35,6 +37,15 @@ public:
     FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
              std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
              std::pmr::memory_resource* memory);
+
+    // The same with boxes that are there already, of the same bodies and tiles.
+    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+             std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
+
+    // The same from what the engine found in its last step, of these bodies where they were then.
+    FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
+             const vox_cost_weights& weights, std::pmr::memory_resource* memory);
 
     // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
     // small windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size
@@ -50,9 +61,16 @@ public:
     struct Counts {
         double vertices = 0, cells = 0; // binned, and of the windows
         double looks = 0;               // of tiles into windows
-        double rows = 0, visited_cells = 0, read = 0, tested = 0;
+        double rows = 0, read = 0, tested = 0;
+        double visited_cells = 0; // as they lie alone
     };
     Counts counts(double cell_size, Lie lie) const;
+
+    // What it takes: points looked at near sampled tiles, once, and looks gone through for each cell size.
+    struct Work {
+        std::uint64_t points = 0, looks = 0;
+    };
+    Work work() const noexcept;
 
 private:
     // A tile's box in a window, cut to it: its sides, and how far the window goes on below and above.
@@ -67,15 +85,23 @@ private:
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
         // From so many looks, evenly spread, at most.
         void add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept;
+        static double along(const Look& look, int axis, double inverse) noexcept; // cells, in the mean
+        double mean_rows(double cell_size, std::size_t most_looks) const noexcept;
+        // Adds rows and cells as they lie; returns how much of the window they cover, over that in the mean.
+        double laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept;
 
         int key;
         Profile profile;
         fast::Points points;
         std::pmr::vector<Look> looks;
         double windows = 0, smallest_cell = 0; // of a window, in the mean
+        double largest_side = 0;               // of a window
         Moments cells;                         // of the windows themselves
     };
 
+    template <class Source>
+    void look(std::span<const Body> bodies, Source&& source, const Effort& effort,
+              std::pmr::memory_resource* memory);
     Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 
     std::pmr::vector<Pool> pools_;

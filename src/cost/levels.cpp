@@ -73,6 +73,25 @@ private:
     std::pmr::vector<double> sum_;  // of the groups before each, at each size
 };
 
+// The best cell size for the classes of some exponents near the one of the table, whose sizes are too far
+// apart for what regular points make of it.
+double refined(const ReferenceCost& cost, int first_exponent, int last_exponent, double cell_size,
+               const CellSizeRange& range) {
+    const auto of_level = [&](double d) {
+        const double occupied = cost.occupied(d);
+        double sum = cost.of_grid(d);
+        for (const SizeClass& c : cost.profile().classes())
+            if (c.exponent >= first_exponent && c.exponent <= last_exponent)
+                sum += cost.of_class(c, d, occupied);
+        return sum;
+    };
+    constexpr double around = 1.6;
+    return minimise(of_level,
+                    {std::max(cell_size / around, range.min), std::min(cell_size * around, range.max)},
+                    {.scans_per_octave = 32, .least_scans = 2, .tolerance = 1e-2})
+        .cell_size;
+}
+
 } // namespace
 
 Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range) {
@@ -110,15 +129,34 @@ Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range) {
     for (std::size_t l = 1; l < most; ++l)
         if (best[l][n].cost < best[chosen][n].cost - static_cast<double>(l - chosen) * least_gain) chosen = l;
     Levels levels;
-    levels.cost = best[chosen][n].cost + shared;
     levels.count = static_cast<std::uint32_t>(chosen + 1);
     std::size_t end = n;
     for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from) {
         // Sides in a group are below twice its power of two.
         const double side = std::nextafter(std::ldexp(2.0, exponents[end - 1]), 0.0);
-        levels.level[l] = {best[l][end].cell_size, end == n ? infinity : side};
+        const std::size_t from = best[l][end].from;
+        levels.level[l] = {refined(cost, exponents[from], exponents[end - 1], best[l][end].cell_size, range),
+                           end == n ? infinity : side};
     }
+    levels.cost = cost_of_levels(cost, levels.list());
     return levels;
+}
+
+const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels) {
+    const double side = std::ldexp(1.0, c.exponent);
+    std::size_t l = 0;
+    while (l + 1 < levels.size() && side > levels[l].longest_side) ++l;
+    return levels[l];
+}
+
+double cost_of_levels(const ReferenceCost& cost, std::span<const CellLevel> levels) {
+    double sum = cost.shared();
+    for (const CellLevel& level : levels) sum += cost.of_grid(level.cell_size);
+    for (const SizeClass& c : cost.profile().classes()) {
+        const double size = level_of(c, levels).cell_size;
+        sum += cost.of_class(c, size, cost.occupied(size));
+    }
+    return sum;
 }
 
 } // namespace vox

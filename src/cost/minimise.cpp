@@ -10,9 +10,7 @@ namespace vox {
 
 namespace {
 
-// Places of the scan: so many an octave, and never fewer than these.
-constexpr double scans_per_octave = 5;
-constexpr int least_scans = 64, most_scans = 4096;
+constexpr int most_scans = 4096;
 
 double finite_cost(const CostFunction& cost, double cell_size) {
     const double value = cost(cell_size);
@@ -77,10 +75,11 @@ CostMinimum golden_section(const CostFunction& cost, const CellSizeRange& range,
     return best;
 }
 
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance) {
+CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness) {
     const double low = std::log(range.min), high = std::log(range.max);
-    const int scan_count = static_cast<int>(
-        std::clamp((high - low) * scans_per_octave / std::log(2.0), double{least_scans}, double{most_scans}));
+    const int scan_count =
+        static_cast<int>(std::clamp((high - low) * fineness.scans_per_octave / std::log(2.0),
+                                    double(fineness.least_scans), double{most_scans}));
     const auto at = [&](int i) {
         return i == 0                ? range.min
                : i == scan_count - 1 ? range.max
@@ -95,7 +94,7 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, doubl
         place = i;
     }
     const CostMinimum found = golden_section(
-        cost, {at(place > 0 ? place - 1 : 0), at(std::min(place + 1, scan_count - 1))}, tolerance);
+        cost, {at(place > 0 ? place - 1 : 0), at(std::min(place + 1, scan_count - 1))}, fineness.tolerance);
     return found.cost < best.cost ? found : best;
 }
 

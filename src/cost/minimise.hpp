@@ -20,10 +20,18 @@ struct CostMinimum {
     double cost; // infinite where the function is, throughout
 };
 
+// How closely a function is looked at: at so many places an octave, never fewer than some; then the place is
+// found to within a part of it.
+struct Fineness {
+    double scans_per_octave = 5;
+    int least_scans = 64;
+    double tolerance = 1e-8;
+};
+
 // The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section
 // search around its best place. The function may have several minima; those that lie between two places of
-// the scan can be missed. The place is found to within this part of it.
-CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, double tolerance = 1e-8);
+// the scan can be missed.
+CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
 // The golden-section search alone: for a function with one minimum in the range, at a place inside it.
 CostMinimum golden_section(const CostFunction& cost, const CellSizeRange& range, double tolerance);

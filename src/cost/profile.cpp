@@ -27,14 +27,15 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
+double next_part(std::uint64_t& state) { return static_cast<double>(next_random(state) >> 11) * 0x1p-53; }
+
 // floor(random * below), without the bias mattering.
 std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
-    return static_cast<std::uint64_t>(static_cast<double>(next_random(state) >> 11) * 0x1p-53 *
-                                      static_cast<double>(below));
+    return static_cast<std::uint64_t>(next_part(state) * static_cast<double>(below));
 }
 
 double longest_side(const Lookup& l) {
-    return std::max({l.hi[0] - l.lo[0], l.hi[1] - l.lo[1], l.hi[2] - l.lo[2]});
+    return std::max(std::max(l.hi[0] - l.lo[0], l.hi[1] - l.lo[1]), l.hi[2] - l.lo[2]);
 }
 
 struct Distances {
@@ -45,7 +46,7 @@ struct Distances {
 Distances distances(const Lookup& l, const double (&p)[3]) {
     Distances d{};
     for (int a = 0; a < 3; ++a) {
-        d.along[a] = std::max({l.lo[a] - p[a], p[a] - l.hi[a], 0.0});
+        d.along[a] = std::max(std::max(l.lo[a] - p[a], p[a] - l.hi[a]), 0.0);
         d.largest = std::max(d.largest, d.along[a]);
     }
     return d;
@@ -60,12 +61,9 @@ struct Binned {
     std::size_t stride;         // every so many points are the few
 };
 
-// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
-// from the few. The weight is how many of their like they stand for.
-template <class Count>
-void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
-    const fast::Lattice& lattice = in.window.lattice;
-    std::uint32_t lo[3], hi[3];
+// The cells that hold all that is not further from a box than `near`.
+void cells_around(const Lookup& l, double near, const fast::Lattice& lattice, std::uint32_t (&lo)[3],
+                  std::uint32_t (&hi)[3]) {
     // As floats no further in than they are.
     constexpr double largest = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
@@ -74,6 +72,15 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
         lo[a] = lattice.cell(std::nextafter(below, -fast::infinity), a);
         hi[a] = lattice.cell(std::nextafter(above, fast::infinity), a);
     }
+}
+
+// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
+// from the few. The weight is how many of their like they stand for.
+template <class Count>
+void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
+    const fast::Lattice& lattice = in.window.lattice;
+    std::uint32_t lo[3], hi[3];
+    cells_around(l, near, lattice, lo, hi);
     const auto position = [&](std::size_t i) {
         return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
     };
@@ -108,35 +115,45 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
     }
 }
 
+// The points nearer to a box than `most`; than less where those are too many, and 0 where those nearer than
+// the smallest cell size are. Returns how near.
+double gather(const Lookup& l, const ListChanges& changes, double most, const Binned& in,
+              std::pmr::vector<ListChanges::Point>& points) {
+    const fast::Lattice& lattice = in.window.lattice;
+    const auto in_scale = [&](double length) { return static_cast<float>(length / changes.scale()); };
+    for (double near = most; near >= changes.first_size(); near *= 0.8) {
+        points.clear();
+        std::uint32_t lo[3], hi[3];
+        cells_around(l, near, lattice, lo, hi);
+        for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+            for (std::uint32_t y = lo[1]; y <= hi[1] && points.size() <= ListChanges::most_points; ++y) {
+                const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
+                for (std::size_t i = in.begin[row + lo[0]]; i < in.begin[row + hi[0] + 1]; ++i) {
+                    const double p[3] = {in.points.x[i], in.points.y[i], in.points.z[i]};
+                    const double distance = distances(l, p).largest;
+                    if (distance >= near) continue;
+                    points.push_back(
+                        {{in_scale(p[0] - l.lo[0]), in_scale(p[1] - l.lo[1]), in_scale(p[2] - l.lo[2])},
+                         in_scale(distance)});
+                    if (points.size() > ListChanges::most_points) break;
+                }
+            }
+        if (points.size() <= ListChanges::most_points) return near;
+    }
+    points.clear();
+    return 0;
+}
+
 } // namespace
 
 // ---- sums -----------------------------------------------------------------------------------------
 
-// Octave and sixteenth are the bits above the rest of the mantissa: even within an octave, not in the
-// logarithm, which does not matter.
-constexpr int rest_bits = 48;
-
-std::size_t PointsMet::class_of(double ratio) noexcept {
-    if (!(ratio >= 1)) return 0;
-    const std::uint64_t c =
-        (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) - (std::uint64_t{1023} << (52 - rest_bits)) + 1;
-    return c < classes ? static_cast<std::size_t>(c) : classes;
-}
-
-void PointsMet::add(const double (&e)[3], double weight) {
-    const std::size_t c = class_of(std::max({e[0], e[1], e[2]}) * inverse_least_);
-    if (c == classes) return;
-    if (c >= sums_.size()) sums_.resize(c + 1);
-    Moments& m = sums_[c];
-    m.sum[0] += weight;
-    m.sum[1] -= weight * (e[0] + e[1] + e[2]);
-    m.sum[2] += weight * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
-    m.sum[3] -= weight * (e[0] * e[1] * e[2]);
-}
+void PointsMet::grow(std::size_t to) { sums_.resize(to + 1); }
 
 // Of points about as far away as the cell size, next to none are met; their class comes in little by little,
 // so that the sum is continuous.
 double PointsMet::at(double cell_size) const noexcept {
+    if (sums_.size() == 1 && sums_[0].sum[0] == 0) return 0; // none
     const double ratio = cell_size * inverse_least_;
     const std::size_t c = class_of(ratio);
     if (c == 0) return sums_[0].sum[0];
@@ -155,7 +172,7 @@ void PointsMet::finish() noexcept {
 
 SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std::pmr::memory_resource* memory)
     : exponent(e), may_meet(may_meet_points), passed(std::ldexp(1.0, e), memory),
-      tested(std::ldexp(1.0, e), memory), sample(memory) {
+      tested(std::ldexp(1.0, e), memory), changes(std::ldexp(1.0, e)), sample(memory) {
     sample.reserve(most_samples);
 }
 
@@ -193,47 +210,85 @@ void Profile::add(const Lookup& lookup, double weight) {
     if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
+// Calls around(lookup, count) for the lookups of a class that are in the sample; there count(id, distances,
+// weight) takes a point. Returns how many they are.
+template <class Around>
+std::size_t Profile::count_around(SizeClass& c, double lookups, Around&& around) {
+    // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
+    const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
+    const auto size =
+        std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
+    const double each = c.count / static_cast<double>(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const Lookup& l = c.sample[i];
+        around(l, [&](std::uint32_t id, const Distances& d, double weight) {
+            ++points_looked_at_;
+            if (id < l.first_read || id >= l.last_read) return;
+            (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, each * weight);
+        });
+    }
+    return size;
+}
+
 void Profile::count_points(const fast::Points& points, Occupied occupied) {
     const double lookups = count();
+    if (occupied == Occupied::not_counted && points.count <= sizes_.near_points + sizes_.far_points) {
+        for (SizeClass& c : classes_) // all of them are around each
+            count_around(c, lookups, [&](const Lookup& l, auto&& count) {
+                for (std::uint32_t i = 0; i < points.count; ++i)
+                    if (points.id[i] >= l.first_read && points.id[i] < l.last_read)
+                        count(points.id[i], distances(l, {points.x[i], points.y[i], points.z[i]}), 1.0);
+            });
+    } else {
+        count_binned(points, lookups, occupied);
+    }
+    for (SizeClass& c : classes_) {
+        c.changes.finish();
+        c.passed.finish();
+        c.tested.finish();
+    }
+}
+
+void Profile::count_binned(const fast::Points& points, double lookups, Occupied occupied) {
+    if (points.count == 0) return;
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
     std::pmr::vector<std::uint32_t> buffer(memory);
-    if (points.count > 0) {
-        const fast::Box box = fast::bounds(points);
-        const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
-        bins.points.reserve(points.count);
-        const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
-        const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
-        double smallest = 1, largest = 1;
-        if (sides(smallest, largest)) {
-            first_size_ = smallest / 16;
-            size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
-        }
-        const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
-                            points.count / sizes_.far_points + 1};
-        for (SizeClass& c : classes_) {
-            // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
-            const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
-            const auto size = std::min(
-                c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
-            const double near = near_sides * std::ldexp(2.0, c.exponent);
-            const double each = c.count / static_cast<double>(size);
-            for (std::size_t i = 0; i < size; ++i) {
-                const Lookup& l = c.sample[i];
-                for_points_around(l, near, binned, random_,
-                                  [&](std::uint32_t id, const Distances& d, double w) {
-                                      if (id < l.first_read || id >= l.last_read) return;
-                                      (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested)
-                                          .add(d.along, each * w);
-                                  });
-            }
-            if (occupied == Occupied::not_counted) continue;
-            count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
-        }
+    std::pmr::vector<ListChanges::Point> around(memory);
+    const fast::Box box = fast::bounds(points);
+    const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
+    bins.points.reserve(points.count);
+    const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
+    const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
+    double smallest = 1, largest = 1;
+    if (sides(smallest, largest)) {
+        first_size_ = smallest / 16;
+        size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
     }
+    const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
+                        points.count / sizes_.far_points + 1};
     for (SizeClass& c : classes_) {
-        c.passed.finish();
-        c.tested.finish();
+        const double near = near_sides * std::ldexp(2.0, c.exponent);
+        const std::size_t size = count_around(c, lookups, [&](const Lookup& l, auto&& count) {
+            for_points_around(l, near, binned, random_, count);
+        });
+        count_lists(c, size * sizes_.listed / sizes_.lookups, binned, around);
+        if (occupied == Occupied::not_counted) continue;
+        count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
+    }
+}
+
+template <class In>
+void Profile::count_lists(SizeClass& c, std::size_t wanted, const In& in,
+                          std::pmr::vector<ListChanges::Point>& points) {
+    const double least = c.changes.first_size(), most = c.changes.last_size();
+    double near = most;
+    for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
+        const Lookup& l = c.sample[i];
+        const double known = gather(l, c.changes, near, in, points);
+        near = std::clamp(1.2 * known, 2 * least, most); // the next one is likely to be like this one
+        points_looked_at_ += points.size();
+        c.changes.add(l.lo, l.hi, points, known);
     }
 }
 

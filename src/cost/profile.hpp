@@ -9,10 +9,13 @@
 // slivers and bodies of unlike resolution come out as they are.
 #pragma once
 
+#include "list_changes.hpp"
+
 #include "../fast/window.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -24,7 +27,10 @@ namespace vox {
 struct Moments {
     double sum[4] = {0, 0, 0, 0};
 
-    double at(double d) const noexcept { return ((sum[3] / d + sum[2]) / d + sum[1]) / d + sum[0]; }
+    double at(double d) const noexcept {
+        const double inverse = 1 / d;
+        return ((sum[3] * inverse + sum[2]) * inverse + sum[1]) * inverse + sum[0];
+    }
     void add(const Moments& other, double weight = 1) noexcept {
         for (int i = 0; i < 4; ++i) sum[i] += weight * other.sum[i];
     }
@@ -45,7 +51,17 @@ public:
     PointsMet(double scale, std::pmr::memory_resource* memory)
         : inverse_least_(256 / scale), sums_(1, memory) {}
 
-    void add(const double (&distance)[3], double weight);
+    void add(const double (&e)[3], double weight) {
+        const std::size_t c = class_of(std::max(std::max(e[0], e[1]), e[2]) * inverse_least_);
+        if (c == classes) return;
+        if (c >= sums_.size()) grow(c);
+        Moments& m = sums_[c];
+        const double both = e[0] * e[1];
+        m.sum[0] += weight;
+        m.sum[1] -= weight * (e[0] + e[1] + e[2]);
+        m.sum[2] += weight * (both + (e[0] + e[1]) * e[2]);
+        m.sum[3] -= weight * (both * e[2]);
+    }
     // Once, after the last add(): makes of each class the sum of all up to it.
     void finish() noexcept;
 
@@ -55,7 +71,16 @@ public:
 private:
     static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
 
-    static std::size_t class_of(double ratio) noexcept; // of a distance to the least
+    // Of a distance, given over the least. Octave and sixteenth are the bits above the rest of the mantissa:
+    // even within an octave, not in the logarithm, which does not matter.
+    static constexpr int rest_bits = 48;
+    static std::size_t class_of(double ratio) noexcept {
+        if (!(ratio >= 1)) return 0;
+        const std::uint64_t c = (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) -
+                                (std::uint64_t{1023} << (52 - rest_bits)) + 1;
+        return c < classes ? static_cast<std::size_t>(c) : classes;
+    }
+    void grow(std::size_t to);
 
     double inverse_least_;
     std::pmr::vector<Moments> sums_; // of the first class and all up to the last with any
@@ -83,6 +108,7 @@ struct SizeClass {
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
+    ListChanges changes;
     std::pmr::vector<Lookup> sample;
 };
 
@@ -90,6 +116,7 @@ struct SizeClass {
 // from them all.
 struct SampleSizes {
     std::size_t lookups, near_points, far_points;
+    std::size_t listed = 0; // lookups whose cells are filled and gone through
 };
 
 // Whether it is told how many cells have a point in them, which takes a look of its own.
@@ -106,6 +133,9 @@ public:
     // what the lookups mean by an index; all are finite.
     void count_points(const fast::Points& points, Occupied occupied);
 
+    // How many points were looked at for that, once for each sample.
+    std::uint64_t points_looked_at() const noexcept { return points_looked_at_; }
+
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept;
     double cells(double cell_size) const noexcept;
@@ -121,6 +151,12 @@ private:
     static constexpr int exponents = 512;
 
     SizeClass& class_of(double side, bool may_meet);
+    template <class Around>
+    std::size_t count_around(SizeClass& c, double lookups, Around&& around);
+    void count_binned(const fast::Points& points, double lookups, Occupied occupied);
+    template <class In>
+    void count_lists(SizeClass& c, std::size_t wanted, const In& in,
+                     std::pmr::vector<ListChanges::Point>& points);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
@@ -128,7 +164,7 @@ private:
     SampleSizes sizes_;
     std::pmr::vector<SizeClass> classes_;           // those that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
-    std::uint64_t random_ = 0;
+    std::uint64_t random_ = 0, points_looked_at_ = 0;
     // Of cells with a point, for cell sizes that are even in the logarithm.
     static constexpr std::size_t occupied_sizes = 64;
     double first_size_ = 1, size_ratio_ = 2;

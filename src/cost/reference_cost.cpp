@@ -35,13 +35,9 @@ struct Corner {
     double c[3];
 };
 
-// A second-level cache, less what passes through it: positions, boxes, tetrahedra.
-constexpr double cache_bytes = 512 << 10;
-// What a visit beyond it costs more, and what a cell with vertices costs more than an empty one, in visits;
-// and what fetching a vertex costs beside reading it, in readings. Fitted, as the weights are.
-constexpr double far_visit = 0.8, open_cell = 1.6, fetch = 0.9;
-// Of the engine's tables: a bucket's head, an occupied cell, a particle.
-constexpr double bucket_bytes = 4, cell_bytes = 24, particle_bytes = 16;
+// What a list of another length than the one before costs, in visits, and what fetching a vertex costs beside
+// reading it, in readings. Fitted, as the weights are.
+constexpr double changed_list = 6.7, fetch = 1.8;
 
 // A flat one holds nothing, and the engine gives it no box.
 bool has_volume(const std::array<Corner, 4>& p) {
@@ -73,8 +69,12 @@ bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
 
 Effort quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
+    // How lists change takes the surroundings of a hundred boxes to tell, whatever the scene. In a small one
+    // that takes too long, and is worth little: how the lattice happens to lie decides there.
+    constexpr std::size_t many = 60000;
     return {std::clamp<std::size_t>(t / 8, 512, 1u << 15),
-            {std::clamp<std::size_t>(t / 400, 64, 256), 128, std::clamp<std::size_t>(t / 256, 64, 192)},
+            {std::clamp<std::size_t>(t / 400, 64, 256), 128, std::clamp<std::size_t>(t / 256, 64, 192),
+             t < many ? 0 : std::size_t{128}},
             64,
             true};
 }
@@ -108,12 +108,13 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
     fast::PairBuffers buffers(memory);
     std::pmr::vector<fast::Pair> pairs(memory);
     fast::find_pairs(boxes, buffers, pairs);
-    auto pair = pairs.begin(); // sorted by a
+    const fast::Pair* pair = pairs.data(); // sorted by a
+    const fast::Pair* const last_pair = pair + pairs.size();
     std::uint32_t first = 0;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
         const Body& body = bodies[b];
-        const auto begin = pair;
-        while (pair != pairs.end() && pair->a == b) ++pair;
+        const fast::Pair* const begin = pair;
+        while (pair != last_pair && pair->a == b) ++pair;
         const std::span<const fast::Pair> others(begin, pair);
         Lookup lookup{};
         lookup.last_read = static_cast<std::uint32_t>(vertices);
@@ -196,18 +197,18 @@ double ReferenceCost::occupied(double cell_size) const noexcept {
     return std::min(profile_.occupied(cell_size), vertices_);
 }
 
-// Of what is looked at at random, the part beyond the caches.
-double ReferenceCost::share_beyond(double cell_size, double occupied) const noexcept {
-    const double bytes =
-        buckets(cell_size) * bucket_bytes + occupied * cell_bytes + vertices_ * particle_bytes;
-    return std::max(1 - cache_bytes / bytes, 0.0);
+// Beyond the sizes looked at, in proportion to what it would be in an irregular mesh.
+double ReferenceCost::changed_share(const SizeClass& c, double cell_size, double mean) noexcept {
+    const double nearest = c.changes.nearest(cell_size);
+    if (nearest == cell_size) return c.changes.share(cell_size);
+    const double irregular = ListChanges::of_irregular(mean);
+    if (nearest == 0) return irregular;
+    const double mean_there = (c.passed.at(nearest) + c.tested.at(nearest)) / c.cells.at(nearest);
+    if (!(mean_there > 0)) return 0;
+    return std::min(c.changes.share(nearest) * irregular / ListChanges::of_irregular(mean_there), 1.0);
 }
 
-double ReferenceCost::fetch_factor(double share_beyond) noexcept { return fetch * (1 + share_beyond); }
-
-// A box that meets more cells than are occupied goes through those instead. Of the others some have a vertex:
-// m of them in a cell leave exp(-m) of the cells empty where they lie at random (Poisson), and fewer where
-// they keep apart, as in a mesh: the square fits lattices and what generators write.
+// A box that meets more cells than are occupied goes through those instead.
 ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, double occupied) noexcept {
     Work work;
     const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
@@ -218,8 +219,7 @@ ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, do
         work.scanned = scanned;
     } else {
         work.visited = cells;
-        const double m = work.read / cells;
-        work.opened = cells * -std::expm1(-m * (1 + m / 2));
+        work.changed = cells * changed_share(c, cell_size, work.read / cells);
     }
     return work;
 }
@@ -230,7 +230,7 @@ ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
     for (const SizeClass& c : profile_.classes()) {
         const Work own = work(c, cell_size, occupied_cells);
         sum.visited += own.visited;
-        sum.opened += own.opened;
+        sum.changed += own.changed;
         sum.scanned += own.scanned;
         sum.read += own.read;
         sum.fetched += own.fetched;
@@ -241,26 +241,24 @@ ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
 
 double ReferenceCost::visit_units(double cell_size) const noexcept {
     const Work w = work(cell_size);
-    return w.visited * (1 + far_visit * share_beyond(cell_size, occupied(cell_size))) + w.opened * open_cell;
+    return w.visited + w.changed * changed_list;
 }
 
 double ReferenceCost::read_units(double cell_size) const noexcept {
     const Work w = work(cell_size);
-    return w.read + w.fetched * fetch_factor(share_beyond(cell_size, occupied(cell_size)));
+    return w.read + w.fetched * fetch;
 }
 
 CostTerms ReferenceCost::terms(double cell_size) const {
     const Work w = work(cell_size);
-    const double beyond = share_beyond(cell_size, occupied(cell_size));
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
     terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
     terms.add("visit a cell", w.visited, weights_.reference_visit_cell);
-    terms.add("open a cell's list", w.opened, open_cell * weights_.reference_visit_cell);
-    terms.add("go far for a cell", w.visited * beyond, far_visit * weights_.reference_visit_cell);
+    terms.add("list of another length", w.changed, changed_list * weights_.reference_visit_cell);
     terms.add("scan an occupied cell", w.scanned, weights_.reference_scan_cell);
     terms.add("read a vertex", w.read, weights_.reference_read_vertex);
-    terms.add("fetch a vertex", w.fetched, fetch_factor(beyond) * weights_.reference_read_vertex);
+    terms.add("fetch a vertex", w.fetched, fetch * weights_.reference_read_vertex);
     terms.add("test a box", w.tested, weights_.reference_test_box);
     terms.add("handle one in the box", profile_.candidates(), weights_.reference_test_tet);
     terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
@@ -272,12 +270,15 @@ double ReferenceCost::of_grid(double cell_size) const noexcept {
            buckets(cell_size) * weights_.reference_clear_bucket;
 }
 
+double ReferenceCost::of_changes(double cell_size) const noexcept {
+    return work(cell_size).changed * changed_list * weights_.reference_visit_cell;
+}
+
 double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
     const Work w = work(c, cell_size, occupied);
-    const double beyond = share_beyond(cell_size, occupied);
-    return (w.visited * (1 + far_visit * beyond) + w.opened * open_cell) * weights_.reference_visit_cell +
+    return (w.visited + w.changed * changed_list) * weights_.reference_visit_cell +
            w.scanned * weights_.reference_scan_cell +
-           (w.read + w.fetched * fetch_factor(beyond)) * weights_.reference_read_vertex +
+           (w.read + w.fetched * fetch) * weights_.reference_read_vertex +
            w.tested * weights_.reference_test_box;
 }
 

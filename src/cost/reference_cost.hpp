@@ -3,8 +3,7 @@
 //   T(d) = c_bin n                        classify every vertex
 //        + c_prepare m                    box of every tetrahedron
 //        + c_visit sum over tets of the cells their boxes meet
-//        + c_open  those of them that hold a vertex: a list to go to, and to come back from
-//        + c_far   those visits that find their bucket and cell beyond the caches
+//        + c_other those of them whose list is of another length than the one before (list_changes.hpp)
 //        + c_read  sum over tets of the vertices in these cells
 //        + c_fetch those of them that are only passed over, and that no tetrahedron just before has read
 //        + c_box   those of them that are another body's, or any where the body collides with itself
@@ -54,6 +53,8 @@ public:
     double of_grid(double cell_size) const noexcept;
     double of_class(const SizeClass& c, double cell_size, double occupied) const noexcept;
     double shared() const noexcept;
+    // The part of all that is no smooth function of the cell size: what lists of changing length cost.
+    double of_changes(double cell_size) const noexcept;
     double occupied(double cell_size) const noexcept;
 
     // All that visits cost, in visits of empty cells nearby, and all that reading costs, in readings of
@@ -64,13 +65,13 @@ public:
 private:
     // How often each piece is done that depends on the cell size.
     struct Work {
-        double visited = 0, opened = 0, scanned = 0; // cells
-        double read = 0, fetched = 0, tested = 0;    // vertices
+        double visited = 0, changed = 0, scanned = 0; // cells
+        double read = 0, fetched = 0, tested = 0;     // vertices
     };
     static Work work(const SizeClass& c, double cell_size, double occupied) noexcept;
     Work work(double cell_size) const noexcept;
-    static double fetch_factor(double share_beyond) noexcept;
-    double share_beyond(double cell_size, double occupied) const noexcept;
+    // Of the cells visited; `mean` points lie in one.
+    static double changed_share(const SizeClass& c, double cell_size, double mean) noexcept;
     double buckets(double cell_size) const noexcept;
 
     Profile profile_;

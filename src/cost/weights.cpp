@@ -51,11 +51,11 @@ vox_cost_weights shipped_weights() noexcept {
     weights.measured = 0;
     weights.reference_classify_vertex = 30;
     weights.reference_prepare_tet = 15;
-    weights.reference_visit_cell = 5;
+    weights.reference_visit_cell = 2.6;
     weights.reference_scan_cell = 1.3;
-    weights.reference_read_vertex = 1.5;
-    weights.reference_test_box = 1.1;
-    weights.reference_test_tet = 25;
+    weights.reference_read_vertex = 1.2;
+    weights.reference_test_box = 0.6;
+    weights.reference_test_tet = 24;
     weights.reference_clear_bucket = 0.2;
     weights.fast_bin_vertex = 5;
     weights.fast_clear_cell = 0.7;

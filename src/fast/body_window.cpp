@@ -152,7 +152,8 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
             wanted = end < 64 ? wanted >> end << end : 0;
             points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
-            fast::collect(state.positions, first[b + begin], first[b + end], body.vertex_count, region, points);
+            fast::collect(state.positions, first[b + begin], first[b + end], body.vertex_count, region,
+                          points);
         }
     }
     if (points.count == 0) return;

@@ -45,7 +45,8 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 }
 
 // On which sides of `region` all of a box lies, a bit each: bits 0 to 2 above its hi[0], hi[1], hi[2], bits 4
-// to 6 below its lo[0], lo[1], lo[2]. None where they overlap. Boxes with a side in common lie on that side together.
+// to 6 below its lo[0], lo[1], lo[2]. None where they overlap. Boxes with a side in common lie on that side
+// together.
 inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 #if defined(__SSE2__)
     const int above = _mm_movemask_ps(_mm_cmpgt_ps(_mm_load_ps(box.lo), _mm_load_ps(region.hi))) & 7;

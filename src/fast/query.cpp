@@ -235,7 +235,8 @@ private:
 using FewCorners = Corners<SmallTable>; // of at most few_vertices
 using ManyCorners = Corners<Table>;
 #else
-// Vertex by vertex, transposed: half the time of gathers, and two thirds of that of permutations of registers.
+// Vertex by vertex, transposed: half the time of gathers, and two thirds of that of permutations of
+// registers.
 class Corners {
 public:
     struct Tets {
@@ -245,8 +246,8 @@ public:
     static void Prepare(QueryScratch& s, std::uint32_t vertex_count) {
         const Floats d;
         for (std::uint32_t i = 0; i < vertex_count; i += static_cast<std::uint32_t>(hn::Lanes(d)))
-            hn::StoreInterleaved4(hn::Load(d, s.x + i), hn::Load(d, s.y + i), hn::Load(d, s.z + i), hn::Zero(d), d,
-                                  s.xyz + 4 * i);
+            hn::StoreInterleaved4(hn::Load(d, s.x + i), hn::Load(d, s.y + i), hn::Load(d, s.z + i),
+                                  hn::Zero(d), d, s.xyz + 4 * i);
     }
     explicit Corners(const QueryScratch& s)
         : xyz_(s.xyz), corners_(reinterpret_cast<const std::uint8_t*>(s.corners)) {}
@@ -564,8 +565,7 @@ HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
     PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
     PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
-    if (own)
-        PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
+    if (own) PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
 // Of a window of few points the tiles of a super-tile together read more or less all.

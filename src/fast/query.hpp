@@ -47,7 +47,8 @@ struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_findings = 128;
 
     // the tile
-    alignas(64) float xyz[4 * tile_size]; // its vertices, x y z and something, where that is faster to look up
+    alignas(
+        64) float xyz[4 * tile_size]; // its vertices, x y z and something, where that is faster to look up
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
     alignas(64) std::uint8_t quantised[3][tile_size];
     alignas(64) std::uint8_t lo[3][tile_size], side[3][tile_size]; // boxes of the tets

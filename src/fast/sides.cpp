@@ -23,8 +23,8 @@ public:
 
     HWY_INLINE explicit Sides(const Box& region)
         : sign_(hn::OddEvenBlocks(hn::Set(d, -0.0f), hn::Zero(d))), // odd blocks are high corners
-          bound_(hn::Xor(hn::OddEvenBlocks(hn::LoadDup128(d, region.lo), hn::LoadDup128(d, region.hi)),
-                         sign_)),
+          bound_(
+              hn::Xor(hn::OddEvenBlocks(hn::LoadDup128(d, region.lo), hn::LoadDup128(d, region.hi)), sign_)),
           region_(region) {}
 
     HWY_INLINE std::uint64_t operator()(const Box* boxes) const {
@@ -75,8 +75,7 @@ std::uint64_t FindOverlaps(const Box* HWY_RESTRICT boxes, std::uint32_t count, c
     const Sides sides(region);
     std::uint64_t overlaps = 0;
     std::uint32_t i = 0;
-    for (; i + Sides::at_once <= count; i += Sides::at_once)
-        overlaps |= Sides::None(sides(boxes + i)) << i;
+    for (; i + Sides::at_once <= count; i += Sides::at_once) overlaps |= Sides::None(sides(boxes + i)) << i;
     for (; i < count; ++i) overlaps |= std::uint64_t{sides_of(boxes[i], region) == 0} << i;
     return overlaps;
 }

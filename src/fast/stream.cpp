@@ -72,9 +72,9 @@ HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec
     }
 }
 
-// Several positions a register, three lanes each, and a third as many lanes of the positions that follow. Where
-// registers are wide, all positions of a block take two or four of them, overlapping where it has fewer than
-// block_size: a minimum does not care.
+// Several positions a register, three lanes each, and a third as many lanes of the positions that follow.
+// Where registers are wide, all positions of a block take two or four of them, overlapping where it has fewer
+// than block_size: a minimum does not care.
 using Wide = hn::CappedTag<float, 16>;
 constexpr std::uint32_t wide_lanes = hn::MaxLanes(Wide());
 constexpr std::uint32_t wide_positions = wide_lanes / 4;

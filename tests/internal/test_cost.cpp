@@ -17,8 +17,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory_resource>
-#include <set>
 #include <string>
 
 using namespace vox;
@@ -148,7 +148,14 @@ START_TEST(reference_counts) {
 }
 END_TEST
 
-// The quick look agrees with the thorough one about where the minimum is: both lose next to nothing by it.
+// Without what the vertices of a lattice make of the lists' lengths: a smooth function.
+Effort smooth(Effort effort) {
+    effort.sample.listed = 0;
+    return effort;
+}
+
+// The quick look agrees with the thorough one about where the minimum is: both lose next to nothing by it. In
+// small scenes it leaves the lengths of lists out.
 START_TEST(reference_quick_look) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -156,25 +163,32 @@ START_TEST(reference_quick_look) {
     scene.prepare();
     std::uint64_t tets = 0;
     for (const Body& body : scene.bodies()) tets += body.tets.size();
-    const ReferenceCost all(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    const ReferenceCost some(scene.bodies(), VOX_STORAGE_HASHED, quick(tets), shipped_weights(), heap);
-    CellSizeRange range{};
-    ck_assert(all.range(range.min, range.max));
-    const CostMinimum best = minimise([&](double d) { return all(d); }, range);
-    const CostMinimum found = minimise([&](double d) { return some(d); }, range);
-    ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
-                  named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
+    for (const bool large : {false, true}) {
+        const ReferenceCost all(scene.bodies(), VOX_STORAGE_HASHED, large ? thorough : smooth(thorough),
+                                shipped_weights(), heap);
+        const ReferenceCost some(scene.bodies(), VOX_STORAGE_HASHED, quick(large ? 200000 : tets),
+                                 shipped_weights(), heap);
+        CellSizeRange range{};
+        ck_assert(all.range(range.min, range.max));
+        const CostMinimum best = minimise([&](double d) { return all(d); }, range, {.scans_per_octave = 16});
+        const CostMinimum found =
+            minimise([&](double d) { return some(d); }, range, {.scans_per_octave = 16});
+        ck_assert_msg(all(found.cell_size) <= (large ? 1.04 : 1.02) * best.cost,
+                      "%s: quick %g, thorough %g, cost %g over %g", named.name, found.cell_size,
+                      best.cell_size, all(found.cell_size), best.cost);
+    }
 }
 END_TEST
 
-// Of the cells that boxes meet, counted one by one.
-double cells_with_vertices(Scene& scene, double cell_size) {
+// Visits of cells whose list is of another length than that of the cell before, in the order of the engine.
+double visits_of_other_length(Scene& scene, double cell_size) {
     const auto cell_of = [&](float x) { return std::int64_t(std::floor(double(x) / cell_size)); };
     using At = std::array<std::int64_t, 3>;
-    std::set<At> occupied;
+    std::map<At, int> length;
     for (const Mesh& mesh : scene.meshes())
-        for (const Vec3f& p : mesh.positions) occupied.insert({cell_of(p.x), cell_of(p.y), cell_of(p.z)});
+        for (const Vec3f& p : mesh.positions) ++length[{cell_of(p.x), cell_of(p.y), cell_of(p.z)}];
     double count = 0;
+    int before = 0;
     for (const Mesh& mesh : scene.meshes())
         for (const Tet& tet : mesh.tets) {
             At lo{}, hi{};
@@ -188,7 +202,12 @@ double cells_with_vertices(Scene& scene, double cell_size) {
             }
             for (std::int64_t k = lo[2]; k <= hi[2]; ++k)
                 for (std::int64_t j = lo[1]; j <= hi[1]; ++j)
-                    for (std::int64_t i = lo[0]; i <= hi[0]; ++i) count += double(occupied.count({i, j, k}));
+                    for (std::int64_t i = lo[0]; i <= hi[0]; ++i) {
+                        const auto found = length.find({i, j, k});
+                        const int here = found == length.end() ? 0 : found->second;
+                        count += here != before;
+                        before = here;
+                    }
         }
     return count;
 }
@@ -200,18 +219,41 @@ double term(const CostTerms& terms, const std::string& name) {
     return 0;
 }
 
-// How many of the cells have a vertex is not counted in the mean but by a formula, which knows nothing of a
+// Where boxes are wider than a few cells a formula goes on from what was counted, which knows nothing of a
 // fine body that is all in few of the cells.
-START_TEST(reference_opens_lists) {
+START_TEST(reference_lists_of_other_length) {
     const Named& named = scenes[_i];
+    const double tolerance = named.unit < 0.5 ? 0.8 : _i < 4 ? 0.1 : 0.3;
     Scene scene;
     named.fill(scene);
     scene.prepare();
     const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         const double cell_size = size * named.unit;
-        ck_near(named, size, "cells with vertices", term(cost.terms(cell_size), "open a cell's list"),
-                cells_with_vertices(scene, cell_size), named.unit < 0.5 ? 1 : 0.15);
+        ck_near(named, size, "lists of another length", term(cost.terms(cell_size), "list of another length"),
+                visits_of_other_length(scene, cell_size), tolerance);
+    }
+}
+END_TEST
+
+// One vertex of a cubic lattice lies in every cell as large as a cube of it, wherever that lies, and the
+// model sees that this is better than cells a little larger or smaller, which counts of visits and readings
+// alone do not tell. Where vertices have left their places it is not.
+START_TEST(cells_as_large_as_those_of_a_lattice) {
+    for (const double jittered : {0.02, 0.5}) {
+        Scene scene;
+        Random random{7};
+        Mesh mesh = ball(60000);
+        jitter(mesh, jittered, random);
+        move(mesh, 1, 0.21, 0.34, 0.43);
+        scene.add(std::move(mesh), true);
+        scene.prepare();
+        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+        const double beside = std::min(cost(1 / 1.12), cost(1.12));
+        if (jittered < 0.1)
+            ck_assert_double_lt(cost(1), 0.97 * beside);
+        else
+            ck_assert_double_gt(cost(1), 0.97 * beside);
     }
 }
 END_TEST
@@ -241,30 +283,6 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     ck_assert_double_eq_tol(term(after, "read a vertex"), term(before, "read a vertex"),
                             0.05 * term(before, "read a vertex"));
     ck_assert_double_gt(after.cost(), before.cost());
-}
-END_TEST
-
-// All of a small scene is in the cache; of a large one's tables a part that grows with it.
-START_TEST(visits_beyond_the_caches) {
-    double before = 0;
-    for (const double tets : {2e4, 3e5, 1e6}) {
-        Scene scene;
-        scene.add(jittered_ball(tets, 1, 0.3, 0.1, 0.2, 1));
-        scene.prepare();
-        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, quick(std::uint64_t(tets)),
-                                 shipped_weights(), heap);
-        const CostTerms terms = cost.terms(1.8);
-        const double share = term(terms, "go far for a cell") / term(terms, "visit a cell");
-        if (tets < 1e5) ck_assert_double_eq(share, 0);
-        if (tets > 1e5) ck_assert_double_gt(share, before + 0.1);
-        ck_assert_double_lt(share, 1);
-        before = share;
-        // The parts that levels are chosen by add up to the whole.
-        double parts = cost.of_grid(1.8) + cost.shared();
-        for (const SizeClass& c : cost.profile().classes())
-            parts += cost.of_class(c, 1.8, cost.occupied(1.8));
-        ck_assert_double_eq_tol(parts, terms.cost(), 1e-9 * parts);
-    }
 }
 END_TEST
 
@@ -324,7 +342,7 @@ START_TEST(fast_quick_look) {
     ck_assert(all.range(range.min, range.max));
     const CostMinimum best = minimise([&](double d) { return all(d); }, range);
     const CostFunction quick_cost = [&](double d) { return some(d); };
-    const CostMinimum found = CostTable(quick_cost, range).minimum();
+    const CostMinimum found = CostTable(quick_cost, range, heap).minimum();
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -399,6 +417,7 @@ START_TEST(levels_are_one_engine) {
         const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
         CellSizeRange range{};
         ck_assert(cost.range(range.min, range.max));
+        range.min = std::max(range.min, cost.least_cell_size(0, range)); // what dense storage can have
         const Levels best = choose_levels(cost, range);
         // Also where they do not pay: shares of the classes, one size smaller than the other.
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -467,9 +486,9 @@ double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     return settings.levels[0].cell_size;
 }
 
-// How much the model says a size loses for the scene as it is.
+// How much the model says a size loses for the scene as it is, but for what its lattices make of the lists.
 double loss(Scene& scene, double cell_size) {
-    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, smooth(thorough), shipped_weights(), heap);
     CellSizeRange range{};
     ck_assert(cost.range(range.min, range.max));
     return cost(cell_size) / minimise([&](double d) { return cost(d); }, range).cost - 1;
@@ -494,7 +513,7 @@ START_TEST(adaptive_follows) {
     ck_assert_double_eq_tol(size / first, 10, 1.5);
     ck_assert_double_lt(worst, 0.1);
     ck_assert_uint_ge(adaptive.changes(), 5);
-    ck_assert_uint_le(adaptive.changes(), 60); // not at every step
+    ck_assert_uint_le(adaptive.changes(), 100); // not at every step
 }
 END_TEST
 
@@ -528,7 +547,7 @@ START_TEST(table_of_a_cost) {
     const CellSizeRange range{0.05, 40};
     const CostMinimum best = minimise(cost, range);
     calls = 0;
-    CostTable table(cost, range);
+    CostTable table(cost, range, heap);
     const CostMinimum found = table.minimum();
     ck_assert_double_le(found.cost, 1.0005 * best.cost);
     ck_assert_double_ge(found.cost, best.cost * (1 - 1e-12));
@@ -536,10 +555,34 @@ START_TEST(table_of_a_cost) {
     ck_assert_int_le(calls, 2 + 2 * 15);
     for (double d = 0.02; d < 100; d *= 1.01) ck_assert_double_eq_tol(table(d), cost(d), 0.01 * cost(d));
     ck_assert_double_eq(table(1e-6), cost(1e-6)); // beyond the table
+    // The zone, and points of the curve.
+    const double limit = 1.05 * found.cost;
+    const Zone zone = table.zone(found, limit), expected = zone_around(best, 1.05 * best.cost, cost, range);
+    ck_assert_double_eq_tol(zone.min, expected.min, 0.01 * expected.min);
+    ck_assert_double_eq_tol(zone.max, expected.max, 0.01 * expected.max);
+    const Zone all = table.zone(found, 1e9 * found.cost), none = table.zone(found, found.cost);
+    ck_assert_double_eq(all.min, range.min);
+    ck_assert_double_eq(all.max, range.max);
+    ck_assert_double_eq(none.min, found.cell_size);
+    ck_assert_double_eq(none.max, found.cell_size);
+    std::array<vox_cost_sample, 49> curve;
+    table.sample(0.1, 6, curve);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::exp2(double(i) / 8),
+                                1e-12 * curve[i].cell_size);
+        ck_assert_double_eq_tol(curve[i].cost, cost(curve[i].cell_size), 0.01 * curve[i].cost);
+    }
     ck_assert_double_eq(table(1e9), cost(1e9));
-    ck_assert_double_eq(CostTable(cost, {3, 3}).minimum().cell_size, 3);
+    // All that a suggestion asks of it, with few calls.
+    calls = 0;
+    CostTable asked(cost, range, heap);
+    const CostMinimum least = asked.minimum();
+    (void)asked.zone(least, 1.05 * least.cost);
+    asked.sample(least.cell_size / 8, 6, curve);
+    ck_assert_int_le(calls, 2 + 2 * 12);
+    ck_assert_double_eq(CostTable(cost, {3, 3}, heap).minimum().cell_size, 3);
     const CostFunction nothing = [](double) { return 0.0; };
-    ck_assert_double_eq(CostTable(nothing, range)(1), 0);
+    ck_assert_double_eq(CostTable(nothing, range, heap)(1), 0);
 }
 END_TEST
 
@@ -566,9 +609,9 @@ int main() {
     const int scene_count = sizeof scenes / sizeof scenes[0];
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
-    tcase_add_loop_test(tests, reference_opens_lists, 0, scene_count);
+    tcase_add_loop_test(tests, reference_lists_of_other_length, 0, scene_count);
     tcase_add_test(tests, tets_in_no_order_fetch_their_vertices);
-    tcase_add_test(tests, visits_beyond_the_caches);
+    tcase_add_test(tests, cells_as_large_as_those_of_a_lattice);
     tcase_add_loop_test(tests, fast_counts, 0, scene_count);
     tcase_add_loop_test(tests, fast_quick_look, 0, scene_count);
     tcase_add_test(tests, fast_bodies_at_rest);

@@ -1,0 +1,50 @@
+// The part of a mesh that its geometry is estimated from, again and again while it deforms: some of its
+// tetrahedra, edges and boundary facets, and how many of them there are. That depends on the topology alone,
+// so it is chosen once.
+#pragma once
+
+#include "depth/topology.hpp"
+#include "scene.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+struct MeshSample {
+    explicit MeshSample(std::pmr::memory_resource* memory)
+        : tets(memory), edges(memory), facets(memory), unused_vertices(memory) {}
+
+    struct SampledTet {
+        Tet tet;
+        std::uint32_t shared; // of its facets, as bits: facet i, opposite corner i, is another one's as well
+        static constexpr std::uint32_t no_facets = 16; // it names a vertex twice
+    };
+    using Edge = std::array<std::uint32_t, 2>;
+    using Facet = std::array<std::uint32_t, 3>;
+
+    // From everywhere in their lists; all where there are few.
+    std::pmr::vector<SampledTet> tets; // none that is off
+    std::pmr::vector<Edge> edges;
+    std::pmr::vector<Facet> facets; // of the boundary
+
+    // Of all.
+    std::uint64_t edge_count = 0, boundary_facet_count = 0;
+    // By tetrahedra, as bits (bits.hpp). Empty: none; also where there are no tetrahedra.
+    std::pmr::vector<std::uint64_t> unused_vertices;
+};
+
+// How many tetrahedra are looked at in a scene of so many. A mesh alone keeps as many, and half as many
+// boundary facets.
+std::size_t sampled_tets(std::uint64_t tets) noexcept;
+
+// `topology` is that of the tets. Throws what the memory throws.
+MeshSample make_sample(const Body& body, const depth::Topology& topology, std::pmr::memory_resource* memory);
+// The same without one, which takes as long as to make a topology, and its memory meanwhile.
+MeshSample make_sample(const Body& body, std::pmr::memory_resource* memory);
+
+} // namespace vox

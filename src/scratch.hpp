@@ -1,0 +1,42 @@
+// Memory for the time of one call: from a room at hand, then from the heap. Of the room only what was taken
+// last comes back before the end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+
+namespace vox {
+
+template <std::size_t bytes>
+class Scratch final : public std::pmr::memory_resource {
+public:
+    Scratch() noexcept = default; // the room is left as it is
+
+private:
+    bool is_in_room(const void* memory) const noexcept {
+        const auto at = reinterpret_cast<std::uintptr_t>(memory),
+                   begin = reinterpret_cast<std::uintptr_t>(room_);
+        return at >= begin && at < begin + bytes;
+    }
+    void* do_allocate(std::size_t size, std::size_t alignment) override {
+        const std::size_t first = (used_ + alignment - 1) / alignment * alignment;
+        if (alignment > alignof(std::max_align_t) || first > bytes || size > bytes - first)
+            return std::pmr::new_delete_resource()->allocate(size, alignment);
+        used_ = first + size;
+        return room_ + first;
+    }
+    void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+        auto* place = static_cast<std::byte*>(memory);
+        if (!is_in_room(memory))
+            std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+        else if (place + size == room_ + used_)
+            used_ -= size;
+    }
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+    alignas(std::max_align_t) std::byte room_[bytes];
+    std::size_t used_ = 0;
+};
+
+} // namespace vox

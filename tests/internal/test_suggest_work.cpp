@@ -1,0 +1,260 @@
+// What a grid's suggestion takes, by count: what is looked at, and memory. A step of a small scene takes ten
+// microseconds, and a suggestion should take less.
+#include <thread> // first: a macro of Check is named as a function there
+
+#include "cost/fast_cost.hpp"
+#include "cost/weights.hpp"
+#include "fast_scenes.hpp"
+#include "mesh_sample.hpp"
+#include "suite.h"
+
+#include <vox/vox.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace {
+
+std::atomic<std::uint64_t> allocations{0};
+
+} // namespace
+
+// Sanitizers have operators of their own: there, allocations are not counted.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define COUNTS_ALLOCATIONS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define COUNTS_ALLOCATIONS 0
+#endif
+#endif
+#ifndef COUNTS_ALLOCATIONS
+#define COUNTS_ALLOCATIONS 1
+#endif
+
+#if COUNTS_ALLOCATIONS
+static void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++allocations;
+    return std::malloc(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
+
+using namespace vox;
+
+namespace {
+
+std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
+
+constexpr std::size_t sizes[] = {2500, 20000, 80000}; // tetrahedra of a body
+
+Mesh jittered_ball(double tets, double x, std::uint64_t seed) {
+    Random random{seed};
+    Mesh mesh = ball(tets);
+    jitter(mesh, 0.12, random);
+    move(mesh, 1, x, 0.1, 0.2);
+    return mesh;
+}
+
+void fill(Scene& scene, std::size_t tets, double distance, bool self) {
+    scene.add(jittered_ball(double(tets), 0, 1), self);
+    scene.add(jittered_ball(double(tets), distance * std::cbrt(double(tets) / 5 * 3 / (4 * 3.14159265)), 2),
+              self);
+    scene.prepare();
+}
+
+// ---- what is looked at ----------------------------------------------------------------------------
+
+// As many points near sampled tiles and looks at each cell size in a large scene as in a small one, about, in
+// light contact, deep contact and self-collision.
+START_TEST(the_model_looks_at_few) {
+    const double distances[] = {1.95, 0.8, 1.9};
+    for (const std::size_t tets : sizes)
+        for (int kind = 0; kind < 3; ++kind) {
+            Scene scene;
+            fill(scene, tets, distances[kind], kind == 2);
+            std::vector<const fast::Tiles*> tiles;
+            for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
+            const Effort effort = quick_tiles(2 * tets);
+            const FastCost cost(scene.bodies(), tiles, {}, effort, shipped_weights(), heap);
+            const FastCost::Work work = cost.work();
+            // All pools together: windows of unlike sizes have one each.
+            ck_assert_uint_gt(work.points, 0);
+            ck_assert_uint_gt(work.looks, 0);
+            ck_assert_msg(work.points <= 6000 && work.looks <= 2 * effort.most_looks,
+                          "%zu tets, kind %d: %llu points, %llu looks", tets, kind,
+                          static_cast<unsigned long long>(work.points),
+                          static_cast<unsigned long long>(work.looks));
+            if (tets == sizes[0])
+                ck_assert_msg(work.points <= 1500, "kind %d: %llu points", kind,
+                              static_cast<unsigned long long>(work.points));
+        }
+}
+END_TEST
+
+START_TEST(samples_of_meshes_are_small) {
+    for (const std::size_t tets : sizes) {
+        Scene scene;
+        fill(scene, tets, 3, false);
+        const MeshSample sample = make_sample(scene.bodies()[0], heap);
+        ck_assert_uint_eq(sample.tets.size(), sampled_tets(scene.bodies()[0].tets.size()));
+        ck_assert_uint_le(sample.tets.size(), 256);
+        ck_assert_uint_le(sample.edges.size(), sample.tets.size());
+        ck_assert_uint_le(sample.facets.size(), sample.tets.size() / 2);
+        ck_assert_uint_ge(sample.edges.size(), 96);
+        ck_assert_uint_ge(sample.facets.size(), 48);
+    }
+    ck_assert_uint_eq(sampled_tets(0), sampled_tets(4000));
+    ck_assert_uint_eq(sampled_tets(1u << 30), 256);
+}
+END_TEST
+
+// ---- the grid -------------------------------------------------------------------------------------
+
+class Grid {
+public:
+    Grid(Scene& scene, std::uint32_t flags) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = flags;
+        ck_assert_int_eq(vox_grid_create(&desc, &grid), VOX_OK);
+        for (const Body& body : scene.bodies()) {
+            vox_mesh_desc mesh = vox_default_mesh_desc();
+            mesh.positions = body.positions.data;
+            mesh.vertex_count = body.vertex_count;
+            mesh.tets = body.tets[0].v;
+            mesh.tet_count = body.tets.size();
+            vox_mesh id = 0;
+            ck_assert_int_eq(vox_mesh_insert(grid, &mesh, &id), VOX_OK);
+            meshes.push_back(id);
+        }
+    }
+    ~Grid() { vox_grid_destroy(grid); }
+    Grid(const Grid&) = delete;
+    Grid& operator=(const Grid&) = delete;
+
+    void step() { ck_assert_int_eq(vox_grid_step(grid), VOX_OK); }
+    vox_suggestion suggest() const {
+        vox_suggestion found{};
+        found.struct_size = sizeof found;
+        ck_assert_int_eq(vox_grid_suggest_cell_size(grid, nullptr, &found), VOX_OK);
+        return found;
+    }
+
+    vox_grid* grid = nullptr;
+    std::vector<vox_mesh> meshes;
+};
+
+void ck_same(const vox_suggestion& a, const vox_suggestion& b) {
+    ck_assert_double_eq(a.cell_size, b.cell_size);
+    ck_assert_double_eq(a.zone_min, b.zone_min);
+    ck_assert_double_eq(a.zone_max, b.zone_max);
+    ck_assert_mem_eq(&a.stats, &b.stats, sizeof a.stats);
+    ck_assert_mem_eq(&a.rules, &b.rules, sizeof a.rules);
+    ck_assert_mem_eq(&a.curve, &b.curve, sizeof a.curve);
+}
+
+// With the depth stage and without: the same answer, and once its meshes were looked at, for as little. The
+// allocations of a suggestion do not grow with the scene but for those of lists that double.
+START_TEST(a_suggestion_allocates_little) {
+    for (const std::size_t tets : sizes) {
+        Scene scene;
+        fill(scene, tets, 1.95, false);
+        ck_assert_int_eq(allocations > 0, COUNTS_ALLOCATIONS); // that the scene is made of
+        Grid with(scene, VOX_GRID_PENETRATIONS), without(scene, 0);
+        for (Grid* grid : {&with, &without}) {
+            for (int when = 0; when < 2; ++when) { // before the first step, and after
+                (void)grid->suggest();             // looks at the meshes
+                const std::uint64_t before = allocations;
+                (void)grid->suggest();
+                ck_assert_msg(allocations - before <= (tets == sizes[0] ? 8u : 200u),
+                              "%zu tets, flags %d: %llu", tets, grid == &with,
+                              static_cast<unsigned long long>(allocations - before));
+                grid->step();
+            }
+        }
+        ck_same(with.suggest(), without.suggest());
+    }
+}
+END_TEST
+
+// What the last step found is used while it holds: bodies that moved are where they are, whatever was found
+// before; so are those that came or were cut.
+START_TEST(what_changed_since_the_step_counts) {
+    Scene scene;
+    fill(scene, sizes[0], 1.95, false);
+    Grid grid(scene, 0);
+    grid.step();
+    const vox_suggestion light = grid.suggest();
+    for (Mesh& mesh : scene.meshes()) // moves all and makes them larger
+        for (Vec3f& p : mesh.positions) p = {2 * p.x, 2 * p.y, 2 * p.z};
+    const vox_suggestion moved = grid.suggest();
+    ck_same(moved, Grid(scene, 0).suggest());
+    ck_assert_double_gt(moved.cell_size, 1.5 * light.cell_size);
+    grid.step();
+    const vox_suggestion stepped = grid.suggest();
+    ck_assert_double_ge(stepped.cell_size, moved.zone_min);
+    ck_assert_double_le(stepped.cell_size, moved.zone_max);
+
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t t = 0; t < scene.bodies()[0].tets.size(); t += 3) some.push_back(t);
+    ck_assert_int_eq(vox_mesh_set_tets_enabled(grid.grid, grid.meshes[0], some.data(), some.size(), 0),
+                     VOX_OK);
+    const vox_suggestion cut = grid.suggest();
+    ck_assert_uint_eq(cut.stats.tets, moved.stats.tets - some.size());
+    ck_assert_uint_gt(cut.stats.boundary_facets, moved.stats.boundary_facets);
+    ck_assert_int_eq(vox_mesh_set_tets_enabled(grid.grid, grid.meshes[0], some.data(), some.size(), 1),
+                     VOX_OK);
+    ck_assert_uint_eq(grid.suggest().stats.boundary_facets, moved.stats.boundary_facets);
+    ck_assert_int_eq(vox_mesh_remove(grid.grid, grid.meshes[1]), VOX_OK);
+    ck_assert_uint_eq(grid.suggest().stats.tets, scene.bodies()[0].tets.size());
+}
+END_TEST
+
+// Suggestions are reads: the first ones, which look at the meshes, may come from many threads at once.
+START_TEST(many_ask_at_once) {
+    Scene scene;
+    fill(scene, sizes[0], 1.95, false);
+    Grid grid(scene, 0);
+    std::vector<vox_suggestion> found(8);
+    std::vector<std::thread> threads;
+    for (vox_suggestion& suggestion : found)
+        threads.emplace_back([&] {
+            suggestion.struct_size = sizeof suggestion;
+            (void)vox_grid_suggest_cell_size(grid.grid, nullptr, &suggestion);
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const vox_suggestion& suggestion : found) ck_same(suggestion, found[0]);
+    ck_assert_double_gt(found[0].cell_size, 0);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("suggest_work");
+    TCase* tests = tcase_create("suggest_work");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, the_model_looks_at_few);
+    tcase_add_test(tests, samples_of_meshes_are_small);
+    tcase_add_test(tests, a_suggestion_allocates_little);
+    tcase_add_test(tests, what_changed_since_the_step_counts);
+    tcase_add_test(tests, many_ask_at_once);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
