@@ -216,7 +216,7 @@ public:
         hn::Vec<Words> corners;
     };
 
-    static void Prepare(QueryScratch&, std::uint32_t) {}
+    static void Prepare(QueryScratch&, std::uint32_t) {} // once the tile's vertices are in scratch
     explicit Corners(const QueryScratch& s)
         : table_{TableOf(s.x), TableOf(s.y), TableOf(s.z)}, corners_(s.corners) {}
     HWY_INLINE Tets operator[](const std::uint32_t* pairs) const {
@@ -235,8 +235,8 @@ private:
 using FewCorners = Corners<SmallTable>; // of at most few_vertices
 using ManyCorners = Corners<Table>;
 #else
-// Vertex by vertex, transposed: half the time of gathers, and two thirds of that of permutations of
-// registers.
+// Vertex by vertex, transposed: with AVX2, 0.89 of the time of a scene in half overlap when they were looked
+// up by permutations of tables in registers.
 class Corners {
 public:
     struct Tets {

@@ -32,7 +32,7 @@ public:
         constexpr std::size_t lanes = hn::MaxLanes(d);
         if constexpr (lanes >= 8) { // whole boxes
             for (std::size_t i = 0; i < at_once; i += lanes / 8) {
-                const auto corners = hn::Xor(hn::Load(d, boxes[i].lo), sign_);
+                const auto corners = hn::Xor(hn::LoadU(d, boxes[i].lo), sign_);
                 std::uint8_t bits[8];
                 hn::StoreMaskBits(d, hn::Gt(corners, bound_), bits);
                 std::uint64_t some = 0;
