@@ -109,8 +109,9 @@ struct Bodies {
 
     void collect() {
         points.count = 0;
-        points.reserve(b.positions.size());
-        fast::collect(packed(b), 0, std::uint32_t(b.positions.size()), region, points);
+        const auto count = std::uint32_t(b.positions.size());
+        points.reserve(count);
+        fast::collect(packed(b), 0, count, count, region, points);
     }
 
     void bin() {

@@ -105,7 +105,7 @@ public:
         const auto collect_run = [&] {
             if (first == last) return;
             points.reserve(std::size_t{points.count} + (last - first));
-            fast::collect(boxes_.positions(body), first, last, around, points);
+            fast::collect(boxes_.positions(body), first, last, first_of.back(), around, points);
         };
         for (std::size_t b = 0; b < blocks.size(); ++b) {
             if (!is_wanted(blocks[b])) continue;

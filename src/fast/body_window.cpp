@@ -1,8 +1,10 @@
 // Which vertices of a body are binned, and in cells of what size.
 #include "error.hpp"
+#include "fast/sides.hpp"
 #include "step.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace vox {
 
@@ -139,21 +141,20 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
 
     fast::Points& points = buffers.points;
     points.count = 0;
-    const auto is_wanted = [&](std::uint32_t b) {
-        if (culled ? buffers.active[b] != 0 : self) return true;
-        for (const Reach& reach : reaches)
-            if (fast::overlap(blocks[b], reach.region)) return true;
-        return false;
-    };
-    for (std::uint32_t b = 0; b < count;) { // runs of wanted blocks
-        const std::uint32_t begin = b;
-        while (b < count && is_wanted(b)) ++b;
-        if (b == begin) {
-            ++b;
-            continue;
+    for (std::uint32_t b = 0; b < count; b += fast::most_boxes) {
+        const std::uint32_t some = std::min(fast::most_boxes, count - b);
+        std::uint64_t wanted = 0;
+        for (std::uint32_t i = 0; i < some && self; ++i)
+            wanted |= std::uint64_t{!culled || buffers.active[b + i]} << i;
+        for (const Reach& reach : reaches) wanted |= fast::find_overlaps(blocks + b, some, reach.region);
+        while (wanted) { // runs of blocks
+            const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
+            const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
+            wanted = end < 64 ? wanted >> end << end : 0;
+            points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
+            fast::collect(state.positions, first[b + begin], first[b + end], body.vertex_count, region,
+                          points);
         }
-        points.reserve(std::size_t{points.count} + (first[b] - first[begin]));
-        fast::collect(state.positions, first[begin], first[b], region, points);
     }
     if (points.count == 0) return;
 

@@ -44,20 +44,21 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
-// On which sides of `region` all of a box lies, a bit each: above its hi[0], hi[1], hi[2], below its lo[0],
-// lo[1], lo[2]. None where they overlap. Boxes with a side in common lie on that side together.
+// On which sides of `region` all of a box lies, a bit each: bits 0 to 2 above its hi[0], hi[1], hi[2], bits 4
+// to 6 below its lo[0], lo[1], lo[2]. None where they overlap. Boxes with a side in common lie on that side
+// together.
 inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 #if defined(__SSE2__)
     const int above = _mm_movemask_ps(_mm_cmpgt_ps(_mm_load_ps(box.lo), _mm_load_ps(region.hi))) & 7;
     const int below = _mm_movemask_ps(_mm_cmpgt_ps(_mm_load_ps(region.lo), _mm_load_ps(box.hi))) & 7;
-    return static_cast<unsigned>(above | below << 3);
+    return static_cast<unsigned>(above | below << 4);
 #else
     unsigned sides = 0;
     for (unsigned a = 0; a < 3; ++a)
-        sides |= unsigned{box.lo[a] > region.hi[a]} << a | unsigned{region.lo[a] > box.hi[a]} << (a + 3);
+        sides |= unsigned{box.lo[a] > region.hi[a]} << a | unsigned{region.lo[a] > box.hi[a]} << (a + 4);
     return sides;
 #endif
 }
-inline constexpr unsigned all_sides = 63;
+inline constexpr unsigned all_sides = 0x77;
 
 } // namespace vox::fast

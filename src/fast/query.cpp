@@ -141,8 +141,10 @@ HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScra
         for (std::size_t a = 0; a < 3; ++a) {
             const ByteTable<kQuarters> table(s.quantised[a]);
             const auto v0 = table(c0), v1 = table(c1), v2 = table(c2), v3 = table(c3);
-            hn::Store(hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)), d, s.lo[a] + j);
-            hn::Store(hn::Max(hn::Max(v0, v1), hn::Max(v2, v3)), d, s.hi[a] + j);
+            const auto lo = hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)),
+                       hi = hn::Max(hn::Max(v0, v1), hn::Max(v2, v3));
+            hn::Store(lo, d, s.lo[a] + j);
+            hn::Store(hn::Sub(hi, lo), d, s.side[a] + j);
         }
     }
 }
@@ -171,22 +173,27 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
                                      *HWY_RESTRICT qz = s.candidate_quantised[2];
     std::uint64_t* HWY_RESTRICT masks = s.masks;
     std::uint32_t* HWY_RESTRICT meeting = s.meeting;
+    constexpr std::size_t parts = tile_size / lanes;
+    hn::Vec<Bytes> lo[3][parts], side[3][parts]; // in registers, as far as there are so many
+    for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t j = 0; j < parts; ++j) {
+            lo[a][j] = hn::Load(d, s.lo[a] + j * lanes);
+            side[a][j] = hn::Load(d, s.side[a] + j * lanes);
+        }
     for (std::uint32_t i = begin; i < end; ++i) {
         const auto x = hn::Set(d, qx[i]), y = hn::Set(d, qy[i]), z = hn::Set(d, qz[i]);
         std::uint64_t mask = 0;
-        for (std::size_t j = 0; j < tile_size; j += lanes) {
-            const auto beyond_x = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[0] + j), x),
-                                         hn::SaturatedSub(x, hn::Load(d, s.hi[0] + j)));
-            const auto beyond_y = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[1] + j), y),
-                                         hn::SaturatedSub(y, hn::Load(d, s.hi[1] + j)));
-            const auto beyond_z = hn::Or(hn::SaturatedSub(hn::Load(d, s.lo[2] + j), z),
-                                         hn::SaturatedSub(z, hn::Load(d, s.hi[2] + j)));
+        for (std::size_t j = 0; j < parts; ++j) {
+            // Where it is below lo, x - lo wraps round to more than the side, as no side is longer than 255.
+            const auto beyond_x = hn::SaturatedSub(hn::Sub(x, lo[0][j]), side[0][j]);
+            const auto beyond_y = hn::SaturatedSub(hn::Sub(y, lo[1][j]), side[1][j]);
+            const auto beyond_z = hn::SaturatedSub(hn::Sub(z, lo[2][j]), side[2][j]);
             const auto inside = hn::Eq(hn::Or(hn::Or(beyond_x, beyond_y), beyond_z), hn::Zero(d));
             std::uint64_t part = 0;
             alignas(8) std::uint8_t bits[8];
             hn::StoreMaskBits(d, inside, bits);
             std::memcpy(&part, bits, lanes / 8);
-            mask |= part << j;
+            mask |= part << (j * lanes);
         }
         mask &= valid & ~own(i);
         masks[left] = mask;
@@ -199,20 +206,86 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
     return left;
 }
 
+// The coordinates of the corners of some tets, looked up by lane.
+#if HWY_TARGET == HWY_AVX3
+// In tables of floats in registers.
+template <class TableOf>
+class Corners {
+public:
+    struct Tets {
+        hn::Vec<Words> corners;
+    };
+
+    static void Prepare(QueryScratch&, std::uint32_t) {} // once the tile's vertices are in scratch
+    explicit Corners(const QueryScratch& s)
+        : table_{TableOf(s.x), TableOf(s.y), TableOf(s.z)}, corners_(s.corners) {}
+    HWY_INLINE Tets operator[](const std::uint32_t* pairs) const {
+        return {corners_(hn::And(hn::LoadU(Words(), pairs), hn::Set(Words(), 63)))};
+    }
+    template <int kCorner>
+    HWY_INLINE void Load(const Tets& tets, V* out) const {
+        const auto index = hn::And(hn::ShiftRight<8 * kCorner>(tets.corners), hn::Set(Words(), 255));
+        for (int a = 0; a < 3; ++a) out[a] = table_[a](index);
+    }
+
+private:
+    TableOf table_[3];
+    WordTable corners_;
+};
+using FewCorners = Corners<SmallTable>; // of at most few_vertices
+using ManyCorners = Corners<Table>;
+#else
+// Vertex by vertex, transposed: with AVX2, 0.89 of the time of a scene in half overlap when they were looked
+// up by permutations of tables in registers.
+class Corners {
+public:
+    struct Tets {
+        const std::uint32_t* pairs;
+    };
+
+    static void Prepare(QueryScratch& s, std::uint32_t vertex_count) {
+        const Floats d;
+        for (std::uint32_t i = 0; i < vertex_count; i += static_cast<std::uint32_t>(hn::Lanes(d)))
+            hn::StoreInterleaved4(hn::Load(d, s.x + i), hn::Load(d, s.y + i), hn::Load(d, s.z + i),
+                                  hn::Zero(d), d, s.xyz + 4 * i);
+    }
+    explicit Corners(const QueryScratch& s)
+        : xyz_(s.xyz), corners_(reinterpret_cast<const std::uint8_t*>(s.corners)) {}
+    HWY_INLINE Tets operator[](const std::uint32_t* pairs) const { return {pairs}; }
+    template <int kCorner>
+    HWY_INLINE void Load(const Tets& tets, V* out) const {
+        const auto vertex = [&](std::size_t i) HWY_ATTR {
+            const std::size_t v = corners_[4 * (tets.pairs[i] & 63) + kCorner];
+#if HWY_TARGET == HWY_AVX2
+            const std::size_t v4 = corners_[4 * (tets.pairs[i + 4] & 63) + kCorner];
+            return hn::Combine(Floats(), hn::Load(Four(), xyz_ + 4 * v4), hn::Load(Four(), xyz_ + 4 * v));
+#else
+            return hn::Load(Four(), xyz_ + 4 * v);
+#endif
+        };
+        Transpose(Floats(), vertex(0), vertex(1), vertex(2), vertex(3), out);
+    }
+
+private:
+    const float* xyz_;
+    const std::uint8_t* corners_;
+};
+using FewCorners = Corners;
+using ManyCorners = Corners;
+#endif
+
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
 
-// Decides `count` pairs. TableOf: of the tile's coordinates.
-template <bool kRounded, class TableOf>
+// Decides `count` pairs.
+template <bool kRounded, class CornersOf>
 HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    const TableOf table[3] = {TableOf(s.x), TableOf(s.y), TableOf(s.z)};
-    const WordTable corner_table(s.corners);
+    const CornersOf corners(s);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
-    const auto byte = hn::Set(du, 255), low6 = hn::Set(du, 63);
     for (std::uint32_t i = 0; i < lanes; ++i) s.pairs[count + i] = s.pairs[count - 1]; // whole registers
     std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
@@ -221,23 +294,25 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const std::uint32_t first = s.pairs[i] >> 6;
         const auto candidate =
             hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
-        const auto corners = corner_table(hn::And(pair, low6));
-        const auto ia = hn::And(corners, byte), ib = hn::And(hn::ShiftRight<8>(corners), byte);
-        const auto ic = hn::And(hn::ShiftRight<16>(corners), byte), id = hn::ShiftRight<24>(corners);
+        const auto tets_of = corners[s.pairs + i];
+        V va[3], vb[3], vc[3], vd[3];
+        corners.template Load<0>(tets_of, va);
+        corners.template Load<1>(tets_of, vb);
+        corners.template Load<2>(tets_of, vc);
+        corners.template Load<3>(tets_of, vd);
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
-            const V va = table[a](ia), vb = table[a](ib), vc = table[a](ic), vd = table[a](id);
             const V p = hn::TableLookupLanes(hn::LoadU(d, candidates[a] + first), candidate);
-            const V lo = hn::Min(hn::Min(va, vb), hn::Min(vc, vd)),
-                    hi = hn::Max(hn::Max(va, vb), hn::Max(vc, vd));
+            const V lo = hn::Min(hn::Min(va[a], vb[a]), hn::Min(vc[a], vd[a])),
+                    hi = hn::Max(hn::Max(va[a], vb[a]), hn::Max(vc[a], vd[a]));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
             side[a] = hn::Sub(hi, lo);
             volume = hn::Mul(volume, side[a]);
-            e1[a] = hn::Sub(vb, va);
-            e2[a] = hn::Sub(vc, va);
-            e3[a] = hn::Sub(vd, va);
-            q[a] = hn::Sub(p, va);
+            e1[a] = hn::Sub(vb[a], va[a]);
+            e2[a] = hn::Sub(vc[a], va[a]);
+            e3[a] = hn::Sub(vd[a], va[a]);
+            q[a] = hn::Sub(p, va[a]);
         }
         if (hn::AllFalse(d, inside)) continue;
         s.counters.candidates += hn::CountTrue(d, inside);
@@ -311,11 +386,11 @@ struct TileWork {
     void narrow(const std::uint32_t* tets, std::uint32_t count) {
         const bool few = tile.vertex_count <= few_vertices;
         if (query.rounded)
-            few ? Narrow<true, SmallTable>(tets, s, count, constants, out)
-                : Narrow<true, Table>(tets, s, count, constants, out);
+            few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
+                : Narrow<true, ManyCorners>(tets, s, count, constants, out);
         else
-            few ? Narrow<false, SmallTable>(tets, s, count, constants, out)
-                : Narrow<false, Table>(tets, s, count, constants, out);
+            few ? Narrow<false, FewCorners>(tets, s, count, constants, out)
+                : Narrow<false, ManyCorners>(tets, s, count, constants, out);
     }
 };
 
@@ -328,6 +403,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
         const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
         QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
+        ManyCorners::Prepare(s, tile.vertex_count);
         w.constants = MakeConstants(w.box, w.query.rounded);
         w.ready = true;
     }
@@ -335,18 +411,22 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         w.stamped = true;
         s.tag += 1u << 6;
         const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
-        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.query.stamps[vertices[i]] = s.tag | i;
+        const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
+        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
+            w.query.stamps[vertices[i]] = s.tag | i;
+            s.own[i] = own[i];
+        }
     }
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
     const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
-    const std::uint64_t* own = own_count ? w.query.tiles->own.data() + tile.first_vertex : nullptr;
     const std::uint32_t* stamps = w.query.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
             const std::uint32_t stamp = stamps[s.candidate_id[i]];
-            return stamp >> 6 == s.tag >> 6 ? own[stamp & 63] : 0;
+            const std::uint64_t is_of_tile = stamp >> 6 == s.tag >> 6;
+            return s.own[stamp & 63] & (0 - is_of_tile); // a branch would be mispredicted too often
         });
     const std::uint32_t left = TestBoxes(s, own_count, count, left_of_own, tile.all_tets(),
                                          [](std::uint32_t) { return std::uint64_t{0}; });
@@ -372,65 +452,106 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     if (pairs) w.narrow(tets, pairs);
 }
 
-// Appends the points of a source that lie in the tile's box to the candidates.
-HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std::uint32_t n,
-                               std::uint32_t& own_count) {
+// Runs of points of a window, of a register each: first[i] and those that follow it below end[i].
+struct Runs {
+    static constexpr std::uint32_t most = 64, at_once = 4; // are added
+    alignas(16) std::uint32_t first[most + at_once], end[most + at_once];
+    std::uint32_t count = 0;
+};
+
+// Appends the points of the runs that lie in `box` to the candidates.
+HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& box, const Runs& runs,
+                                  bool own, std::uint32_t n, std::uint32_t& own_count) {
     const Floats d;
     const Words du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     QueryScratch& s = w.s;
-    Box box = w.box; // no further than the source matters
-    for (int a = 0; a < 3; ++a) {
-        box.lo[a] = box.lo[a] > source.region.lo[a] ? box.lo[a] : source.region.lo[a];
-        box.hi[a] = box.hi[a] < source.region.hi[a] ? box.hi[a] : source.region.hi[a];
-    }
-    const Window& window = source.window;
-    const Lattice& lattice = window.lattice;
-    const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
-    const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
-    const std::uint32_t z0 = lattice.cell(box.lo[2], 2), z1 = lattice.cell(box.hi[2], 2);
-    s.counters.visited_cells += std::uint64_t{x1 - x0 + 1} * (y1 - y0 + 1) * (z1 - z0 + 1);
     const auto lx = hn::Set(d, box.lo[0]), ly = hn::Set(d, box.lo[1]), lz = hn::Set(d, box.lo[2]);
     const auto hx = hn::Set(d, box.hi[0]), hy = hn::Set(d, box.hi[1]), hz = hn::Set(d, box.hi[2]);
+    const Window& window = source.window;
     const Points& points = window.bins->points;
     const float* HWY_RESTRICT px = points.x.data() + window.first_point;
     const float* HWY_RESTRICT py = points.y.data() + window.first_point;
     const float* HWY_RESTRICT pz = points.z.data() + window.first_point;
     const std::uint32_t* HWY_RESTRICT ids = points.id.data() + window.first_point;
-    const std::uint32_t* HWY_RESTRICT begin = window.bins->begin.data() + window.first_cell;
     std::uint32_t labelled = n;
-    std::uint64_t visited = 0;
-    for (std::uint32_t z = z0; z <= z1; ++z)
-        for (std::uint32_t y = y0; y <= y1; ++y) {
-            const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
-            const std::uint32_t end = begin[row + x1 + 1];
-            std::uint32_t i = begin[row + x0];
-            visited += end - i;
-            for (; i < end; i += lanes) {
-                const auto vx = hn::LoadU(d, px + i), vy = hn::LoadU(d, py + i), vz = hn::LoadU(d, pz + i);
-                const auto inside_x = hn::And(hn::Ge(vx, lx), hn::Le(vx, hx));
-                const auto inside_y = hn::And(hn::Ge(vy, ly), hn::Le(vy, hy));
-                const auto inside_z = hn::And(hn::Ge(vz, lz), hn::Le(vz, hz));
-                const auto inside =
-                    hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, end - i)));
-                // Also when there is none: a branch would be mispredicted too often.
-                const Compressor compress(inside);
-                hn::StoreU(compress(vx), d, s.candidate_x + n);
-                hn::StoreU(compress(vy), d, s.candidate_y + n);
-                hn::StoreU(compress(vz), d, s.candidate_z + n);
-                hn::StoreU(compress(hn::LoadU(du, ids + i)), du, s.candidate_id + n);
-                n += compress.count();
-                if (n > QueryScratch::most_candidates - 16) {
-                    for (; labelled < n; ++labelled) s.candidate_body[labelled] = source.body;
-                    Process(w, n, own ? n : own_count);
-                    n = labelled = own_count = 0;
-                }
-            }
+    const auto label = [&]() HWY_ATTR {
+        for (; labelled < n; labelled += lanes)
+            hn::StoreU(hn::Set(du, source.body), du, s.candidate_body + labelled);
+    };
+    for (std::uint32_t r = 0; r < runs.count; ++r) {
+        const std::uint32_t i = runs.first[r];
+        const auto vx = hn::LoadU(d, px + i), vy = hn::LoadU(d, py + i), vz = hn::LoadU(d, pz + i);
+        const auto inside_x = hn::And(hn::Ge(vx, lx), hn::Le(vx, hx));
+        const auto inside_y = hn::And(hn::Ge(vy, ly), hn::Le(vy, hy));
+        const auto inside_z = hn::And(hn::Ge(vz, lz), hn::Le(vz, hz));
+        const auto inside =
+            hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, runs.end[r] - i)));
+        // Also when there is none: a branch would be mispredicted too often.
+        const Compressor compress(inside);
+        hn::StoreU(compress(vx), d, s.candidate_x + n);
+        hn::StoreU(compress(vy), d, s.candidate_y + n);
+        hn::StoreU(compress(vz), d, s.candidate_z + n);
+        hn::StoreU(compress(hn::LoadU(du, ids + i)), du, s.candidate_id + n);
+        n += compress.count();
+        if (n > QueryScratch::most_candidates - 16) {
+            label();
+            Process(w, n, own ? n : own_count);
+            n = labelled = own_count = 0;
         }
-    s.counters.visited_points += visited;
-    for (; labelled < n; ++labelled) s.candidate_body[labelled] = source.body;
+    }
+    label();
     if (own) own_count = n;
     return n;
+}
+
+// Appends the points of a source that lie in the tile's box to the candidates. Rows of cells are first listed
+// as runs: how many registers a row takes is hard to predict, and a loop over them would wait for memory
+// whenever it was predicted wrongly.
+HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std::uint32_t n,
+                               std::uint32_t& own_count) {
+    const hn::FixedTag<std::uint32_t, Runs::at_once> d4;
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(Floats()));
+    const auto steps = hn::Mul(hn::Iota(d4, 0), hn::Set(d4, lanes));
+    Box box = w.box; // no further than the source matters
+    intersect(box, source.region);
+    const Window& window = source.window;
+    const Lattice& lattice = window.lattice;
+    const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
+    const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
+    const std::uint32_t z0 = lattice.cell(box.lo[2], 2), z1 = lattice.cell(box.hi[2], 2);
+    const std::uint32_t width = x1 - x0 + 1, height = y1 - y0 + 1;
+    std::size_t rows = std::size_t{height} * (z1 - z0 + 1);
+    w.s.counters.visited_cells += rows * width;
+    const std::uint32_t* row = window.bins->begin.data() + window.first_cell +
+                               (std::size_t{z0} * lattice.cells[1] + y0) * lattice.cells[0] + x0;
+    const std::size_t next_row = lattice.cells[0],
+                      next_layer = std::size_t{lattice.cells[1] - height + 1} * lattice.cells[0];
+    Runs runs;
+    std::uint64_t visited = 0;
+    std::uint32_t left = height; // rows of the layer
+    for (; rows; --rows) {
+        std::uint32_t i = row[0];
+        const std::uint32_t end = row[width];
+        --left;
+        row += left ? next_row : next_layer;
+        left = left ? left : height;
+        visited += end - i;
+        for (;;) {
+            hn::StoreU(hn::Add(hn::Set(d4, i), steps), d4, runs.first + runs.count);
+            hn::StoreU(hn::Set(d4, end), d4, runs.end + runs.count);
+            const std::uint32_t needed = (end - i + lanes - 1) / lanes;
+            runs.count += needed < Runs::at_once ? needed : Runs::at_once;
+            if (runs.count > Runs::most - Runs::at_once) {
+                n = Filter(w, source, box, runs, own, n, own_count);
+                runs.count = 0;
+            }
+            if (needed <= Runs::at_once) break;
+            i += Runs::at_once * lanes;
+        }
+    }
+    w.s.counters.visited_points += visited;
+    return Filter(w, source, box, runs, own, n, own_count);
 }
 
 HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
@@ -439,11 +560,12 @@ HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
 }
 
 // What is made of the tile when it has candidates; it comes while those are fetched.
-HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile) {
+HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
     PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
     PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
+    if (own) PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
 // Of a window of few points the tiles of a super-tile together read more or less all.
@@ -474,7 +596,7 @@ void QueryTiles(const Query& query, const Source* sources, std::size_t source_co
         bool met = false;
         for (std::size_t i = 0; i < source_count; ++i) {
             if (!overlap(w.box, sources[i].region)) continue;
-            if (!met) PrefetchTile(*query.tiles, w.tile);
+            if (!met) PrefetchTile(*query.tiles, w.tile, query.stamps);
             met = true;
             n = Fetch(w, sources[i], query.stamps && sources[i].body == sources[0].body, n, own_count);
         }

@@ -47,9 +47,12 @@ struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_findings = 128;
 
     // the tile
+    alignas(
+        64) float xyz[4 * tile_size]; // its vertices, x y z and something, where that is faster to look up
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
     alignas(64) std::uint8_t quantised[3][tile_size];
-    alignas(64) std::uint8_t lo[3][tile_size], hi[3][tile_size]; // boxes of the tets
+    alignas(64) std::uint8_t lo[3][tile_size], side[3][tile_size]; // boxes of the tets
+    alignas(64) std::uint64_t own[tile_size] = {}; // where stamps are in use: Tiles::own of its vertices
     // candidates: points in the tile's box
     alignas(64) float candidate_x[most_candidates + 64], candidate_y[most_candidates + 64],
         candidate_z[most_candidates + 64];

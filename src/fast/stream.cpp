@@ -2,6 +2,7 @@
 // check.
 #include "stream.hpp"
 #include "../simd.hpp"
+#include "tiles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,35 @@ HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec
     }
 }
 
+// Several positions a register, three lanes each, and a third as many lanes of the positions that follow.
+// Where registers are wide, all positions of a block take two or four of them, overlapping where it has fewer
+// than block_size: a minimum does not care.
+using Wide = hn::CappedTag<float, 16>;
+constexpr std::uint32_t wide_lanes = hn::MaxLanes(Wide());
+constexpr std::uint32_t wide_positions = wide_lanes / 4;
+
+template <class Vec>
+HWY_INLINE hn::Vec<Four> FirstFour(Vec v) {
+    if constexpr (sizeof(Vec) > sizeof(hn::Vec<Four>))
+        return FirstFour(hn::LowerHalf(v));
+    else
+        return v;
+}
+
+// In the first lanes: the result over all positions of a register.
+template <class Reduce>
+HWY_INLINE hn::Vec<Four> Fold(hn::Vec<Wide> v, Reduce reduce) {
+    const Wide d;
+    const hn::RebindToSigned<Wide> di;
+    for (std::uint32_t positions = wide_positions / 2; positions; positions /= 2) {
+        alignas(64) std::int32_t from[wide_lanes];
+        for (std::uint32_t i = 0; i < wide_lanes; ++i)
+            from[i] = static_cast<std::int32_t>((i + 3 * positions) % wide_lanes);
+        v = reduce(v, hn::TableLookupLanes(v, hn::IndicesFromVec(d, hn::Load(di, from))));
+    }
+    return FirstFour(v);
+}
+
 template <bool kMoves>
 HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
                        const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
@@ -80,6 +110,10 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
     const std::uint32_t count = first[blocks];
     std::uint32_t checked = first[0];
     auto all_lo = hn::Set(d, infinity), all_hi = hn::Set(d, -infinity);
+    const Wide dw;
+    auto wide_lo = hn::Set(dw, infinity), wide_hi = hn::Set(dw, -infinity);
+    const auto least = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
+    const auto most = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
     for (std::size_t b = 0; b < blocks; ++b) {
         const std::uint32_t end = first[b + 1];
         if (end > checked) { // a few kilobytes at a time, which the boxes then find in the cache
@@ -88,8 +122,23 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
             checked = next;
         }
         const float* p = positions + std::size_t{first[b]} * 3;
+        const std::uint32_t n = end - first[b];
+        if (!kMoves && wide_positions > 1 && n >= wide_positions && n <= block_size && count - end >= 2) {
+            auto lo = hn::LoadU(dw, p + std::size_t{3} * (n - wide_positions)), hi = lo;
+            for (std::uint32_t i = 0; i + wide_positions < block_size; i += wide_positions) {
+                const std::uint32_t at = i + wide_positions < n ? i : n - wide_positions;
+                const auto some = hn::LoadU(dw, p + std::size_t{3} * at);
+                lo = hn::Min(lo, some);
+                hi = hn::Max(hi, some);
+            }
+            wide_lo = hn::Min(wide_lo, lo);
+            wide_hi = hn::Max(wide_hi, hi);
+            hn::Store(Fold(lo, least), d, boxes[b].lo);
+            hn::Store(Fold(hi, most), d, boxes[b].hi);
+            continue;
+        }
         const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
-        std::uint32_t left = end - first[b];
+        std::uint32_t left = n;
         auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity), move_lo = lo, move_hi = hi;
         if (end == count) {
             --left;
@@ -111,8 +160,8 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
             hn::Store(move_hi, d, moves[b].hi);
         }
     }
-    hn::Store(all_lo, d, all.lo);
-    hn::Store(all_hi, d, all.hi);
+    hn::Store(hn::Min(all_lo, Fold(wide_lo, least)), d, all.lo);
+    hn::Store(hn::Max(all_hi, Fold(wide_hi, most)), d, all.hi);
     return finite;
 }
 

@@ -50,15 +50,24 @@ HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std
     hn::Store(hn::Max(hi0, hi1), d, box.hi);
 }
 
-// Four positions as a structure of arrays.
+// Four positions, in each block of four lanes, as a structure of arrays.
+template <class D, class Vec = hn::Vec<D>>
+HWY_INLINE void Transpose(D d, Vec p0, Vec p1, Vec p2, Vec p3, Vec* xyz) {
+    const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
+    const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
+    xyz[0] = hn::InterleaveLower(d, xy02, xy13);
+    xyz[1] = hn::InterleaveUpper(d, xy02, xy13);
+    xyz[2] = hn::InterleaveLower(d, z02, z13);
+}
+
 HWY_INLINE void StoreTransposed(hn::Vec<Four> p0, hn::Vec<Four> p1, hn::Vec<Four> p2, hn::Vec<Four> p3,
                                 float* x, float* y, float* z) {
     const Four d;
-    const auto xy02 = hn::InterleaveLower(d, p0, p2), xy13 = hn::InterleaveLower(d, p1, p3);
-    const auto z02 = hn::InterleaveUpper(d, p0, p2), z13 = hn::InterleaveUpper(d, p1, p3);
-    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, x);
-    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, y);
-    hn::Store(hn::InterleaveLower(d, z02, z13), d, z);
+    hn::Vec<Four> xyz[3];
+    Transpose(d, p0, p1, p2, p3, xyz);
+    hn::Store(xyz[0], d, x);
+    hn::Store(xyz[1], d, y);
+    hn::Store(xyz[2], d, z);
 }
 
 // The tile's vertices as a structure of arrays; their box unless kBox is false.
@@ -139,38 +148,6 @@ struct Table {
     explicit Table(const float* from) : values(from) {}
     HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
         return hn::GatherIndex(Floats(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
-    }
-};
-
-#if HWY_TARGET == HWY_AVX2
-// A table of 48 floats: six permutations of eight, and choices among them, take half the time of a gather.
-struct SmallTable {
-    const float* values;
-    explicit SmallTable(const float* from) : values(from) {}
-    HWY_INLINE __m256 Part(int part, __m256i index) const { // permutations look at the low three bits alone
-        return _mm256_permutevar8x32_ps(_mm256_load_ps(values + 8 * part), index);
-    }
-    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        const __m256i i = index.raw; // choices look at the top bit
-        const __m256 bit3 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 28));
-        const __m256 bit4 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 27));
-        const __m256 bit5 = _mm256_castsi256_ps(_mm256_slli_epi32(i, 26));
-        const __m256 quarter0 = _mm256_blendv_ps(Part(0, i), Part(1, i), bit3);
-        const __m256 quarter1 = _mm256_blendv_ps(Part(2, i), Part(3, i), bit3);
-        const __m256 quarter2 = _mm256_blendv_ps(Part(4, i), Part(5, i), bit3);
-        const __m256 half0 = _mm256_blendv_ps(quarter0, quarter1, bit4);
-        return hn::Vec<Floats>{_mm256_blendv_ps(half0, quarter2, bit5)};
-    }
-};
-#else
-using SmallTable = Table; // no faster if it is smaller
-#endif
-
-struct WordTable {
-    const std::uint32_t* values;
-    explicit WordTable(const std::uint32_t* from) : values(from) {}
-    HWY_INLINE hn::Vec<Words> operator()(hn::Vec<Words> index) const {
-        return hn::GatherIndex(Words(), values, hn::BitCast(hn::RebindToSigned<Floats>(), index));
     }
 };
 #endif

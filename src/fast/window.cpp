@@ -22,22 +22,23 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on; returns how many.
+// `count`: of all positions. Runs are short: what is left of one is a register too, where others follow.
 std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, std::uint32_t last,
-                      const Box& region, float* HWY_RESTRICT x, float* HWY_RESTRICT y, float* HWY_RESTRICT z,
-                      std::uint32_t* HWY_RESTRICT id) {
+                      std::uint32_t count, const Box& region, float* HWY_RESTRICT x, float* HWY_RESTRICT y,
+                      float* HWY_RESTRICT z, std::uint32_t* HWY_RESTRICT id) {
     const hn::CappedTag<float, 16> d;
     const hn::RebindToUnsigned<decltype(d)> du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const auto lx = hn::Set(d, region.lo[0]), ly = hn::Set(d, region.lo[1]), lz = hn::Set(d, region.lo[2]);
     const auto hx = hn::Set(d, region.hi[0]), hy = hn::Set(d, region.hi[1]), hz = hn::Set(d, region.hi[2]);
     std::uint32_t n = 0, v = first;
-    for (; v + lanes <= last; v += lanes) {
+    for (; v < last && count - v >= lanes; v += lanes) {
         auto px = hn::Undefined(d), py = px, pz = px;
         hn::LoadInterleaved3(d, positions + std::size_t{v} * 3, px, py, pz);
         const auto inside_x = hn::And(hn::Ge(px, lx), hn::Le(px, hx));
         const auto inside_y = hn::And(hn::Ge(py, ly), hn::Le(py, hy));
         const auto inside_z = hn::And(hn::Ge(pz, lz), hn::Le(pz, hz));
-        const auto inside = hn::And(hn::And(inside_x, inside_y), inside_z);
+        const auto inside = hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, last - v)));
         if (hn::AllFalse(d, inside)) continue;
         const Compressor compress(inside);
         hn::StoreU(compress(px), d, x + n);
@@ -329,12 +330,12 @@ Lattice make_lattice(const Points& points, const Box& box, double cell_size, std
     return bulk_lattice(points, {0, points.count}, box, cell_size, most_cells);
 }
 
-void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,
-             Points& points) {
+void collect(const float* positions, std::uint32_t first, std::uint32_t last, std::uint32_t count,
+             const Box& region, Points& points) {
     const std::size_t n = points.count;
     points.count +=
-        VOX_SIMD_DISPATCH(Collect)(positions, first, last, region, points.x.data() + n, points.y.data() + n,
-                                   points.z.data() + n, points.id.data() + n);
+        VOX_SIMD_DISPATCH(Collect)(positions, first, last, count, region, points.x.data() + n,
+                                   points.y.data() + n, points.z.data() + n, points.id.data() + n);
 }
 
 Box bounds(const Points& points) { return bounds(points, {0, points.count}); }

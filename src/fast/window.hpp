@@ -100,10 +100,10 @@ struct Bins {
     }
 };
 
-// Appends the vertices [first, last) of packed `positions` that lie in `region`. The caller has reserved
-// room.
-void collect(const float* positions, std::uint32_t first, std::uint32_t last, const Box& region,
-             Points& points);
+// Appends the vertices [first, last) of `count` packed positions that lie in `region`. The caller has
+// reserved room.
+void collect(const float* positions, std::uint32_t first, std::uint32_t last, std::uint32_t count,
+             const Box& region, Points& points);
 
 // The box of points.
 Box bounds(const Points& points);

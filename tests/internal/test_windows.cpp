@@ -21,7 +21,7 @@ fast::Points collected(const Mesh& mesh, const Box& region) {
     points.reserve(mesh.positions.size());
     for (std::uint32_t first = 0; first < mesh.positions.size();) {
         const std::uint32_t last = std::min(vertex_count(mesh), first + 1 + first % 70);
-        fast::collect(packed(mesh), first, last, region, points);
+        fast::collect(packed(mesh), first, last, vertex_count(mesh), region, points);
         first = last;
     }
     return points;
