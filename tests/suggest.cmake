@@ -13,3 +13,4 @@ target_include_directories(test_cost PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
 # What a suggestion takes, by count.
 vox_test(suggest_work internal/test_suggest_work.cpp LIBS vox_internal)
 target_include_directories(test_suggest_work PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
+set_tests_properties(suggest_work PROPERTIES LABELS threads) # also under the thread sanitizer
