@@ -27,14 +27,15 @@ constexpr double far_off = 1.5;
 // Of the time of the steps, for choosing: a hundredth at most, told by counts to within a factor of two (a
 // choice finds little in the caches), and with one more in a short while than in the long run.
 constexpr double time_share = 0.003;
-// Nanoseconds of a choice: for each vertex, tetrahedron looked at, and pair of a sampled one and a point near
-// it or one of the few far ones.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 128;
+// Nanoseconds of a choice: for each vertex, tetrahedron looked at, pair of a sampled one and a point near it
+// or one of the few far ones, and sampled one whose lists are gone through.
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 128, lists_ns = 20000;
 
 double choice_ns(double vertices, double tets, const Effort& effort) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
            static_cast<double>(effort.sample.lookups) *
-               (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns;
+               (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns +
+           static_cast<double>(effort.sample.listed) * lists_ns;
 }
 
 // What a visited cell costs, with its list, in visits.
