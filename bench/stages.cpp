@@ -2,6 +2,7 @@
 // turns. Processor time of the thread, at the SIMD level of the machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
+#include "fast/sides.hpp"
 #include "fast_scenes.hpp"
 #include "processor_time.hpp"
 #include "simd.hpp"
@@ -46,7 +47,7 @@ struct Bodies {
     fast::Tiles tiles{memory};
     fast::Surface surface{memory};
     std::vector<Box> blocks, moves, super_boxes, tile_boxes, many;
-    std::vector<std::uint8_t> known, upright;
+    std::vector<std::uint8_t> known, upright, sides;
     std::vector<std::uint64_t> bad;
     fast::Turning turning{memory};
     Box box_a{}, box_b{}, region{};
@@ -74,6 +75,7 @@ struct Bodies {
         vertices = std::uint32_t(a.positions.size());
         fast::make_tiles(a.tets, vertices, view(a), tiles);
         blocks.resize(tiles.block_count());
+        sides.resize(blocks.size());
         tile_boxes.resize(tiles.tiles.size());
         known.resize(tiles.tiles.size());
         fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
@@ -169,6 +171,8 @@ std::vector<Stage> stages_of(Bodies& s) {
         {"stream", "vertex", s.vertices,
          [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},
         {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, s.pair_buffers, s.pairs); }},
+        {"sides", "block", s.blocks.size(),
+         [&s] { fast::find_sides(s.blocks.data(), s.blocks.size(), s.region, s.sides.data()); }},
         {"tile boxes", "tet", tets,
          [&s] {
              std::fill(s.known.begin(), s.known.end(), std::uint8_t{0});

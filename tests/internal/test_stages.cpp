@@ -1,5 +1,7 @@
-// Stages of the fast engine by themselves, over plain arrays, against loops over everything: tiles, stream, pairs.
-// Windows and what is asked of them are in test_windows.cpp, surface and winding numbers in test_winding.cpp.
+// Stages of the fast engine by themselves, over plain arrays, against loops over everything: tiles, stream,
+// pairs. Windows and what is asked of them are in test_windows.cpp, surface and winding numbers in
+// test_winding.cpp.
+#include "fast/sides.hpp"
 #include "stage_checks.hpp"
 
 #include <cfloat>
@@ -273,6 +275,46 @@ START_TEST(common_sides_are_those_of_the_box_around) {
 }
 END_TEST
 
+// Many boxes at once say what each says by itself, however many they are, at every SIMD level; empty ones,
+// too.
+START_TEST(sides_of_many_boxes) {
+    Random r{6};
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    std::size_t overlapping = 0, all = 0;
+    at_each_level([&](const char* level) {
+        for (std::uint32_t count = 0; count <= fast::most_boxes; ++count) {
+            const auto box = [&] { // of whole numbers, so that many touch
+                Box made = fast::empty_box;
+                for (int a = 0; a < 3; ++a) {
+                    made.lo[a] = float(r.below(5));
+                    made.hi[a] = made.lo[a] + float(r.below(4));
+                }
+                made.lo[3] = made.hi[3] = nan; // the fourth means nothing
+                return made;
+            };
+            const Box region = box();
+            std::vector<Box> boxes(count);
+            for (Box& one : boxes) one = r.below(8) == 0 ? fast::empty_box : box();
+            std::vector<std::uint8_t> sides(count + 1, 0xee);
+            fast::find_sides(boxes.data(), count, region, sides.data());
+            const std::uint64_t overlaps = fast::find_overlaps(boxes.data(), count, region);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                ck_assert_msg(sides[i] == fast::sides_of(boxes[i], region), "%s: box %u of %u: sides %x",
+                              level, i, count, unsigned{sides[i]});
+                ck_assert_msg((overlaps >> i & 1) == fast::overlap(boxes[i], region), "%s: box %u of %u",
+                              level, i, count);
+                overlapping += overlaps >> i & 1;
+            }
+            ck_assert_uint_eq(sides[count], 0xee); // nothing is written beyond
+            if (count < 64) ck_assert_uint_eq(overlaps >> count, 0);
+            all += count;
+        }
+    });
+    ck_assert_uint_gt(overlapping, all / 20);
+    ck_assert_uint_lt(overlapping, all / 2);
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -285,6 +327,7 @@ int main() {
     tcase_add_test(tests, stream_sees_what_is_not_finite);
     tcase_add_test(tests, pairs_are_all_that_overlap);
     tcase_add_test(tests, common_sides_are_those_of_the_box_around);
+    tcase_add_test(tests, sides_of_many_boxes);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }
