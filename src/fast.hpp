@@ -91,7 +91,6 @@ public:
 
     // What the last step found near each other, for the cost model: good while the bodies are those of that
     // step. The box of a body, as rounded; where vertices in its windows may be in its own tets, empty: nowhere.
-    std::size_t body_count() const noexcept { return states_.size(); }
     const fast::Box& box(std::size_t body) const noexcept { return body_boxes_[body]; }
     fast::Box own_region(std::size_t body) const noexcept {
         const BodyState& state = states_[body];

@@ -27,11 +27,10 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
-double next_part(std::uint64_t& state) { return static_cast<double>(next_random(state) >> 11) * 0x1p-53; }
-
 // floor(random * below), without the bias mattering.
 std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
-    return static_cast<std::uint64_t>(next_part(state) * static_cast<double>(below));
+    return static_cast<std::uint64_t>(static_cast<double>(next_random(state) >> 11) * 0x1p-53 *
+                                      static_cast<double>(below));
 }
 
 double longest_side(const Lookup& l) {
