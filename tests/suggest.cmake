@@ -10,6 +10,8 @@ endif()
 # The cost models' counts against the engines' own.
 vox_test(cost internal/test_cost.cpp LIBS vox_internal)
 target_include_directories(test_cost PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
+vox_test(cost_search internal/test_cost_search.cpp LIBS vox_internal)
+target_include_directories(test_cost_search PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)
 # What a suggestion takes, by count.
 vox_test(suggest_work internal/test_suggest_work.cpp LIBS vox_internal)
 target_include_directories(test_suggest_work PRIVATE ${CMAKE_CURRENT_LIST_DIR}/internal)

@@ -89,8 +89,7 @@ START_TEST(the_model_looks_at_few) {
         for (int kind = 0; kind < 3; ++kind) {
             Scene scene;
             fill(scene, tets, distances[kind], kind == 2);
-            std::vector<const fast::Tiles*> tiles;
-            for (const auto* mesh : scene.prepared()) tiles.push_back(mesh);
+            const std::vector<const fast::Tiles*> tiles = scene.tiles();
             const Effort effort = quick_tiles(2 * tets);
             const FastCost cost(scene.bodies(), tiles, {}, effort, shipped_weights(), heap);
             const FastCost::Work work = cost.work();
