@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 
 namespace vox {
+
+inline constexpr std::uint32_t piece_blocks = 2048; // of a piece of a body, at most
 
 struct Fast::Step {
     std::span<const Body> bodies;

@@ -173,7 +173,7 @@ HWY_INLINE float Underflow(float x, float y, float z) {
     return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
 }
 
-// The constants of the filter for tets in `box`: see the top of query.cpp.
+// The constants of the filter for tets in `box`: see the top of narrow-inl.hpp.
 struct FilterConstants {
     float underflow;
     float rounding[3]; // of coordinates along each axis, six times; 0 where the floats are exact

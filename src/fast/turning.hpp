@@ -46,8 +46,8 @@ void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const
 // reference is worth its while.
 bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
 
-// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter (query.cpp)
-// does not find positive.
+// Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter
+// (narrow-inl.hpp) does not find positive.
 void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
 

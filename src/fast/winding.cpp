@@ -291,7 +291,7 @@ private:
     bool mark_surface() {
         const auto load = VOX_SIMD_DISPATCH(LoadTriangles);
         const auto facing = VOX_SIMD_DISPATCH(Facing);
-        float e_of_rounding = 0; // 2 u M and a little more, M the largest magnitude; see query.cpp
+        float e_of_rounding = 0; // 2 u M and a little more, M the largest magnitude; see narrow-inl.hpp
         for (int a = 0; a < 3 && body_.rounded; ++a)
             e_of_rounding = std::max({e_of_rounding, -body_.box.lo[a] * (1.125f * 0x1p-23f),
                                       body_.box.hi[a] * (1.125f * 0x1p-23f)});
