@@ -10,10 +10,10 @@
 // how much the rules lose by the other half, and the other way round: a candidate that was only lucky in one
 // half is not so in the other. The model's size has two turns in each round; by how much they differ in the
 // end is the noise of a figure.
+#include "cell_size/unlike.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 #include "stopwatch.hpp"
-#include "unlike.hpp"
 
 #include <vox/vox.h>
 

@@ -1,4 +1,4 @@
-#include "unlike.hpp"
+#include "cell_size/unlike.hpp"
 
 #include "bodies.hpp"
 

@@ -1,6 +1,6 @@
 // Boost.Geometry's R-tree over the vertices at risk of each body, packed anew in each step; for each
 // tetrahedron the vertices in its box.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>

@@ -1,6 +1,6 @@
 // Bullet's btDbvt: a dynamic tree over the vertices and one over the tetrahedra of each body, made once,
 // their boxes refitted from the leaves up in each step, as btSoftBody does with its own trees.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 

@@ -1,6 +1,6 @@
 // CGAL's box_intersection_d: streamed segment trees over the boxes at risk, made anew for each pair of
 // bodies. Zomorodian, Edelsbrunner, "Fast software for box intersections", IJCGA 12, 2002.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/box_intersection_d.h>

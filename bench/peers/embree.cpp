@@ -1,7 +1,7 @@
 // Embree 3, rtcCollide: bounding volume hierarchies over user geometry, one over the vertices and one over
 // the tetrahedra of each body. `rebuild` makes them anew in each step, over the primitives at risk; `refit`
 // makes them once and moves their boxes.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <embree3/rtcore.h>
 

@@ -1,6 +1,6 @@
 // FCL's DynamicAABBTreeCollisionManager: one over the vertices and one over the tetrahedra of each body,
 // updated (refitted and rebalanced as it sees fit) in each step.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 

@@ -1,6 +1,6 @@
 // nanoflann: a k-d tree over the vertices at risk of each body, made anew in each step; for each tetrahedron
 // the vertices in the ball around its box, then in the box.
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
 #include <nanoflann.hpp>
 

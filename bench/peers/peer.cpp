@@ -1,7 +1,7 @@
-#include "peer.hpp"
+#include "peers/peer.hpp"
 
-#include "contacts.hpp"
-#include "predicates.hpp"
+#include "exact/predicates.hpp"
+#include "grid/contacts.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -4,9 +4,9 @@
 // which vox includes, are made afterwards.
 #pragma once
 
-#include "../entrant.hpp"
+#include "entrant.hpp"
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <memory_resource>
 

@@ -7,7 +7,7 @@
 // those of vox_profile, on one thread: the least of K steps in which the rows take turns, since what disturbs
 // a machine only adds. Between steps the bodies move, so that no step profits from the last one's data more
 // than in a simulation.
-#include "fast_scenes.hpp"
+#include "internal/fast_scenes.hpp"
 #include "processor_time.hpp"
 #include "program.hpp"
 

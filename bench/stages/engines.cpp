@@ -5,13 +5,13 @@
 //
 //   bench_engines [--tets N] [--frames K] [--scene NAME] [--level portable|sse4|avx2|avx512] [--no-reference]
 //                 [--cell-size S] [--csv] [--counters]
-#include "contacts.hpp"
-#include "counting_memory.hpp"
-#include "fast.hpp"
-#include "fast_scenes.hpp"
+#include "base/simd.hpp"
+#include "fast/engine.hpp"
+#include "grid/contacts.hpp"
+#include "internal/counting_memory.hpp"
+#include "internal/fast_scenes.hpp"
 #include "processor_time.hpp"
-#include "reference.hpp"
-#include "simd.hpp"
+#include "reference/engine.hpp"
 
 #include <cmath>
 #include <cstdio>

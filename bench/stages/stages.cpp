@@ -2,10 +2,10 @@
 // turns. Processor time of the thread, at the SIMD level of the machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
+#include "base/simd.hpp"
 #include "fast/sides.hpp"
-#include "fast_scenes.hpp"
+#include "internal/fast_scenes.hpp"
 #include "processor_time.hpp"
-#include "simd.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,18 +1,18 @@
 // The C border of vox.h's cell-size section.
 
-#include "bits.hpp"
-#include "border.hpp"
-#include "cost/calibrate.hpp"
-#include "cost/minimise.hpp"
-#include "cost/weights.hpp"
-#include "fast/rest.hpp"
+#include "base/bits.hpp"
+#include "base/border.hpp"
+#include "base/scratch.hpp"
+#include "base/structs.hpp"
+#include "cell_size/calibrate.hpp"
+#include "cell_size/geometry.hpp"
+#include "cell_size/search.hpp"
+#include "cell_size/suggest.hpp"
+#include "cell_size/weights.hpp"
+#include "fast/last_positions.hpp"
 #include "fast/stream.hpp"
-#include "geometry.hpp"
-#include "grid.hpp"
-#include "mesh_check.hpp"
-#include "scratch.hpp"
-#include "structs.hpp"
-#include "suggest.hpp"
+#include "grid/grid.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cinttypes>

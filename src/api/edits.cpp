@@ -1,9 +1,9 @@
 // The C border of cutting and growing.
 
-#include "border.hpp"
-#include "grid.hpp"
-#include "mesh_check.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "grid/grid.hpp"
+#include "mesh/check.hpp"
 
 #include <cinttypes>
 

@@ -1,7 +1,7 @@
 // The C border of what touches: pairs, events, contacts of a mesh or a pair, and their readings.
 
-#include "border.hpp"
-#include "grid.hpp"
+#include "base/border.hpp"
+#include "grid/grid.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // The C border of what does not collide.
 
-#include "border.hpp"
-#include "filter.hpp"
-#include "grid.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "grid/grid.hpp"
+#include "mesh/filter.hpp"
 
 using namespace vox;
 

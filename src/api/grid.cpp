@@ -1,10 +1,10 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
-#include "border.hpp"
-#include "grid.hpp"
-#include "memory.hpp"
-#include "mesh_check.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/memory.hpp"
+#include "base/structs.hpp"
+#include "grid/grid.hpp"
+#include "mesh/check.hpp"
 
 #include <cmath>
 #include <new>

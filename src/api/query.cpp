@@ -1,8 +1,8 @@
 // The C border of the queries between steps.
 
-#include "border.hpp"
-#include "grid.hpp"
-#include "mesh_check.hpp"
+#include "base/border.hpp"
+#include "grid/grid.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // The C border of snapshots.
 
-#include "border.hpp"
-#include "grid.hpp"
-#include "snapshot.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "grid/grid.hpp"
+#include "grid/snapshot.hpp"
 
 #include <memory>
 

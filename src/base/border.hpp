@@ -2,7 +2,7 @@
 // inside gets out; it becomes a result code and the text of vox_last_error().
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <exception>
 #include <new>

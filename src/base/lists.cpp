@@ -1,4 +1,4 @@
-#include "lists.hpp"
+#include "base/lists.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
-#include "memory.hpp"
+#include "base/memory.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <new>

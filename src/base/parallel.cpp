@@ -1,6 +1,6 @@
-#include "parallel.hpp"
+#include "base/parallel.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace vox {
 

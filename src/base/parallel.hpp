@@ -2,7 +2,7 @@
 // on how many there are.
 #pragma once
 
-#include "scheduler.hpp"
+#include "base/scheduler.hpp"
 
 #include <vox/vox.h>
 

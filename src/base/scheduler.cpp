@@ -1,6 +1,6 @@
 // The thread sanitizer does not see how oneTBB, which is not built with it, orders what its threads do. So it
 // is told (VOX_TSAN), and this file is left out of what it watches.
-#include "scheduler.hpp"
+#include "base/scheduler.hpp"
 
 #include <algorithm>
 

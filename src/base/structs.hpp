@@ -2,7 +2,7 @@
 // written.
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Vectors of doubles, each operation in one fixed order.
 #pragma once
 
-#include "../scene.hpp"
+#include "base/scene.hpp"
 
 #include <cmath>
 #include <cstdint>

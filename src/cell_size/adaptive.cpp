@@ -1,10 +1,10 @@
-#include "adaptive.hpp"
+#include "cell_size/adaptive.hpp"
 
-#include "reference_cost.hpp"
-#include "weights.hpp"
+#include "cell_size/reference_model.hpp"
+#include "cell_size/weights.hpp"
 
-#include "../error.hpp"
-#include "../mesh_check.hpp"
+#include "base/error.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cmath>

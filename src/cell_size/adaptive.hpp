@@ -11,9 +11,9 @@
 // sizes. Where d has moved, that is when the steps since have paid for it; new meshes need not wait.
 #pragma once
 
-#include "levels.hpp"
+#include "cell_size/levels.hpp"
 
-#include "../scene.hpp"
+#include "base/scene.hpp"
 
 #include <vox/vox.h>
 

@@ -1,4 +1,4 @@
-#include "list_changes.hpp"
+#include "cell_size/branch_misses.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,15 +2,15 @@
 // Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent: there are four
 // of them. What a few short steps cannot tell apart stays near what is shipped, scaled to the machine's
 // speed.
-#include "calibrate.hpp"
+#include "cell_size/calibrate.hpp"
 
-#include "fast_cost.hpp"
-#include "reference_cost.hpp"
-#include "weights.hpp"
+#include "cell_size/fast_model.hpp"
+#include "cell_size/reference_model.hpp"
+#include "cell_size/weights.hpp"
 
-#include "../clock.hpp"
-#include "../fast.hpp"
-#include "../reference.hpp"
+#include "base/clock.hpp"
+#include "fast/engine.hpp"
+#include "reference/engine.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Cubic interpolation with slopes from the neighbours (E. Catmull, R. Rom, A class of local interpolating
 // splines, 1974).
-#include "cost_table.hpp"
+#include "cell_size/cost_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // cell size, smooth in logarithms.
 #pragma once
 
-#include "minimise.hpp"
+#include "cell_size/search.hpp"
 
 #include <vox/vox.h>
 

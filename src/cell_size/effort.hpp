@@ -1,7 +1,7 @@
 // How closely a scene is looked at before its cell size is chosen.
 #pragma once
 
-#include "profile.hpp"
+#include "cell_size/lookups.hpp"
 
 #include <cstddef>
 #include <cstdint>

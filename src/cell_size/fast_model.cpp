@@ -1,7 +1,7 @@
-#include "fast_cost.hpp"
+#include "cell_size/fast_model.hpp"
 
-#include "../fast/pairs.hpp"
-#include "../filter.hpp"
+#include "fast/pairs.hpp"
+#include "mesh/filter.hpp"
 
 #include <algorithm>
 #include <cmath>

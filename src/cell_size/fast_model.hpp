@@ -12,14 +12,14 @@
 // by winding numbers, have no window and cost nothing here.
 #pragma once
 
-#include "activity.hpp"
-#include "effort.hpp"
-#include "profile.hpp"
-#include "scene_boxes.hpp"
-#include "terms.hpp"
+#include "cell_size/activity.hpp"
+#include "cell_size/effort.hpp"
+#include "cell_size/lookups.hpp"
+#include "cell_size/scene_boxes.hpp"
+#include "cell_size/terms.hpp"
 
-#include "../fast.hpp"
-#include "../scene.hpp"
+#include "base/scene.hpp"
+#include "fast/engine.hpp"
 
 #include <vox/vox.h>
 

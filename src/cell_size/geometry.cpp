@@ -1,7 +1,7 @@
-#include "geometry.hpp"
+#include "cell_size/geometry.hpp"
 
-#include "mesh_check.hpp"
-#include "predicates.hpp"
+#include "exact/predicates.hpp"
+#include "mesh/check.hpp"
 
 #include <Eigen/Geometry>
 

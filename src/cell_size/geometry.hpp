@@ -2,9 +2,9 @@
 // in.
 #pragma once
 
-#include "fast/box.hpp"
-#include "mesh_sample.hpp"
-#include "scene.hpp"
+#include "base/boxes.hpp"
+#include "base/scene.hpp"
+#include "mesh/sample.hpp"
 
 #include <vox/vox.h>
 

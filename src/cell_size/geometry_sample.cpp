@@ -1,11 +1,11 @@
 // Means over a part of the scene: the samples of its meshes, or of many meshes some of these.
-#include "geometry.hpp"
+#include "cell_size/geometry.hpp"
 
-#include "bits.hpp"
-#include "fast/rest.hpp"
+#include "base/bits.hpp"
+#include "exact/predicates.hpp"
+#include "fast/last_positions.hpp"
 #include "fast/stream.hpp"
-#include "mesh_check.hpp"
-#include "predicates.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Size classes are in order of size, and a level takes consecutive ones: the best split is found by dynamic
 // programming over where the last level begins (R. Bellman, 1957), over a table of what each class costs at
 // each of some cell sizes.
-#include "levels.hpp"
+#include "cell_size/levels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // side by side, each with the cell size that is best for the tetrahedra that look into it.
 #pragma once
 
-#include "../cell_level.hpp"
-#include "reference_cost.hpp"
+#include "cell_size/reference_model.hpp"
+#include "reference/levels.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Sampling without knowing how many there are: Algorithm R (J. S. Vitter, Random sampling with a reservoir,
 // ACM Trans. Math. Software 11, 1985), with random numbers by splitmix64 (Steele, Lea, Flood, 2014): the same
 // scene gives the same sample.
-#include "profile.hpp"
+#include "cell_size/lookups.hpp"
 
 #include <bit>
 #include <cmath>

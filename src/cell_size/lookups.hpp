@@ -9,9 +9,9 @@
 // slivers and bodies of unlike resolution come out as they are.
 #pragma once
 
-#include "list_changes.hpp"
+#include "cell_size/branch_misses.hpp"
 
-#include "../fast/window.hpp"
+#include "fast/window.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "reference_cost.hpp"
+#include "cell_size/reference_model.hpp"
 
-#include "../fast/pairs.hpp"
+#include "fast/pairs.hpp"
 
 #include <algorithm>
 #include <array>

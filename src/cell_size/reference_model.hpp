@@ -12,12 +12,12 @@
 //        + c_clear buckets of the table, or cells of dense storage
 #pragma once
 
-#include "effort.hpp"
-#include "minimise.hpp"
-#include "profile.hpp"
-#include "terms.hpp"
+#include "cell_size/effort.hpp"
+#include "cell_size/lookups.hpp"
+#include "cell_size/search.hpp"
+#include "cell_size/terms.hpp"
 
-#include "../scene.hpp"
+#include "base/scene.hpp"
 
 #include <vox/vox.h>
 

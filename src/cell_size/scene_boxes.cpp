@@ -1,9 +1,9 @@
-#include "scene_boxes.hpp"
+#include "cell_size/scene_boxes.hpp"
 
-#include "../fast/query.hpp"
-#include "../fast/rest.hpp"
-#include "../fast/stream.hpp"
-#include "../mesh_check.hpp"
+#include "fast/last_positions.hpp"
+#include "fast/query.hpp"
+#include "fast/stream.hpp"
+#include "mesh/check.hpp"
 
 namespace vox {
 

@@ -2,9 +2,9 @@
 // the positions, those of tiles where somebody may look.
 #pragma once
 
-#include "../fast/box.hpp"
-#include "../fast/tiles.hpp"
-#include "../scene.hpp"
+#include "base/boxes.hpp"
+#include "base/scene.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <cstdint>

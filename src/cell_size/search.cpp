@@ -1,6 +1,6 @@
 // Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953), in the
 // logarithm of the cell size: costs are sums of powers of it.
-#include "minimise.hpp"
+#include "cell_size/search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // users (vox_cost_minimise).
 #pragma once
 
-#include "paper_cost.hpp"
+#include "cell_size/paper_model.hpp"
 
 #include <functional>
 

@@ -1,12 +1,12 @@
-#include "suggest.hpp"
+#include "cell_size/suggest.hpp"
 
-#include "cost/cost_table.hpp"
-#include "cost/fast_cost.hpp"
-#include "cost/levels.hpp"
-#include "cost/minimise.hpp"
-#include "cost/paper_cost.hpp"
-#include "cost/reference_cost.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "cell_size/cost_table.hpp"
+#include "cell_size/fast_model.hpp"
+#include "cell_size/levels.hpp"
+#include "cell_size/paper_model.hpp"
+#include "cell_size/reference_model.hpp"
+#include "cell_size/search.hpp"
 
 #include <algorithm>
 #include <cinttypes>

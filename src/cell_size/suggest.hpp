@@ -1,13 +1,13 @@
 // The cell size that minimises a cost model, and why (paper, Sect. 4; the models are in cost/).
 #pragma once
 
-#include "cost/activity.hpp"
-#include "cost/effort.hpp"
-#include "cost/scene_boxes.hpp"
-#include "cost/terms.hpp"
-#include "fast.hpp"
-#include "geometry.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "cell_size/activity.hpp"
+#include "cell_size/effort.hpp"
+#include "cell_size/geometry.hpp"
+#include "cell_size/scene_boxes.hpp"
+#include "cell_size/terms.hpp"
+#include "fast/engine.hpp"
 
 #include <vox/vox.h>
 

@@ -1,6 +1,6 @@
-#include "weights.hpp"
+#include "cell_size/weights.hpp"
 
-#include "../error.hpp"
+#include "base/error.hpp"
 
 #include <cmath>
 #include <mutex>

@@ -1,11 +1,11 @@
 // A tree of boxes over the triangles in the order of the cells of a grid along a Z-shaped curve (Morton 1966;
 // Lauterbach et al., "Fast BVH construction on GPUs", Computer Graphics Forum 28, 2009), searched nearest box
 // first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
-#include "closest.hpp"
+#include "depth/closest.hpp"
 
-#include "../closest_point.hpp"
-#include "points.hpp"
-#include "vectors.hpp"
+#include "base/vectors.hpp"
+#include "depth/points.hpp"
+#include "exact/closest_point.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // The closest point of a surface.
 #pragma once
 
-#include "walk.hpp"
+#include "depth/walk.hpp"
 
 #include <algorithm>
 #include <cstddef>

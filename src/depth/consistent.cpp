@@ -1,11 +1,11 @@
 // Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation for Deformable
 // Collision Response", Vision, Modeling, Visualization 2004: stages 2 to 4. What differs, and why:
 // docs/depth.md.
-#include "consistent.hpp"
+#include "depth/consistent.hpp"
 
-#include "../predicates.hpp"
-#include "closest.hpp"
-#include "vectors.hpp"
+#include "base/vectors.hpp"
+#include "depth/closest.hpp"
+#include "exact/predicates.hpp"
 
 #include <cstddef>
 

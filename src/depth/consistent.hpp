@@ -1,8 +1,8 @@
 // Consistent penetration depth of the colliding vertices of one body in another.
 #pragma once
 
-#include "normals.hpp"
-#include "points.hpp"
+#include "depth/normals.hpp"
+#include "depth/points.hpp"
 
 #include <cstdint>
 #include <span>

@@ -2,9 +2,9 @@
 // the lengths of the two edges, which is exact for corners on a sphere (Max, "Weights for computing vertex
 // normals from facet normals", Journal of Graphics Tools 4, 1999). Triangles that form an edge of more than
 // 60 degrees with the one that asks are left out, so that the faces of a box stay flat.
-#include "normals.hpp"
+#include "depth/normals.hpp"
 
-#include "vectors.hpp"
+#include "base/vectors.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Smooth normals of a surface where they are asked for, each made once.
 #pragma once
 
-#include "walk.hpp"
+#include "depth/walk.hpp"
 
 #include <cstddef>
 #include <cstdint>

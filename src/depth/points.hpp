@@ -1,7 +1,7 @@
 // What the parts of the depth stage hand on: the colliding vertices of one pair of bodies.
 #pragma once
 
-#include "walk.hpp"
+#include "depth/walk.hpp"
 
 #include <vox/vox.h>
 

@@ -1,8 +1,8 @@
-#include "depth.hpp"
+#include "depth/stage.hpp"
 
+#include "base/parallel.hpp"
+#include "base/vectors.hpp"
 #include "depth/consistent.hpp"
-#include "depth/vectors.hpp"
-#include "parallel.hpp"
 
 #include <algorithm>
 #include <limits>

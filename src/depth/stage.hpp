@@ -2,11 +2,11 @@
 // docs/depth.md; each part is a file in depth/.
 #pragma once
 
+#include "base/scene.hpp"
 #include "depth/closest.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
-#include "depth/topology.hpp"
-#include "scene.hpp"
+#include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 

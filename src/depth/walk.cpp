@@ -5,9 +5,9 @@
 // is computed in the same way from all facets around it, so that the walk never slips between two. Nothing
 // depends on the winding of a tetrahedron: the walk goes through inverted and flat ones, too, where the line
 // through them leads.
-#include "walk.hpp"
+#include "depth/walk.hpp"
 
-#include "vectors.hpp"
+#include "base/vectors.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Where a segment that begins inside a mesh leaves it.
 #pragma once
 
-#include "topology.hpp"
+#include "mesh/topology.hpp"
 
-#include "../scene.hpp"
+#include "base/scene.hpp"
 
 #include <cstdint>
 #include <span>

@@ -3,17 +3,17 @@
 //
 // The tetrahedra and positions of hits lie anywhere in memory, and waiting for them takes longer than the
 // arithmetic: each is prefetched some hits before it is needed.
-#include "barycentric.hpp"
+#include "exact/barycentric.hpp"
 
-#include "predicates.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "exact/predicates.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "barycentric.cpp"
+#define HWY_TARGET_INCLUDE "exact/barycentric.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/cache_control.h>

@@ -1,7 +1,7 @@
 // Barycentric coordinates of many hits, a block at a time.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <array>
 #include <cstddef>

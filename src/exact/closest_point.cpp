@@ -1,6 +1,6 @@
-#include "closest_point.hpp"
+#include "exact/closest_point.hpp"
 
-#include "depth/vectors.hpp"
+#include "base/vectors.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // coordinates are small enough for their squares and products not to overflow.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 namespace vox {
 

@@ -4,7 +4,7 @@
 // units of the largest power of two that divides all of them: for points of one scene small ones, of two or
 // three words. Their differences, products and sums take as many words as they need and are never rounded,
 // whatever the doubles (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
-#include "predicates.hpp"
+#include "exact/predicates.hpp"
 
 #include <algorithm>
 #include <bit>

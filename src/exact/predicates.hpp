@@ -11,7 +11,7 @@
 // over, are off by less than 2^-940 together, for which the bound has a summand of 2^-900.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,16 +2,16 @@
 // by tile; the vertices of A that may be in them, binned once for all those bodies; the queries. The workers
 // share each stage: pieces of bodies, pairs of bodies or whole bodies at a time, each with results of its
 // own.
-#include "fast.hpp"
+#include "fast/engine.hpp"
 
-#include "bits.hpp"
-#include "clock.hpp"
-#include "error.hpp"
+#include "base/bits.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "exact/predicates.hpp"
 #include "fast/sides.hpp"
-#include "filter.hpp"
-#include "mesh_check.hpp"
-#include "predicates.hpp"
-#include "step.hpp"
+#include "fast/step.hpp"
+#include "mesh/check.hpp"
+#include "mesh/filter.hpp"
 
 #include <algorithm>
 #include <atomic>

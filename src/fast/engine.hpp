@@ -2,19 +2,19 @@
 // each stage is a file in fast/.
 #pragma once
 
-#include "cost/activity.hpp"
+#include "base/scene.hpp"
+#include "cell_size/activity.hpp"
+#include "fast/last_positions.hpp"
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
-#include "fast/repair.hpp"
-#include "fast/rest.hpp"
 #include "fast/stream.hpp"
-#include "fast/surface.hpp"
-#include "fast/tile_sides.hpp"
-#include "fast/tiles.hpp"
-#include "fast/turning.hpp"
-#include "fast/winding.hpp"
+#include "fast/winding/certificate.hpp"
+#include "fast/winding/orientation.hpp"
 #include "fast/window.hpp"
-#include "scene.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/tile_repair.hpp"
+#include "mesh/tile_sides.hpp"
+#include "mesh/tiles.hpp"
 
 #include <vox/vox.h>
 

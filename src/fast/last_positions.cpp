@@ -1,4 +1,4 @@
-#include "rest.hpp"
+#include "fast/last_positions.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
 // Which bodies moved: their positions are compared, bit by bit, with a copy of those of the last step.
 #pragma once
 
-#include "../scene.hpp"
-#include "box.hpp"
+#include "base/boxes.hpp"
+#include "base/scene.hpp"
 
 #include <cstddef>
 #include <cstdint>

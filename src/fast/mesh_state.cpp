@@ -1,9 +1,9 @@
 // What the fast engine keeps of a mesh from step to step: made when it is first needed, and mended after
 // edits.
-#include "fast.hpp"
+#include "fast/engine.hpp"
 
-#include "bits.hpp"
-#include "step.hpp"
+#include "base/bits.hpp"
+#include "fast/step.hpp"
 
 #include <utility>
 

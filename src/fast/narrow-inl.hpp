@@ -30,9 +30,9 @@
 #define VOX_FAST_NARROW_INL
 #endif
 
-#include "compress-inl.hpp"
-#include "query.hpp"
-#include "tile-inl.hpp"
+#include "fast/compress-inl.hpp"
+#include "fast/query.hpp"
+#include "fast/tile-inl.hpp"
 
 #include <hwy/highway.h>
 

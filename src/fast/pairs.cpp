@@ -1,7 +1,7 @@
 // Sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; Cohen et al.,
 // I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that begin before it
 // ends. The axis is the one along which the boxes' centres vary most.
-#include "pairs.hpp"
+#include "fast/pairs.hpp"
 
 #include <algorithm>
 #include <cstddef>

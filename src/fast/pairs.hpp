@@ -1,7 +1,7 @@
 // Stage 2: which bodies have overlapping boxes.
 #pragma once
 
-#include "box.hpp"
+#include "base/boxes.hpp"
 
 #include <cstdint>
 #include <memory_resource>

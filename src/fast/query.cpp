@@ -1,8 +1,8 @@
 // A tile at a time: fetch the points in its box from the rows of cells the box meets; quantise points and
 // vertices to 8 bits within the box (monotone, so a point in a tet's box is in its quantised box); test each
 // point against the 64 boxes at once; decide the pairs that are left in single precision (narrow-inl.hpp).
-#include "query.hpp"
-#include "../simd.hpp"
+#include "fast/query.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +14,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#include "narrow-inl.hpp"
+#include "fast/narrow-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {

@@ -1,9 +1,9 @@
 // Stages 4 and 5: the vertices of a window against the tetrahedra of tiles.
 #pragma once
 
-#include "../barycentric.hpp"
-#include "tiles.hpp"
-#include "window.hpp"
+#include "exact/barycentric.hpp"
+#include "fast/window.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // A box is above or below a region along an axis where its low corner is beyond the region's high one, or the
 // other way round. With the signs of all high corners turned that is one comparison of all six.
-#include "sides.hpp"
-#include "../simd.hpp"
+#include "fast/sides.hpp"
+#include "base/simd.hpp"
 
 #include <cstring>
 

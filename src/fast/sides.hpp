@@ -1,7 +1,7 @@
 // What stage 2 asks of many boxes at once: on which sides of a region they lie, and which of them meet it.
 #pragma once
 
-#include "box.hpp"
+#include "base/boxes.hpp"
 
 #include <cstddef>
 #include <cstdint>

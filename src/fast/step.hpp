@@ -1,8 +1,8 @@
 // What the stages of one step of the fast engine share.
 #pragma once
 
-#include "fast.hpp"
-#include "parallel.hpp"
+#include "base/parallel.hpp"
+#include "fast/engine.hpp"
 
 #include <algorithm>
 #include <cstddef>

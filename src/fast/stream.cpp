@@ -1,8 +1,8 @@
 // Minimum and maximum of positions, a position a register; and of the bits of all coordinates, for the finite
 // check.
-#include "stream.hpp"
-#include "../simd.hpp"
-#include "tiles.hpp"
+#include "fast/stream.hpp"
+#include "base/simd.hpp"
+#include "mesh/tiles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Stage 1: one pass over all positions. All that is read of a body that is far from every other.
 #pragma once
 
-#include "../scene.hpp"
-#include "box.hpp"
+#include "base/boxes.hpp"
+#include "base/scene.hpp"
 
 #include <cstddef>
 #include <cstdint>

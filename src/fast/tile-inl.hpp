@@ -7,7 +7,7 @@
 #define VOX_FAST_TILE_INL
 #endif
 
-#include "query.hpp"
+#include "fast/query.hpp"
 
 #include <hwy/highway.h>
 

@@ -1,8 +1,8 @@
 // Binning by counting sort (D. E. Knuth, The Art of Computer Programming, vol. 3, 5.2): count, sum, place.
 // Sparse space is halved at the middle of the longest side, as in a k-d tree (J. L. Bentley, Multidimensional
 // binary search trees used for associative searching, CACM 18, 1975), until what is left is not sparse.
-#include "window.hpp"
-#include "../simd.hpp"
+#include "fast/window.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "compress-inl.hpp"
+#include "fast/compress-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {

@@ -4,7 +4,7 @@
 // the vertices together (clumps far apart in one body), a k-d tree of windows.
 #pragma once
 
-#include "box.hpp"
+#include "base/boxes.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Which vertices of a body are binned, and in cells of what size.
-#include "error.hpp"
+#include "base/error.hpp"
 #include "fast/sides.hpp"
-#include "step.hpp"
+#include "fast/step.hpp"
 
 #include <algorithm>
 #include <bit>

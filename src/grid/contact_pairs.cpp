@@ -1,9 +1,9 @@
 // Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2): of the pairs by one mesh and the
 // other, and of runs of contacts by pair.
-#include "touching.hpp"
+#include "grid/contact_pairs.hpp"
 
-#include "error.hpp"
-#include "ids.hpp"
+#include "base/error.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,9 @@
 // Canonical order by least-significant-digit radix sort (Knuth, The Art of Computer Programming 3,
 // Sect. 5.2.5) of body_a and vertex alone: few hits share a vertex, and those are put in order by themselves.
-#include "contacts.hpp"
+#include "grid/contacts.hpp"
 
-#include "barycentric.hpp"
-#include "parallel.hpp"
+#include "base/parallel.hpp"
+#include "exact/barycentric.hpp"
 
 #include <algorithm>
 #include <bit>

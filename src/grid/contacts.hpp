@@ -2,7 +2,7 @@
 // barycentric coordinates, and the hash.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <vox/vox.h>
 

@@ -1,6 +1,6 @@
-#include "events.hpp"
+#include "grid/events.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <functional>

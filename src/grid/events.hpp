@@ -3,7 +3,7 @@
 // between two steps can lose an event.
 #pragma once
 
-#include "touching.hpp"
+#include "grid/contact_pairs.hpp"
 
 #include <vox/vox.h>
 

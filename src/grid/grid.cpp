@@ -1,11 +1,11 @@
-#include "grid.hpp"
+#include "grid/grid.hpp"
 
-#include "bits.hpp"
-#include "clock.hpp"
-#include "contacts.hpp"
-#include "error.hpp"
-#include "ids.hpp"
-#include "mesh_check.hpp"
+#include "base/bits.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "grid/contacts.hpp"
+#include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cmath>

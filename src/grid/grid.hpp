@@ -1,17 +1,17 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
-#include "events.hpp"
-#include "depth.hpp"
-#include "cost/adaptive.hpp"
-#include "fast.hpp"
-#include "memory.hpp"
-#include "mesh.hpp"
-#include "parallel.hpp"
-#include "queries.hpp"
-#include "readings.hpp"
-#include "reference.hpp"
-#include "scene.hpp"
+#include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "base/scene.hpp"
+#include "cell_size/adaptive.hpp"
+#include "depth/stage.hpp"
+#include "fast/engine.hpp"
+#include "grid/events.hpp"
+#include "grid/readings.hpp"
+#include "mesh/mesh.hpp"
+#include "query/queries.hpp"
+#include "reference/engine.hpp"
 
 #include <vox/vox.h>
 

@@ -1,11 +1,11 @@
 // Contacts are taken mesh by mesh in which the vertices are, so that the tree over its surface is built once.
-#include "readings.hpp"
+#include "grid/readings.hpp"
 
-#include "bits.hpp"
-#include "depth/vectors.hpp"
-#include "error.hpp"
-#include "parallel.hpp"
-#include "predicates.hpp"
+#include "base/bits.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/vectors.hpp"
+#include "exact/predicates.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // when they are asked for, after a step; see vox_reading.
 #pragma once
 
+#include "base/scene.hpp"
 #include "depth/closest.hpp"
-#include "events.hpp"
-#include "scene.hpp"
+#include "grid/events.hpp"
 
 #include <vox/vox.h>
 

@@ -1,10 +1,10 @@
-#include "snapshot.hpp"
+#include "grid/snapshot.hpp"
 
-#include "error.hpp"
-#include "grid.hpp"
-#include "ids.hpp"
-#include "mesh_check.hpp"
-#include "snapshot_chunks.hpp"
+#include "base/error.hpp"
+#include "grid/grid.hpp"
+#include "grid/snapshot_chunks.hpp"
+#include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <array>

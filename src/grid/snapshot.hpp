@@ -1,7 +1,7 @@
 // A whole grid as bytes and back: docs/snapshot.md.
 #pragma once
 
-#include "snapshot_chunks.hpp"
+#include "grid/snapshot_chunks.hpp"
 
 #include <vox/vox.h>
 

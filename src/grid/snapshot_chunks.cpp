@@ -1,6 +1,6 @@
-#include "snapshot_chunks.hpp"
+#include "grid/snapshot_chunks.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cinttypes>

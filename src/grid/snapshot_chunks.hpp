@@ -4,7 +4,7 @@
 //   file, a lower-case one that it may skip it; the rule of PNG (ISO/IEC 15948:2004, 5.4)
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <array>
 #include <bit>

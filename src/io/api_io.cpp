@@ -1,9 +1,9 @@
 // The C border of loading and diagnosis: validate, forward, catch.
-#include "border.hpp"
-#include "file_bytes.hpp"
-#include "mesh.hpp"
-#include "readers.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "io/formats/file_bytes.hpp"
+#include "io/formats/readers.hpp"
+#include "io/mesh.hpp"
 
 #include <memory>
 

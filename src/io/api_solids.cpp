@@ -1,11 +1,11 @@
 // The C border of surface to tetrahedra and of the ready-made bodies: validate, catch, forward.
-#include "border.hpp"
-#include "lattice_ball.hpp"
-#include "solid_bodies.hpp"
-#include "solid_cubes.hpp"
-#include "solid_quality.hpp"
-#include "solid_tetrahedralize.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "io/solids/bodies.hpp"
+#include "io/solids/cubes.hpp"
+#include "io/solids/lattice_ball.hpp"
+#include "io/solids/quality.hpp"
+#include "io/solids/tetrahedralize.hpp"
 
 #include <algorithm>
 #include <cmath>

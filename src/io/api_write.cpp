@@ -1,9 +1,9 @@
 // The C border of writing: validate, forward, catch.
-#include "border.hpp"
-#include "mesh.hpp"
-#include "readers.hpp"
-#include "structs.hpp"
-#include "writers.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "io/formats/readers.hpp"
+#include "io/formats/writers.hpp"
+#include "io/mesh.hpp"
 
 #include <cerrno>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Facets, edges and tets are compared within buckets of equal lowest vertex, filled by counting: linear time,
 // 32 bytes a tet for the time of the call.
-#include "diagnosis.hpp"
+#include "io/diagnosis.hpp"
 
-#include "error.hpp"
-#include "volume_sign.hpp"
+#include "base/error.hpp"
+#include "io/volume_sign.hpp"
 
 #include <algorithm>
 #include <array>

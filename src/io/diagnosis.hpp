@@ -1,7 +1,7 @@
 // What is odd about a mesh: the numbers of vox_io_report, and the same in words.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 namespace vox::io {
 

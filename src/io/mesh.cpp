@@ -1,6 +1,6 @@
-#include "mesh.hpp"
+#include "io/mesh.hpp"
 
-#include "diagnosis.hpp"
+#include "io/diagnosis.hpp"
 
 #include <memory>
 #include <utility>

@@ -1,7 +1,7 @@
 // The public mesh object: what was read, and what is to be said about it.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 // Predicates", Discrete & Computational Geometry 18, 1997, bound A of orient3d. Where it cannot tell, the
 // determinant is computed in whole numbers: every double is an integer times a power of two, and a common
 // power of two does not change the sign.
-#include "volume_sign.hpp"
+#include "io/volume_sign.hpp"
 
 #include <algorithm>
 #include <cmath>

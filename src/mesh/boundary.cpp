@@ -1,6 +1,6 @@
 // Facets are matched within each tile first, by their local indices; the few that are left by their lowest
 // vertex.
-#include "surface.hpp"
+#include "mesh/boundary.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // The boundary of a mesh, prepared for winding.hpp: the facets that no two tetrahedra share.
 #pragma once
 
-#include "../tet_changes.hpp"
-#include "tiles.hpp"
+#include "mesh/tet_changes.hpp"
+#include "mesh/tiles.hpp"
 
 #include <array>
 #include <cstdint>

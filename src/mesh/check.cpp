@@ -1,6 +1,6 @@
-#include "mesh_check.hpp"
+#include "mesh/check.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <cinttypes>
 #include <cmath>

@@ -2,7 +2,7 @@
 // vox_suggest_cell_size.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <vox/vox.h>
 

@@ -1,9 +1,9 @@
 // Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
 // prepared of the mesh, in proportion to the edit.
-#include "mesh.hpp"
+#include "mesh/mesh.hpp"
 
-#include "error.hpp"
-#include "mesh_check.hpp"
+#include "base/error.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cinttypes>

@@ -1,13 +1,13 @@
 // Category, mask and group decide as in Box2D and Box3D (E. Catto). The vertices within k edges of each are
 // found by breadth-first search from tetrahedron to tetrahedron, again where the mesh is cut, and kept sorted, so
 // that a test in the step is four binary searches and allocates nothing.
-#include "filter.hpp"
+#include "mesh/filter.hpp"
 
-#include "closest_point.hpp"
-#include "depth/vectors.hpp"
-#include "error.hpp"
-#include "predicates.hpp"
-#include "structs.hpp"
+#include "base/error.hpp"
+#include "base/structs.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+#include "exact/predicates.hpp"
 
 #include <algorithm>
 #include <cmath>

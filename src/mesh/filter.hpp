@@ -2,9 +2,9 @@
 // tetrahedra of one mesh by their distance along edges and in the rest pose.
 #pragma once
 
-#include "lists.hpp"
-#include "scene.hpp"
-#include "tet_changes.hpp"
+#include "base/lists.hpp"
+#include "base/scene.hpp"
+#include "mesh/tet_changes.hpp"
 
 #include <vox/vox.h>
 

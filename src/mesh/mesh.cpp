@@ -1,7 +1,7 @@
-#include "mesh.hpp"
+#include "mesh/mesh.hpp"
 
-#include "error.hpp"
-#include "mesh_check.hpp"
+#include "base/error.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cstring>

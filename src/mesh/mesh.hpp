@@ -2,13 +2,13 @@
 // of it, which edits of the mesh (mesh_edit.cpp) keep up to date.
 #pragma once
 
-#include "bits.hpp"
-#include "depth/topology.hpp"
-#include "fast.hpp"
-#include "filter.hpp"
-#include "lazy.hpp"
-#include "mesh_sample.hpp"
-#include "scene.hpp"
+#include "base/bits.hpp"
+#include "base/lazy.hpp"
+#include "base/scene.hpp"
+#include "fast/engine.hpp"
+#include "mesh/filter.hpp"
+#include "mesh/sample.hpp"
+#include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 

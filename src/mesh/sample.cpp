@@ -1,10 +1,10 @@
 // Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): a list is cut into equal parts, and one
 // item is taken from each, at a random place: what repeats in the list, as in a lattice, is met in all its
 // kinds.
-#include "mesh_sample.hpp"
+#include "mesh/sample.hpp"
 
-#include "bits.hpp"
-#include "mesh_check.hpp"
+#include "base/bits.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <random>

@@ -3,8 +3,8 @@
 // so it is chosen once.
 #pragma once
 
-#include "depth/topology.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "mesh/topology.hpp"
 
 #include <array>
 #include <cstddef>

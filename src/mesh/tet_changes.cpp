@@ -1,6 +1,6 @@
-#include "tet_changes.hpp"
+#include "mesh/tet_changes.hpp"
 
-#include "bits.hpp"
+#include "base/bits.hpp"
 
 #include <algorithm>
 #include <utility>

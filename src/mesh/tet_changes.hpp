@@ -2,8 +2,8 @@
 // tetrahedra is repaired around those alone.
 #pragma once
 
-#include "lists.hpp"
-#include "scene.hpp"
+#include "base/lists.hpp"
+#include "base/scene.hpp"
 
 #include <compare>
 #include <cstdint>

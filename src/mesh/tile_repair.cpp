@@ -2,7 +2,7 @@
 // those on the other, and faces away from them. It is there once, however many more they are: across it the
 // winding number falls, by how much does not matter to winding.cpp. So a facet is looked at again when a tet
 // that has it changes, and counted over the tets around it.
-#include "repair.hpp"
+#include "mesh/tile_repair.hpp"
 
 #include <algorithm>
 

@@ -4,10 +4,10 @@
 // made anew.
 #pragma once
 
-#include "../scene.hpp"
-#include "../tet_changes.hpp"
-#include "surface.hpp"
-#include "tiles.hpp"
+#include "base/scene.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/tet_changes.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstdint>
 #include <memory_resource>

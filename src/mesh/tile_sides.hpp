@@ -1,7 +1,7 @@
 // How large tiles are.
 #pragma once
 
-#include "box.hpp"
+#include "base/boxes.hpp"
 
 namespace vox::fast {
 

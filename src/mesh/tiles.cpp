@@ -1,10 +1,10 @@
 // Tiles by recursive median splits along the longest side of the centroids' box (J. L. Bentley,
 // Multidimensional binary search trees used for associative searching, CACM 18, 1975), cut so that the parts
 // come out nearly full.
-#include "tiles.hpp"
+#include "mesh/tiles.hpp"
 
-#include "../bits.hpp"
-#include "box.hpp"
+#include "base/bits.hpp"
+#include "base/boxes.hpp"
 
 #include <algorithm>
 #include <array>

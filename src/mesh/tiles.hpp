@@ -3,8 +3,8 @@
 // and so that a set of tetrahedra of a tile is one 64-bit mask.
 #pragma once
 
-#include "../lists.hpp"
-#include "../scene.hpp"
+#include "base/lists.hpp"
+#include "base/scene.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Tetrahedra are listed by corner with a counting sort; then every vertex, with its tetrahedra at hand, finds
 // its neighbours and matches the facets of which it is the lowest corner. After an edit the same is done for
 // the facets and vertices of what changed alone.
-#include "topology.hpp"
+#include "mesh/topology.hpp"
 
-#include "../error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -4,9 +4,9 @@
 // Tetrahedra that name a vertex twice have no edges and facets of their own, and doubled ones count once.
 #pragma once
 
-#include "../lists.hpp"
-#include "../scene.hpp"
-#include "../tet_changes.hpp"
+#include "base/lists.hpp"
+#include "base/scene.hpp"
+#include "mesh/tet_changes.hpp"
 
 #include <array>
 #include <cstdint>

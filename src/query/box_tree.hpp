@@ -2,7 +2,7 @@
 // bounds; and the walk through such a tree that meets what is nearest first.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Points and boxes against the tree. Many points go down together, split in place at every node, so that each
 // node is read once for all of them.
-#include "queries.hpp"
+#include "query/queries.hpp"
 
-#include "box_tree.hpp"
-#include "predicates.hpp"
+#include "exact/predicates.hpp"
+#include "query/box_tree.hpp"
 
 #include <algorithm>
 #include <array>

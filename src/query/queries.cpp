@@ -1,10 +1,10 @@
 // A bounding volume hierarchy over the tiles of all meshes: sorted along a Morton curve (G. M. Morton, A
 // computer oriented geodetic data base, 1966), halved by count, boxes from the leaves up. The order costs one
 // sort of few tiles per call, and follows bodies that deform.
-#include "queries.hpp"
+#include "query/queries.hpp"
 
-#include "box_tree.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "query/box_tree.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,9 +2,9 @@
 // it. Once prepared it is only read, by any number of threads.
 #pragma once
 
-#include "depth/topology.hpp"
-#include "fast/tiles.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "mesh/tiles.hpp"
+#include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 

@@ -2,12 +2,12 @@
 // Roussopoulos, S. Kelley, F. Vincent, Nearest neighbor queries, SIGMOD 1995). Whether a segment meets a
 // facet is decided exactly, by the sides of the facet its ends are on and the sides of the segment the
 // facet's edges are on.
-#include "queries.hpp"
+#include "query/queries.hpp"
 
-#include "box_tree.hpp"
-#include "closest_point.hpp"
-#include "depth/vectors.hpp"
-#include "predicates.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+#include "exact/predicates.hpp"
+#include "query/box_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // bucket are never taken for one another.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <algorithm>
 #include <array>

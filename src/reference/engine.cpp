@@ -1,14 +1,14 @@
 // The paper, Sect. 3 and Fig. 1, step by step: pass one recomputes the boxes and classifies all particles;
 // pass two runs the broad and the narrow phase for each tetrahedron. With levels of cell sizes, which the
 // paper does not have, the second half of pass one and pass two run for each of them.
-#include "reference.hpp"
+#include "reference/engine.hpp"
 
-#include "bits.hpp"
-#include "clock.hpp"
-#include "error.hpp"
-#include "filter.hpp"
-#include "mesh_check.hpp"
-#include "predicates.hpp"
+#include "base/bits.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "exact/predicates.hpp"
+#include "mesh/check.hpp"
+#include "mesh/filter.hpp"
 
 #include <algorithm>
 #include <cmath>

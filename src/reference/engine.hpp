@@ -3,9 +3,9 @@
 // paper's cost function.
 #pragma once
 
-#include "cell_level.hpp"
-#include "reference_grid.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "reference/cell_lists.hpp"
+#include "reference/levels.hpp"
 
 #include <vox/vox.h>
 

@@ -1,7 +1,7 @@
 // Several cell sizes in one step: tetrahedra of very unlike sizes look into grids of their own.
 #pragma once
 
-#include "scene.hpp"
+#include "base/scene.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The C border of vox_sim.h: read the caller's structs, forward to the simulation, nothing else.
-#include "border.hpp"
-#include "sim.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "sim/sim.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
-#include "body.hpp"
+#include "sim/body.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <Eigen/Geometry>
 

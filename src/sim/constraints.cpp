@@ -1,4 +1,4 @@
-#include "constraints.hpp"
+#include "sim/constraints.hpp"
 
 #include <Eigen/Geometry>
 

@@ -6,7 +6,7 @@
 // the same bits.
 #pragma once
 
-#include "body.hpp"
+#include "sim/body.hpp"
 
 namespace vox::sim {
 

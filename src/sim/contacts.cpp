@@ -1,6 +1,6 @@
-#include "contacts.hpp"
+#include "sim/contacts.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 // in every substep. Friction holds the relative tangential motion of the substep, up to Coulomb's bound.
 #pragma once
 
-#include "body.hpp"
+#include "sim/body.hpp"
 
 #include <memory>
 #include <span>

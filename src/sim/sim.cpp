@@ -1,8 +1,8 @@
-#include "sim.hpp"
+#include "sim/sim.hpp"
 
-#include "clock.hpp"
-#include "constraints.hpp"
-#include "error.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "sim/constraints.hpp"
 
 #include <algorithm>
 #include <cmath>

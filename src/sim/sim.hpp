@@ -1,8 +1,8 @@
 // A simulation: bodies, the grid they collide in, and step(), which runs the substeps.
 #pragma once
 
-#include "body.hpp"
-#include "contacts.hpp"
+#include "sim/body.hpp"
+#include "sim/contacts.hpp"
 
 #include <memory>
 #include <vector>

@@ -1,7 +1,7 @@
 /* Random edits of meshes: after each of them the grid finds what a new grid finds of what is left. */
 #include <stdio.h>
 
-#include "cutting_model.h"
+#include "support/cutting_model.h"
 
 static uint32_t below(cut_scene* s, uint32_t count) { return random_below(&s->random, count); }
 

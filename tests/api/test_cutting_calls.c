@@ -2,8 +2,8 @@
  * alone, what else sees it. */
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 static vox_grid* make_grid(void) {
     vox_grid_desc desc = vox_default_grid_desc();

@@ -2,10 +2,10 @@
  * winding numbers goes on for. */
 #include <string.h>
 
-#include "bodies.h"
-#include "ledger.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/ledger.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 static vox_grid* make_grid(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();

@@ -1,7 +1,7 @@
 /* Penetrations as a whole: arguments, what the flag does, how long views live, and what they do not depend on. */
 #include <stddef.h>
 
-#include "depth_checks.h"
+#include "support/depth_checks.h"
 
 static vox_grid* grid_of(const vox_grid_desc* desc) {
     vox_grid* grid = NULL;

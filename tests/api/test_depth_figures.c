@@ -1,7 +1,7 @@
 /* What is promised of depths and directions on smooth convex bodies, and of the work that they take. */
 #include <vox/vox_io.h>
 
-#include "depth_checks.h"
+#include "support/depth_checks.h"
 
 /* A ball, turned and moved, as float arrays. */
 static body make_ball(double radius, double cell, double angle, double x) {

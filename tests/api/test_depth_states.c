@@ -1,5 +1,5 @@
 /* Every state of a penetration: when it comes, and what depth and direction are then. */
-#include "depth_checks.h"
+#include "support/depth_checks.h"
 
 static const vector up = {0, 0, 1}, down = {0, 0, -1};
 

@@ -1,5 +1,5 @@
 /* Double positions: exact for the doubles given, in every range of them, mixed with floats; and what does not fit. */
-#include "solids_of_doubles.h"
+#include "support/solids_of_doubles.h"
 
 #include <stdio.h>
 

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "ledger.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/ledger.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 static vox_grid* new_grid(uint32_t flags) {
     vox_grid_desc desc = vox_default_grid_desc();

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 static vox_grid* new_grid(void) {
     vox_grid* grid = NULL;

@@ -2,8 +2,8 @@
  * changes nothing. */
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 static vox_grid* new_grid(uint64_t byte_budget) {
     vox_grid* grid;

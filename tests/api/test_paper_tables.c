@@ -2,7 +2,7 @@
  * analytic cell size for the five spheres, and the distance epsilon of Eq. 9 for all eight models. The
  * paper's spheres are not public; balls of a cubic lattice with the same numbers of tetrahedra stand in for
  * them. */
-#include "suite.h"
+#include "support/suite.h"
 
 #include <vox/vox_io.h>
 

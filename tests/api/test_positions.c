@@ -1,5 +1,5 @@
 /* Positions that are bound again, in another format too, and positions that the library owns. */
-#include "solids_of_doubles.h"
+#include "support/solids_of_doubles.h"
 
 START_TEST(bound_in_another_format) {
     solid a = make_solid(3), b = make_solid(3);

@@ -1,8 +1,8 @@
 /* Queries between steps against brute force over every tetrahedron: exact where the answer is exact. */
 #include <pthread.h>
 
-#include "oracle.h"
-#include "query_checks.h"
+#include "support/oracle.h"
+#include "support/query_checks.h"
 
 /* The hits of one point by definition; returns how many. */
 static size_t hits_by_definition(const world* w, const float p[3], uint64_t mask, vox_point_hit* hits) {

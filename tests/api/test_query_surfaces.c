@@ -1,7 +1,7 @@
 /* Queries for the surface, the closest point of it and what a segment meets, against brute force over every
  * tetrahedron. */
-#include "oracle.h"
-#include "query_checks.h"
+#include "support/oracle.h"
+#include "support/query_checks.h"
 
 static const uint32_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 

@@ -1,7 +1,7 @@
 /* The life of readings: what is gone by the time they are asked for, copies of a part of them, errors,
  * memory. */
-#include "ledger.h"
-#include "reading_checks.h"
+#include "support/ledger.h"
+#include "support/reading_checks.h"
 
 /* ---- what is gone, and what there never was ---- */
 

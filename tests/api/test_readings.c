@@ -1,5 +1,5 @@
 /* Readings of contacts against brute force, the same from every engine and any number of workers. */
-#include "reading_checks.h"
+#include "support/reading_checks.h"
 
 /* Two boxes as one body, the second moved. */
 static body two_boxes(uint32_t n, float x, float y, float z) {

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 static uint64_t random_state;
 

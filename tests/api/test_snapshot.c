@@ -1,6 +1,6 @@
 /* Snapshots: the loaded grid is the saved one. */
-#include "ledger.h"
-#include "snapshot_checks.h"
+#include "support/ledger.h"
+#include "support/snapshot_checks.h"
 
 /* ---- the loaded grid is the saved one ---- */
 

@@ -1,6 +1,6 @@
 /* Snapshots: nothing that is wrong with a file gets in. */
-#include "ledger.h"
-#include "snapshot_checks.h"
+#include "support/ledger.h"
+#include "support/snapshot_checks.h"
 
 START_TEST(cut_off_and_damaged) {
     scene s;

@@ -3,7 +3,7 @@
  */
 #include <stdio.h>
 
-#include "soak_model.h"
+#include "support/soak_model.h"
 
 /* ---- operations: each changes both grids and the model ----
  *

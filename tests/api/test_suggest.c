@@ -1,6 +1,6 @@
 /* The cell size: what the geometry of small scenes must be by hand, and that the answer is the minimum of the
  * cost function, in any unit. */
-#include "suggest_scenes.h"
+#include "support/suggest_scenes.h"
 
 #include <float.h>
 #include <math.h>

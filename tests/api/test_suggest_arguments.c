@@ -1,6 +1,6 @@
 /* The cell size: every bad argument gives its code, a text with the numbers in it, and leaves the result
  * alone; structs may be smaller or larger than this library's. */
-#include "suggest_scenes.h"
+#include "support/suggest_scenes.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* The cost models through the C interface: what a suggestion explains, weights, predictions, the grid's own,
  * and the method for cost functions of others. */
-#include "suggest_scenes.h"
+#include "support/suggest_scenes.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "ledger.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/ledger.h"
+#include "support/suite.h"
 
 /* ---- schedulers ---- */
 

@@ -1,9 +1,9 @@
 /* A transform a step in place of new positions, exact in its result; and bodies without tetrahedra: points
  * and surfaces that sense or cut others. */
-#include "bodies.h"
-#include "oracle.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@ build=$1 source=$2 cmake=$3 generator=$4 cc=$5 threads=$6
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
-cp "$source/consumer.c" "$source/consumer_sim.c" "$source/CMakeLists.txt" "$scratch"
+cp "$source"/consumer/* "$scratch"
 
 "$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }

@@ -1,7 +1,7 @@
 // Memory that counts what is taken from it, and refuses what does not fit its budget.
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,12 +1,12 @@
 // The hits of both engines and of every pair decided exactly, and what must be the same of them.
 #pragma once
 
-#include "fast_scenes.hpp"
-#include "predicates.hpp"
-#include "reference.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "exact/predicates.hpp"
+#include "internal/fast_scenes.hpp"
+#include "reference/engine.hpp"
 
-#include "../suite.h"
+#include "support/suite.h"
 
 inline std::vector<Key> brute_force(const std::vector<vox::Body>& bodies) {
     std::vector<vox::Hit> hits;

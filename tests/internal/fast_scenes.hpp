@@ -2,9 +2,9 @@
 // cube, and what can be done to them.
 #pragma once
 
-#include "fast.hpp"
-#include "random.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "fast/engine.hpp"
+#include "internal/random.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // Scenes for the stage tests: small bodies of many kinds, and the views that the stages and the oracle take.
 #pragma once
 
-#include "oracle.h"
-#include "random.hpp"
-#include "scene.hpp"
+#include "base/scene.hpp"
+#include "internal/random.hpp"
+#include "support/oracle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // that say what the stages should find.
 #pragma once
 
-#include "fast_scenes.hpp"
-#include "predicates.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "exact/predicates.hpp"
+#include "internal/fast_scenes.hpp"
 
 #include <set>
 #include <string>

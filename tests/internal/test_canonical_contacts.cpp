@@ -1,9 +1,9 @@
 // Hits to contacts: the order, the rule for shared boundaries, the hash.
-#include "contacts.hpp"
-#include "predicates.hpp"
-#include "scenes.hpp"
-#include "simd.hpp"
-#include "suite.h"
+#include "base/simd.hpp"
+#include "exact/predicates.hpp"
+#include "grid/contacts.hpp"
+#include "internal/scenes.hpp"
+#include "support/suite.h"
 
 #include <set>
 #include <tuple>

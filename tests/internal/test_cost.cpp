@@ -1,15 +1,15 @@
 // The cost models' counts against those of the engines themselves, in scenes of every kind.
-#include "cost/adaptive.hpp"
-#include "cost/cost_table.hpp"
-#include "cost/fast_cost.hpp"
-#include "cost/levels.hpp"
-#include "cost/minimise.hpp"
-#include "cost/reference_cost.hpp"
-#include "cost/weights.hpp"
-#include "fast.hpp"
-#include "fast_scenes.hpp"
-#include "reference.hpp"
-#include "suite.h"
+#include "cell_size/adaptive.hpp"
+#include "cell_size/cost_table.hpp"
+#include "cell_size/fast_model.hpp"
+#include "cell_size/levels.hpp"
+#include "cell_size/reference_model.hpp"
+#include "cell_size/search.hpp"
+#include "cell_size/weights.hpp"
+#include "fast/engine.hpp"
+#include "internal/fast_scenes.hpp"
+#include "reference/engine.hpp"
+#include "support/suite.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // The search for the least cost, and costs from a table, over functions whose least value is known.
-#include "cost/cost_table.hpp"
-#include "cost/minimise.hpp"
-#include "suite.h"
+#include "cell_size/cost_table.hpp"
+#include "cell_size/search.hpp"
+#include "support/suite.h"
 
 #include <cmath>
 #include <memory_resource>

@@ -1,12 +1,12 @@
 // The parts of the depth stage by themselves: topology, the walk out of a mesh, normals, closest points.
+#include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
-#include "depth/topology.hpp"
-#include "depth/vectors.hpp"
 #include "depth/walk.hpp"
-#include "scenes.hpp"
-#include "suite.h"
+#include "internal/scenes.hpp"
+#include "mesh/topology.hpp"
+#include "support/suite.h"
 
 #include <algorithm>
 #include <array>

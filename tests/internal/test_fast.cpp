@@ -1,8 +1,8 @@
 // The fast engine against the reference engine and against every pair decided exactly, on ordinary scenes and
 // on every kind of bad one, at every SIMD level of the machine and several cell sizes.
-#include "counting_memory.hpp"
-#include "error.hpp"
-#include "fast_checks.hpp"
+#include "base/error.hpp"
+#include "internal/counting_memory.hpp"
+#include "internal/fast_checks.hpp"
 
 #include <cfloat>
 #include <cstdio>

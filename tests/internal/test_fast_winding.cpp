@@ -1,6 +1,6 @@
 // Self-collision with and without culling by winding numbers: the same hits, those of the reference engine,
 // and less work where there is nothing to find.
-#include "fast_checks.hpp"
+#include "internal/fast_checks.hpp"
 
 using namespace vox;
 

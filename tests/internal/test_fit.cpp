@@ -1,8 +1,8 @@
 // The fit of measured times against the plain way: normal equations in long double, and leave-one-out by
 // leaving out.
-#include "suite.h"
+#include "support/suite.h"
 
-#include "fit.hpp"
+#include "sim/experiment/fit.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // A grid takes all its memory from its own allocator: with no other memory resource at hand it still works.
-#include "../bodies.h"
-#include "../suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 #include <cstring>
 #include <memory_resource>

@@ -1,10 +1,10 @@
 // Limits that would take more memory than a machine has: what checks them, given the counts alone.
-#include "depth/topology.hpp"
-#include "error.hpp"
-#include "grid.hpp"
-#include "touching.hpp"
+#include "base/error.hpp"
+#include "grid/contact_pairs.hpp"
+#include "grid/grid.hpp"
+#include "mesh/topology.hpp"
 
-#include "../suite.h"
+#include "support/suite.h"
 
 #include <cstdint>
 #include <memory_resource>

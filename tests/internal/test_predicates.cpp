@@ -1,9 +1,9 @@
 // The predicates against GMP: every sign, every containment, every weight, on points of every kind, floats
 // and doubles.
-#include "oracle.h"
-#include "predicates.hpp"
-#include "random.hpp"
-#include "suite.h"
+#include "exact/predicates.hpp"
+#include "internal/random.hpp"
+#include "support/oracle.h"
+#include "support/suite.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -1,11 +1,11 @@
 // The reference engine against brute force in exact arithmetic, on scenes of every kind, for all storages and
 // for cell sizes from absurdly small to absurdly large.
-#include "contacts.hpp"
-#include "counting_memory.hpp"
-#include "error.hpp"
-#include "reference.hpp"
-#include "scenes.hpp"
-#include "suite.h"
+#include "base/error.hpp"
+#include "grid/contacts.hpp"
+#include "internal/counting_memory.hpp"
+#include "internal/scenes.hpp"
+#include "reference/engine.hpp"
+#include "support/suite.h"
 
 #include <cstring>
 #include <string>

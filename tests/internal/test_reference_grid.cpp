@@ -1,7 +1,7 @@
 // The arithmetic of the reference engine's grid: which cell a position is in, which bucket a cell.
-#include "random.hpp"
-#include "reference_grid.hpp"
-#include "suite.h"
+#include "internal/random.hpp"
+#include "reference/cell_lists.hpp"
+#include "support/suite.h"
 
 using namespace vox;
 

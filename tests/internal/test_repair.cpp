@@ -1,19 +1,19 @@
 // What is repaired after an edit against the same made anew: lists, topology, rings, tiles and surface.
-#include "counting_memory.hpp"
-#include "stage_checks.hpp"
+#include "internal/counting_memory.hpp"
+#include "internal/stage_checks.hpp"
 
-#include "bits.hpp"
-#include "depth/topology.hpp"
-#include "fast/repair.hpp"
-#include "filter.hpp"
-#include "lists.hpp"
-#include "tet_changes.hpp"
+#include "base/bits.hpp"
+#include "base/lists.hpp"
+#include "mesh/filter.hpp"
+#include "mesh/tet_changes.hpp"
+#include "mesh/tile_repair.hpp"
+#include "mesh/topology.hpp"
 
 #include <array>
 #include <map>
 #include <set>
 
-#include "../suite.h" // last: it defines macros with common names
+#include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;

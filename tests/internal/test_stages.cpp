@@ -2,12 +2,12 @@
 // pairs. Windows and what is asked of them are in test_windows.cpp, surface and winding numbers in
 // test_winding.cpp.
 #include "fast/sides.hpp"
-#include "stage_checks.hpp"
+#include "internal/stage_checks.hpp"
 
 #include <cfloat>
 #include <limits>
 
-#include "../suite.h" // last: it defines macros with common names
+#include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;

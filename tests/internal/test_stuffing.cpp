@@ -1,9 +1,9 @@
 // Isosurface stuffing of lattices whose nodes are inside or outside at random and whose edges are cut
 // anywhere: the bounds on the angles hold for all of them, whatever body they may belong to. Coarsening among
 // them.
-#include "solid_stuff.hpp"
+#include "io/solids/stuff.hpp"
 
-#include "../suite.h"
+#include "support/suite.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

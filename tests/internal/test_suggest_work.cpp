@@ -2,11 +2,11 @@
 // microseconds, and a suggestion should take less.
 #include <thread> // first: a macro of Check is named as a function there
 
-#include "cost/fast_cost.hpp"
-#include "cost/weights.hpp"
-#include "fast_scenes.hpp"
-#include "mesh_sample.hpp"
-#include "suite.h"
+#include "cell_size/fast_model.hpp"
+#include "cell_size/weights.hpp"
+#include "internal/fast_scenes.hpp"
+#include "mesh/sample.hpp"
+#include "support/suite.h"
 
 #include <vox/vox.h>
 

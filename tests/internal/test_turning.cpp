@@ -1,9 +1,9 @@
 // Which tets may have turned over: widths against their definition, what is told to be upright against exact
 // orientation, and the engine over many steps of bodies that deform, a little or until they are a knot.
-#include "fast_checks.hpp"
-#include "stage_checks.hpp"
+#include "internal/fast_checks.hpp"
+#include "internal/stage_checks.hpp"
 
-#include "../suite.h" // last: it defines macros with common names
+#include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;

@@ -1,10 +1,10 @@
 // The stages of the fast engine that cull self-collision: the surface of a mesh against its definition, and
 // the certificate by winding numbers against every vertex in every tet, on bodies folded at random.
-#include "stage_checks.hpp"
+#include "internal/stage_checks.hpp"
 
 #include <map>
 
-#include "../suite.h" // last: it defines macros with common names
+#include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;

@@ -1,11 +1,11 @@
 // Windows of the fast engine and what is asked of them, by themselves, over plain arrays, against loops over
 // everything.
-#include "stage_checks.hpp"
+#include "internal/stage_checks.hpp"
 
 #include <cfloat>
 #include <memory>
 
-#include "../suite.h" // last: it defines macros with common names
+#include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
 using namespace stages;

@@ -1,5 +1,5 @@
 /* The report of a mesh, the C border of loading, and the exactness of what is called inverted or flat. */
-#include "io_files.h"
+#include "support/io_files.h"
 
 #include <float.h>
 #include <gmp.h>

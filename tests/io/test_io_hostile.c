@@ -1,6 +1,6 @@
 /* Small files of every format, cut, bent and lied in: a reader gives an error or a sound mesh, reads nothing
  * beyond its buffer (which a sanitizer sees) and asks for no memory by a number that it has not checked. */
-#include "io_files.h"
+#include "support/io_files.h"
 
 #define FOLDER VOX_TEST_DATA
 

@@ -1,5 +1,5 @@
 /* Every malformed, hostile or merely odd file of the test meshes gives what their manifest says. */
-#include "io_files.h"
+#include "support/io_files.h"
 
 #if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                 \
     !defined(__has_feature)

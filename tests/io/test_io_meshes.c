@@ -1,5 +1,5 @@
 /* Good files of every format: one ball in all of them, meshes as found, the paper's models, surfaces. */
-#include "io_files.h"
+#include "support/io_files.h"
 
 static vox_io_mesh* loaded(const char* folder, const char* name) {
     char path[1024];

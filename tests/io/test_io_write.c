@@ -1,5 +1,5 @@
 /* What is written reads back the same, bit for bit, in every format; failures leave what was there. */
-#include "io_files.h"
+#include "support/io_files.h"
 
 #include <float.h>
 

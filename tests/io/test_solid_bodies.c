@@ -1,5 +1,5 @@
 /* The ready-made bodies: their shape, their tets, and bad arguments. */
-#include "solid_checks.h"
+#include "support/solid_checks.h"
 
 /* ---- ball of a cubic lattice ---- */
 

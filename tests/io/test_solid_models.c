@@ -1,5 +1,5 @@
 /* Surface to tetrahedra on the models of the meshes folder. */
-#include "solid_checks.h"
+#include "support/solid_checks.h"
 
 #define FOLDER VOX_MESHES "/surfaces/"
 

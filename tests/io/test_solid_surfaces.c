@@ -1,6 +1,6 @@
 /* Surface to tetrahedra on surfaces made here: exact shapes, degenerate positions, holes, nesting,
  * orientation. */
-#include "solid_checks.h"
+#include "support/solid_checks.h"
 
 typedef struct {
     double positions[3 * 20000];

@@ -4,7 +4,7 @@
 #ifndef VOX_TESTS_PORTABILITY_SCENES_H
 #define VOX_TESTS_PORTABILITY_SCENES_H
 
-#include "bodies.h"
+#include "support/bodies.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef VOX_TESTS_SIM_SCENE_H
 #define VOX_TESTS_SIM_SCENE_H
 
-#include "../suite.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>

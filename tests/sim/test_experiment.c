@@ -1,6 +1,6 @@
 /* The experiment: two bodies placed in light contact, the recorded frames, and samples of them at any cell
  * size. */
-#include "suite.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>

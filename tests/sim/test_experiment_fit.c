@@ -1,5 +1,5 @@
 /* The fit of times over cell sizes, its zone, the order of the samples and the time of their rounds. */
-#include "suite.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The motion of bodies: against formulas where there are some, and against what must be kept where there are
  * none. */
-#include "scene.h"
+#include "sim/scene.h"
 
 /* Semi-implicit Euler falls g h^2 n (n + 1) / 2 in n substeps of h; the formula for all time is half a
  * substep off. */

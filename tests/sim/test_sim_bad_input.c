@@ -1,6 +1,6 @@
 /* What nobody should do to bodies: clear errors with numbers, or motion that stays finite and slow. Also:
  * what must not change the motion. */
-#include "scene.h"
+#include "sim/scene.h"
 
 /* ---- starts that penetrate -------------------------------------------------------------------- */
 

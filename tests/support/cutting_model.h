@@ -5,9 +5,9 @@
 
 #include <string.h>
 
-#include "bodies.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 enum { tet_on, tet_off, tet_removed };
 enum { most_cut_meshes = 4, slot_shift = 12 };

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 typedef struct vector {
     double x, y, z;

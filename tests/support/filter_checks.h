@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 static inline vox_grid* new_grid(void) {
     static uint32_t grids = 0;

@@ -3,7 +3,7 @@
 #ifndef VOX_TESTS_IO_FILES_H
 #define VOX_TESTS_IO_FILES_H
 
-#include "suite.h"
+#include "support/suite.h"
 
 #include <math.h>
 #include <stdio.h>

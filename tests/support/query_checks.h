@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 enum { most_bodies = 4 };
 

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 /* ---- brute force ---- */
 

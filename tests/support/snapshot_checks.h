@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 /* ---- bytes ---- */
 

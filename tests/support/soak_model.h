@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "ledger.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/ledger.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 enum {
     max_members = 14,

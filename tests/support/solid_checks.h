@@ -8,7 +8,7 @@
 #include <string.h>
 #include <vox/vox_io.h>
 
-#include "suite.h"
+#include "support/suite.h"
 
 /* The bounds that Labelle and Shewchuk prove for the parameters that make the smallest angle largest. */
 #define LEAST_DIHEDRAL 10.78

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "oracle.h"
-#include "random.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/suite.h"
 
 static uint64_t state = 1;
 

@@ -2,8 +2,8 @@
 #ifndef VOX_TESTS_SUGGEST_SCENES_H
 #define VOX_TESTS_SUGGEST_SCENES_H
 
-#include "bodies.h"
-#include "suite.h"
+#include "support/bodies.h"
+#include "support/suite.h"
 
 /* A regular tetrahedron in a unit cube: edge sqrt(2), facet area sqrt(3)/2, volume 1/3, box side 1. */
 static const float regular_positions[12] = {0, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 1};

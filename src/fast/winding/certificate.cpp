@@ -15,23 +15,23 @@
 //
 // Tets that are not positive, or not surely so, make every cell of their box unsafe; they count neither way
 // elsewhere.
-#include "winding.hpp"
-#include "../simd.hpp"
+#include "fast/winding/certificate.hpp"
+#include "base/simd.hpp"
 
-#include "parallel.hpp"
-#include "predicates.hpp"
-#include "query.hpp"
+#include "base/parallel.hpp"
+#include "exact/predicates.hpp"
+#include "fast/query.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/winding.cpp"
+#define HWY_TARGET_INCLUDE "fast/winding/certificate.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tile-inl.hpp"
+#include "fast/tile-inl.hpp"
 
 #ifndef VOX_FAST_WINDING_ONCE
 #define VOX_FAST_WINDING_ONCE

@@ -2,10 +2,10 @@
 // body that does not touch itself: none, and next to nothing but its surface was looked at to know.
 #pragma once
 
-#include "components.hpp"
-#include "surface.hpp"
-#include "turning.hpp"
-#include "window.hpp"
+#include "fast/winding/components.hpp"
+#include "fast/winding/orientation.hpp"
+#include "fast/window.hpp"
+#include "mesh/boundary.hpp"
 
 #include <cstdint>
 #include <memory_resource>

@@ -1,4 +1,4 @@
-#include "components.hpp"
+#include "fast/winding/components.hpp"
 
 #include <utility>
 

@@ -1,15 +1,15 @@
-#include "turning.hpp"
-#include "../simd.hpp"
+#include "fast/winding/orientation.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/turning.cpp"
+#define HWY_TARGET_INCLUDE "fast/winding/orientation.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tile-inl.hpp"
+#include "fast/tile-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {

@@ -7,9 +7,9 @@
 // straight way from the old positions to the new ones: the tet does not turn over.
 #pragma once
 
-#include "box.hpp"
-#include "surface.hpp"
-#include "tiles.hpp"
+#include "base/boxes.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/tiles.hpp"
 
 #include <cstdint>
 #include <memory_resource>

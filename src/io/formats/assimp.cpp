@@ -1,6 +1,6 @@
 // Surfaces of every format that assimp reads: node transforms applied, polygons cut into triangles, meshes of
 // a scene joined or one of them taken.
-#include "readers.hpp"
+#include "io/formats/readers.hpp"
 
 #include <assimp/Importer.hpp>
 #include <assimp/commonMetaData.h>

@@ -1,4 +1,4 @@
-#include "file_bytes.hpp"
+#include "io/formats/file_bytes.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,7 +1,7 @@
 // The bytes of a file on disk: mapped where the system can, else read.
 #pragma once
 
-#include "scan.hpp"
+#include "io/formats/scan.hpp"
 
 #include <string>
 #include <vector>

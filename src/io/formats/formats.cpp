@@ -1,5 +1,5 @@
 // Telling formats apart, and what all readers share.
-#include "readers.hpp"
+#include "io/formats/readers.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 // Gmsh .msh, versions 1, 2.0-2.2, 4.0 and 4.1, ASCII and binary of either byte order
 // (C. Geuzaine and J.-F. Remacle, Gmsh reference manual, "File formats").
-#include "node_numbers.hpp"
-#include "readers.hpp"
+#include "io/formats/node_numbers.hpp"
+#include "io/formats/readers.hpp"
 
 namespace vox::io {
 namespace {

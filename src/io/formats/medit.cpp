@@ -1,5 +1,5 @@
 // Medit .mesh, ASCII (P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253, 2001).
-#include "readers.hpp"
+#include "io/formats/readers.hpp"
 
 namespace vox::io {
 namespace {

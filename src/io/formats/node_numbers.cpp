@@ -1,4 +1,4 @@
-#include "node_numbers.hpp"
+#include "io/formats/node_numbers.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII. A reader of
 // our own: assimp 5.2.5 takes faces to lie on one line each and crashes where they do not.
-#include "readers.hpp"
+#include "io/formats/readers.hpp"
 
 #include <algorithm>
 

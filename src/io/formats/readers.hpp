@@ -3,8 +3,8 @@
 // place.
 #pragma once
 
-#include "mesh_data.hpp"
-#include "scan.hpp"
+#include "io/formats/scan.hpp"
+#include "io/mesh_data.hpp"
 
 namespace vox::io {
 

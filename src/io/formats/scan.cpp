@@ -1,4 +1,4 @@
-#include "scan.hpp"
+#include "io/formats/scan.hpp"
 
 namespace vox::io {
 

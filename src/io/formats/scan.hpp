@@ -1,7 +1,7 @@
 // Reading text and binary mesh files from memory: one pass, no copies, every failure with its place.
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <bit>

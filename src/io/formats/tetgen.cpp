@@ -1,6 +1,6 @@
 // TetGen .node and .ele (H. Si, TetGen user's manual, "File formats").
-#include "node_numbers.hpp"
-#include "readers.hpp"
+#include "io/formats/node_numbers.hpp"
+#include "io/formats/readers.hpp"
 
 namespace vox::io {
 namespace {

@@ -1,7 +1,7 @@
 // Vega .veg (F. S. Sin, D. Schroeder, J. Barbic, "Vega: non-linear FEM deformable object simulator", Computer
 // Graphics Forum 32(1), 2013; user's manual, "Volumetric mesh file formats").
-#include "node_numbers.hpp"
-#include "readers.hpp"
+#include "io/formats/node_numbers.hpp"
+#include "io/formats/readers.hpp"
 
 namespace vox::io {
 

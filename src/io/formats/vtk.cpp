@@ -1,6 +1,6 @@
 // VTK legacy files, versions 1.0 to 5.1, ASCII and binary ("VTK File Formats", Kitware): DATASET
 // UNSTRUCTURED_GRID. Binary numbers are big endian.
-#include "vtk_cells.hpp"
+#include "io/formats/vtk_cells.hpp"
 
 namespace vox::io {
 namespace {

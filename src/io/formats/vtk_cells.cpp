@@ -1,4 +1,4 @@
-#include "vtk_cells.hpp"
+#include "io/formats/vtk_cells.hpp"
 
 namespace vox::io {
 namespace {

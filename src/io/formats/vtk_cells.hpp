@@ -1,7 +1,7 @@
 // VTK's cell types and number types, shared by the legacy and the XML reader.
 #pragma once
 
-#include "readers.hpp"
+#include "io/formats/readers.hpp"
 
 #include <algorithm>
 

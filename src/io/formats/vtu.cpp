@@ -1,6 +1,6 @@
 // VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware): ASCII, base64 and appended arrays, raw or
 // compressed with zlib, headers of 32 or 64 bits, either byte order. XML by pugixml, inflation by zlib.
-#include "vtk_cells.hpp"
+#include "io/formats/vtk_cells.hpp"
 
 #include <pugixml.hpp>
 #include <zlib.h>

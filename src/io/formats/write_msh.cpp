@@ -1,7 +1,7 @@
 // Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
 // dimension 2, all tets to entity 1 of dimension 3.
-#include "error.hpp"
-#include "writers.hpp"
+#include "base/error.hpp"
+#include "io/formats/writers.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // VTK XML unstructured grid ("VTK XML Formats", Kitware): text, or raw appended arrays with 64-bit headers.
-#include "writers.hpp"
+#include "io/formats/writers.hpp"
 
 namespace vox::io {
 namespace {

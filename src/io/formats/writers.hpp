@@ -1,7 +1,7 @@
 // One writer a format: a mesh and numbers on its vertices in, bytes out.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 #include <bit>
 #include <charconv>

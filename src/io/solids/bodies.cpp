@@ -1,7 +1,7 @@
-#include "solid_bodies.hpp"
+#include "io/solids/bodies.hpp"
 
-#include "error.hpp"
-#include "solid_stuff.hpp"
+#include "base/error.hpp"
+#include "io/solids/stuff.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Bodies given by a function of space, positive inside, by isosurface stuffing.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 namespace vox::io {
 

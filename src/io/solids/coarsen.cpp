@@ -1,7 +1,7 @@
 // Labelle and Shewchuk 2007, Sect. 4: a balanced octree of body-centred cells, uniform at the boundary. Its
 // tetrahedra are those of the lattice, the same halved where an edge has a midpoint, and half pyramids and
 // quarters where cells of different size meet. They have angles of 45 degrees and more.
-#include "solid_coarsen.hpp"
+#include "io/solids/coarsen.hpp"
 
 #include <utility>
 

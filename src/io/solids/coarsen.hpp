@@ -2,7 +2,7 @@
 // ones.
 #pragma once
 
-#include "solid_lattice.hpp"
+#include "io/solids/lattice.hpp"
 
 #include <functional>
 #include <vector>

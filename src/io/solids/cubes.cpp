@@ -1,9 +1,9 @@
 // Embedding lattice: Müller, Teschner, Gross, "Physically-based simulation of objects represented by surface
 // meshes", CGI 2004. Triangle against cube: Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001.
-#include "solid_cubes.hpp"
+#include "io/solids/cubes.hpp"
 
-#include "error.hpp"
-#include "five_tets.hpp"
+#include "base/error.hpp"
+#include "io/solids/five_tets.hpp"
 
 #include <algorithm>
 #include <cmath>

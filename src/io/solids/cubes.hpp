@@ -1,8 +1,8 @@
 // Bodies of whole lattice cubes, five tetrahedra each.
 #pragma once
 
-#include "mesh_data.hpp"
-#include "solid_lattice.hpp"
+#include "io/mesh_data.hpp"
+#include "io/solids/lattice.hpp"
 
 namespace vox::io {
 

@@ -1,6 +1,6 @@
 // Nearest point of a triangle by the regions of its plane: Ericson, "Real-time collision detection",
 // 2005, 5.1.5.
-#include "solid_distance.hpp"
+#include "io/solids/distance.hpp"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
-#include "solid_lattice.hpp"
+#include "io/solids/lattice.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

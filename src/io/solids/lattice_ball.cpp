@@ -4,9 +4,9 @@
 // its boundary: Spillmann, Wagner, Teschner, "Robust tetrahedral meshing of triangle soups", VMV 2006.
 //
 // Deterministic on every platform: only + - * / and square roots, in a fixed order.
-#include "lattice_ball.hpp"
+#include "io/solids/lattice_ball.hpp"
 
-#include "five_tets.hpp"
+#include "io/solids/five_tets.hpp"
 
 #include <algorithm>
 #include <array>

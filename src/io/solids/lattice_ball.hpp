@@ -1,7 +1,7 @@
 // A ball as a cubic lattice, five tetrahedra a cube.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 #include <cstdint>
 

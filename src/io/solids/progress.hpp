@@ -1,7 +1,7 @@
 // How far a long piece of work has come, for the caller's progress function.
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cstdint>

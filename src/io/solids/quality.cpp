@@ -1,6 +1,6 @@
-#include "solid_quality.hpp"
+#include "io/solids/quality.hpp"
 
-#include "solid_distance.hpp"
+#include "io/solids/distance.hpp"
 
 #include <Eigen/Dense>
 #include <numbers>

@@ -5,7 +5,7 @@
 // alone (the diagonal ends in the cut point of a long edge, else the parity rule decides); here it starts at
 // the inside vertex whose edge keeps the larger part, and the paper's rule decides ties. Both depend on the
 // face alone, so neighbours agree. With the distances of solid_stuff.cpp this one gives better angles.
-#include "solid_stencil.hpp"
+#include "io/solids/stencil.hpp"
 
 #include <utility>
 

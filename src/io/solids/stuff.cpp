@@ -1,11 +1,11 @@
 // Labelle and Shewchuk, "Isosurface stuffing: fast tetrahedral meshes with good dihedral angles", SIGGRAPH
 // 2007: cut points on the lattice edges that the boundary crosses, nodes that are too close to one moved onto
 // it, and for every lattice tetrahedron the stencil of what is left inside.
-#include "solid_stuff.hpp"
+#include "io/solids/stuff.hpp"
 
-#include "error.hpp"
-#include "solid_coarsen.hpp"
-#include "solid_stencil.hpp"
+#include "base/error.hpp"
+#include "io/solids/coarsen.hpp"
+#include "io/solids/stencil.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // to be inside or outside of a body.
 #pragma once
 
-#include "mesh_data.hpp"
-#include "solid_lattice.hpp"
-#include "solid_progress.hpp"
+#include "io/mesh_data.hpp"
+#include "io/solids/lattice.hpp"
+#include "io/solids/progress.hpp"
 
 #include <functional>
 

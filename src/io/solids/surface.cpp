@@ -1,9 +1,9 @@
 // Point in polyhedron by the crossings of a line; simulation of simplicity: Edelsbrunner and Mücke,
 // "Simulation of simplicity: a technique to cope with degenerate cases in geometric algorithms", ACM Trans.
 // Graphics 9(1), 1990.
-#include "solid_surface.hpp"
+#include "io/solids/surface.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Inside and outside of a triangle surface, for the nodes and edges of a lattice.
 #pragma once
 
-#include "solid_lattice.hpp"
-#include "solid_progress.hpp"
+#include "io/solids/lattice.hpp"
+#include "io/solids/progress.hpp"
 
 #include <vox/vox_io.h>
 

@@ -1,10 +1,10 @@
-#include "solid_tetrahedralize.hpp"
+#include "io/solids/tetrahedralize.hpp"
 
-#include "error.hpp"
-#include "solid_cubes.hpp"
-#include "solid_quality.hpp"
-#include "solid_stuff.hpp"
-#include "solid_surface.hpp"
+#include "base/error.hpp"
+#include "io/solids/cubes.hpp"
+#include "io/solids/quality.hpp"
+#include "io/solids/stuff.hpp"
+#include "io/solids/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

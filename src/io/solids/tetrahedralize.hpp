@@ -1,7 +1,7 @@
 // Surface to tetrahedra.
 #pragma once
 
-#include "mesh_data.hpp"
+#include "io/mesh_data.hpp"
 
 namespace vox::io {
 

@@ -1,10 +1,10 @@
 // Two bodies in contact are simulated once; every sample detects the contacts of the recorded frames. That is
 // the paper's experiment, since contacts and so the motion are the same for every cell size, without the time
 // of the solver.
-#include "experiment.hpp"
+#include "sim/experiment/experiment.hpp"
 
-#include "border.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
 
 #include <algorithm>
 #include <cinttypes>

@@ -2,7 +2,7 @@
 // bodies in contact.
 #pragma once
 
-#include "experiment_place.hpp"
+#include "sim/experiment/experiment_place.hpp"
 
 #include <vox/vox_sim.h>
 

@@ -1,9 +1,9 @@
 // The C border of vox_sim.h's experiment: validate, catch, forward. And the order and the statistic of its
 // samples.
-#include "border.hpp"
-#include "experiment.hpp"
-#include "fit.hpp"
-#include "structs.hpp"
+#include "base/border.hpp"
+#include "base/structs.hpp"
+#include "sim/experiment/experiment.hpp"
+#include "sim/experiment/fit.hpp"
 
 #include <algorithm>
 #include <cinttypes>

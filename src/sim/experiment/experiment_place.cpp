@@ -1,6 +1,6 @@
-#include "experiment_place.hpp"
+#include "sim/experiment/experiment_place.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // Both axes are logarithms. The cost is a sum of powers of the cell size, falling ones and rising ones, whose
 // logarithm over the logarithm is a smooth bowl between two straight lines, which polynomials follow well;
 // and the noise of a time is in proportion to it, so that every point weighs the same.
-#include "fit.hpp"
+#include "sim/experiment/fit.hpp"
 
 #include <algorithm>
 #include <cmath>
