@@ -16,17 +16,17 @@ class Boost final : public Peer {
     using Value = std::pair<Point, std::uint32_t>;
     using Tree = bg::index::rtree<Value, bg::index::quadratic<16>>;
 
-    struct Lists {
+    struct IndexLists {
         Tree tree;
         std::vector<std::uint32_t> vertices, tets;
         std::vector<Box> tet_boxes;
     };
-    std::vector<Lists> lists_;
+    std::vector<IndexLists> lists_;
     std::vector<Value> values_;
 
     void build() override { lists_.resize(scene().bodies.size()); }
     void update_vertices(std::size_t body) override {
-        Lists& lists = lists_[body];
+        IndexLists& lists = lists_[body];
         vertices_at_risk(body, lists.vertices);
         values_.clear();
         for (std::uint32_t v : lists.vertices) {

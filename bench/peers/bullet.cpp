@@ -61,10 +61,10 @@ class Bullet final : public Peer {
     }
 
     void collide(std::size_t a, std::size_t b) override {
-        struct Decide final : btDbvt::ICollide {
+        struct ExactDecisions final : btDbvt::ICollide {
             Bullet* peer;
             std::size_t a, b;
-            Decide(Bullet* peer_, std::size_t a_, std::size_t b_) : peer(peer_), a(a_), b(b_) {}
+            ExactDecisions(Bullet* peer_, std::size_t a_, std::size_t b_) : peer(peer_), a(a_), b(b_) {}
             void Process(const btDbvtNode* vertex, const btDbvtNode* tet) override {
                 peer->decide(a, index(vertex), b, index(tet));
             }

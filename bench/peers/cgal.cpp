@@ -11,11 +11,11 @@ namespace {
 class Cgal final : public Peer {
     using Primitive = CGAL::Box_intersection_d::Box_with_info_d<float, 3, std::uint32_t,
                                                                 CGAL::Box_intersection_d::ID_EXPLICIT>;
-    struct Lists {
+    struct IndexLists {
         std::vector<std::uint32_t> vertices, tets;
         std::vector<Box> tet_boxes;
     };
-    std::vector<Lists> lists_;
+    std::vector<IndexLists> lists_;
     std::vector<Primitive> vertices_, tets_; // of the pair at hand
 
     static constexpr std::ptrdiff_t cutoff = 100; // boxes below which all pairs are tried; tuned

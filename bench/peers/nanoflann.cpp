@@ -27,17 +27,17 @@ class Nanoflann final : public Peer {
     };
     using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
                                                      std::uint32_t>;
-    struct Lists {
+    struct IndexLists {
         Points points;
         std::unique_ptr<Tree> tree;
         std::vector<std::uint32_t> tets;
         std::vector<Box> tet_boxes;
     };
-    std::deque<Lists> lists_; // trees point to their points
+    std::deque<IndexLists> lists_; // trees point to their points
 
     void build() override {
         for (std::size_t b = 0; b < scene().bodies.size(); ++b) {
-            Lists& lists = lists_.emplace_back();
+            IndexLists& lists = lists_.emplace_back();
             lists.points.peer = this;
             lists.points.body = b;
         }
@@ -45,7 +45,7 @@ class Nanoflann final : public Peer {
 
     void update_vertices(std::size_t body) override {
         constexpr std::size_t leaf_size = 10;
-        Lists& lists = lists_[body];
+        IndexLists& lists = lists_[body];
         vertices_at_risk(body, lists.points.vertices);
         lists.tree =
             std::make_unique<Tree>(3, lists.points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));

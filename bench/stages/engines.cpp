@@ -234,8 +234,8 @@ bool run(const Named& named, const Options& options) {
     scene.prepare();
     const double insert = now() - start;
 
-    Fast fast(&memory);
-    Reference reference(std::pmr::new_delete_resource());
+    FastEngine fast(&memory);
+    ReferenceEngine reference(std::pmr::new_delete_resource());
     std::pmr::vector<Hit> fast_hits(&memory), reference_hits;
     std::pmr::vector<vox_contact> contacts;
     vox_counters counters{}, reference_counters{};

@@ -15,7 +15,6 @@
 #include <string>
 
 using namespace vox;
-using fast::Box;
 
 namespace {
 
@@ -44,23 +43,23 @@ struct Bodies {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();
     Mesh a, b;
     std::uint32_t vertices;
-    fast::Tiles tiles{memory};
-    fast::Surface surface{memory};
+    Tiles tiles{memory};
+    Boundary surface{memory};
     std::vector<Box> blocks, moves, super_boxes, tile_boxes, many;
     std::vector<std::uint8_t> known, upright, sides;
     std::vector<std::uint64_t> bad;
-    fast::Turning turning{memory};
+    fast::OrientationCache turning{memory};
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
     std::pmr::vector<fast::Pair> pairs;
     fast::Points points{memory}, sparse{memory};
-    fast::Lattice lattice{};
+    fast::WindowLattice lattice{};
     fast::Bins bins{memory}, sparse_bins{memory};
     std::pmr::vector<std::uint32_t> cell_of;
     fast::Window window{};
     std::unique_ptr<fast::QueryScratch> scratch = std::make_unique<fast::QueryScratch>();
     fast::Certificate certificate{memory};
-    fast::Rest rest{memory};
+    fast::LastPositions rest{memory};
     std::uint64_t exact_tests = 0;
     Count found;
 
@@ -73,13 +72,13 @@ struct Bodies {
         jitter(b, 0.1, random);
         move(b, 1, radius, 0.123, 0.271);
         vertices = std::uint32_t(a.positions.size());
-        fast::make_tiles(a.tets, vertices, view(a), tiles);
+        make_tiles(a.tets, vertices, view(a), tiles);
         blocks.resize(tiles.block_count());
         sides.resize(blocks.size());
         tile_boxes.resize(tiles.tiles.size());
         known.resize(tiles.tiles.size());
         fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
-        fast::make_surface(a.tets, vertices, view(a), tiles, surface);
+        make_boundary(a.tets, vertices, view(a), tiles, surface);
         super_boxes.resize(tiles.super_tile_count());
         upright.resize(super_boxes.size());
         moves.resize(blocks.size());
@@ -92,10 +91,10 @@ struct Bodies {
         std::fill(upright.begin(), upright.end(), std::uint8_t{1});
         rest.positions.resize(std::size_t{vertices} * 3);
         rest.parts.resize(1);
-        box_b = fast::empty_box;
-        for (const Vec3f& p : b.positions) fast::add(box_b, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
+        box_b = empty_box;
+        for (const Vec3f& p : b.positions) add(box_b, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
         region = box_a;
-        fast::intersect(region, box_b);
+        intersect(region, box_b);
         const double side = 2 * std::cbrt(tets / 1000); // boxes of bodies, each meeting a few others
         for (double i = 0; i < tets / 100; ++i) {
             const float x = random.uniform(0, side), y = random.uniform(0, side), z = random.uniform(0, side);
@@ -160,13 +159,13 @@ std::vector<Stage> stages_of(Bodies& s) {
     return {
         {"tiles", "tet", tets,
          [&s] {
-             fast::Tiles tiles(s.memory);
-             fast::make_tiles(s.a.tets, s.vertices, view(s.a), tiles);
+             Tiles tiles(s.memory);
+             make_tiles(s.a.tets, s.vertices, view(s.a), tiles);
          }},
         {"surface", "tet", tets,
          [&s] {
-             fast::Surface surface(s.memory);
-             fast::make_surface(s.a.tets, s.vertices, view(s.a), s.tiles, surface);
+             Boundary surface(s.memory);
+             make_boundary(s.a.tets, s.vertices, view(s.a), s.tiles, surface);
          }},
         {"stream", "vertex", s.vertices,
          [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},

@@ -95,7 +95,7 @@ public:
           activity_(std::move(known.activity)), body_boxes_(memory) {
         std::size_t tets = 0;
         for (const Body& body : bodies_) tets += body.tets.size();
-        std::span<const fast::Box> boxes;
+        std::span<const Box> boxes;
         if (model == VOX_COST_MODEL_FAST) {
             effort_ = quick_tiles(tets);
             if (known.last_step && !moved_since(*known.last_step)) {
@@ -125,14 +125,14 @@ public:
 private:
     // Whether any of the bodies has another box than in a step. Those whose positions are not packed count as
     // moved. What moves inside its box and nowhere reaches further than before is near enough where it was.
-    bool moved_since(const Fast& step) {
+    bool moved_since(const FastEngine& step) {
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             const Body& body = bodies_[b];
-            fast::Box& box = body_boxes_.emplace_back(fast::empty_box);
+            Box& box = body_boxes_.emplace_back(empty_box);
             if (body.vertex_count == 0) continue;
             if (!fast::is_packed(body.positions)) return true;
             const std::uint32_t ends[2] = {0, body.vertex_count};
-            fast::Box block{};
+            Box block{};
             if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
                 check_finite(body);
             if (!std::equal(box.lo, box.lo + 3, step.box(b).lo) ||
@@ -142,7 +142,7 @@ private:
         return false;
     }
 
-    Geometry sampled(std::span<const Mesh* const> meshes, std::span<const fast::Box> boxes,
+    Geometry sampled(std::span<const Mesh* const> meshes, std::span<const Box> boxes,
                      std::size_t samples) const {
         std::pmr::vector<const MeshSample*> of_meshes(memory_);
         of_meshes.reserve(meshes.size());
@@ -170,7 +170,7 @@ private:
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             if (tiles_[b]) continue;
             const Body& body = bodies_[b];
-            fast::make_tiles(body.tets, body.vertex_count, body.positions,
+            vox::make_tiles(body.tets, body.vertex_count, body.positions,
                              made_.emplace_back(std::pmr::get_default_resource()), body.off);
             tiles_[b] = &made_.back();
         }
@@ -178,14 +178,14 @@ private:
 
     std::pmr::memory_resource* memory_;
     std::pmr::vector<Body> bodies_;
-    std::pmr::vector<fast::Tiles> made_;
-    std::pmr::vector<const fast::Tiles*> tiles_;
+    std::pmr::vector<Tiles> made_;
+    std::pmr::vector<const Tiles*> tiles_;
     std::pmr::vector<Activity> activity_;
-    std::pmr::vector<fast::Box> body_boxes_;
+    std::pmr::vector<Box> body_boxes_;
     std::optional<SceneBoxes> boxes_; // this or the next one for the fast engine's model
-    const Fast* last_step_ = nullptr;
+    const FastEngine* last_step_ = nullptr;
     Geometry geometry_{};
-    Effort effort_ = thorough;
+    SampleBudget effort_ = thorough;
 };
 
 // ---- cost functions of others ---------------------------------------------------------------------

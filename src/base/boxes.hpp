@@ -1,22 +1,25 @@
 // Axis-aligned boxes of the fast engine, padded to four floats a corner so that one is two vector registers.
 #pragma once
 
+#include "base/scene.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
 
-namespace vox::fast {
+namespace vox {
 
 struct alignas(16) Box {
     float lo[4], hi[4]; // lo[3] and hi[3] mean nothing
 };
 
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
-inline constexpr Box empty_box{{infinity, infinity, infinity, infinity},
-                               {-infinity, -infinity, -infinity, -infinity}};
+inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
+inline constexpr Box empty_box{{float_infinity, float_infinity, float_infinity, float_infinity},
+                               {-float_infinity, -float_infinity, -float_infinity, -float_infinity}};
 
 inline void add(Box& a, const Box& b) noexcept {
     for (int i = 0; i < 4; ++i) a.lo[i] = b.lo[i] < a.lo[i] ? b.lo[i] : a.lo[i];
@@ -61,4 +64,48 @@ inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 }
 inline constexpr unsigned all_sides = 0x77;
 
-} // namespace vox::fast
+// ---- boxes of three floats a corner: of tetrahedra in the reference engine, and of trees over doubles ----
+
+inline Box3f empty_box3f() noexcept {
+    return {{float_infinity, float_infinity, float_infinity}, {-float_infinity, -float_infinity, -float_infinity}};
+}
+
+// The largest float that is not above, the smallest that is not below.
+inline float round_down(double x) noexcept {
+    constexpr float most = std::numeric_limits<float>::max();
+    if (x >= double{most}) return most;
+    if (x < -double{most}) return -std::numeric_limits<float>::infinity();
+    const auto f = static_cast<float>(x);
+    return double{f} <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+inline float round_up(double x) noexcept { return -round_down(-x); }
+
+inline void extend(Box3f& box, const Box3f& by) noexcept {
+    box.min = {std::min(box.min.x, by.min.x), std::min(box.min.y, by.min.y), std::min(box.min.z, by.min.z)};
+    box.max = {std::max(box.max.x, by.max.x), std::max(box.max.y, by.max.y), std::max(box.max.z, by.max.z)};
+}
+
+inline void extend(Box3f& box, const Vec3d& p) noexcept {
+    extend(box, {{round_down(p.x), round_down(p.y), round_down(p.z)},
+                 {round_up(p.x), round_up(p.y), round_up(p.z)}});
+}
+
+inline bool overlap(const Box3f& a, const Box3f& b) noexcept {
+    return (a.min.x <= b.max.x) & (a.min.y <= b.max.y) & (a.min.z <= b.max.z) & (b.min.x <= a.max.x) &
+           (b.min.y <= a.max.y) & (b.min.z <= a.max.z);
+}
+
+inline bool is_empty(const Box3f& box) noexcept { return box.min.x > box.max.x; }
+
+inline void extend(Box3f& box, const Vec3f& p) noexcept {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
+
+inline bool contains(const Box3f& box, const Vec3f& p) noexcept {
+    // Not &&: most vertices fail one of the six comparisons at random, and one branch is cheaper than six.
+    return bool(int(p.x >= box.min.x) & int(p.x <= box.max.x) & int(p.y >= box.min.y) &
+                int(p.y <= box.max.y) & int(p.z >= box.min.z) & int(p.z <= box.max.z));
+}
+
+} // namespace vox

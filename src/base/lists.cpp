@@ -5,7 +5,7 @@
 namespace vox {
 
 // Room for `count` items of a list, which may move.
-void Lists::make_room(std::size_t list, std::uint32_t count) {
+void IndexLists::make_room(std::size_t list, std::uint32_t count) {
     Row& row = rows_[list];
     if (count <= row.room) return;
     const std::uint32_t room = std::max(count + count / 2, 4u);
@@ -20,7 +20,7 @@ void Lists::make_room(std::size_t list, std::uint32_t count) {
 }
 
 // All lists one after the other, each with the room that it has, but this one with so much.
-void Lists::move_together(std::size_t list, std::uint32_t room) {
+void IndexLists::move_together(std::size_t list, std::uint32_t room) {
     std::size_t size = room;
     for (std::size_t i = 0; i < rows_.size(); ++i)
         if (i != list) size += rows_[i].room;
@@ -37,7 +37,7 @@ void Lists::move_together(std::size_t list, std::uint32_t room) {
     left_behind_ = 0;
 }
 
-void Lists::insert(std::size_t list, std::size_t place, std::uint32_t value) {
+void IndexLists::insert(std::size_t list, std::size_t place, std::uint32_t value) {
     make_room(list, rows_[list].count + 1);
     ++rows_[list].count;
     const std::span<std::uint32_t> items = (*this)[list];
@@ -45,13 +45,13 @@ void Lists::insert(std::size_t list, std::size_t place, std::uint32_t value) {
     items[place] = value;
 }
 
-void Lists::assign(std::size_t list, std::span<const std::uint32_t> values) {
+void IndexLists::assign(std::size_t list, std::span<const std::uint32_t> values) {
     make_room(list, static_cast<std::uint32_t>(values.size()));
     rows_[list].count = static_cast<std::uint32_t>(values.size());
     std::copy(values.begin(), values.end(), (*this)[list].begin());
 }
 
-void Lists::remove(std::size_t list, std::uint32_t value) noexcept {
+void IndexLists::remove(std::size_t list, std::uint32_t value) noexcept {
     const std::span<std::uint32_t> items = (*this)[list];
     const auto found = std::find(items.begin(), items.end(), value);
     if (found == items.end()) return;

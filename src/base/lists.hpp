@@ -1,4 +1,4 @@
-// Lists of numbers, one for each of 0, 1, 2, ..., one after the other in one array (compressed rows), which
+// IndexLists of numbers, one for each of 0, 1, 2, ..., one after the other in one array (compressed rows), which
 // may change: a list that outgrows its room moves to the end of the array and gets twice as much; when half
 // of the array is left behind, all lists move together again. So a change costs what its list is long,
 // amortised.
@@ -13,9 +13,9 @@
 
 namespace vox {
 
-class Lists {
+class IndexLists {
 public:
-    explicit Lists(std::pmr::memory_resource* memory) noexcept : rows_(memory), items_(memory) {}
+    explicit IndexLists(std::pmr::memory_resource* memory) noexcept : rows_(memory), items_(memory) {}
 
     std::pmr::memory_resource* memory() const noexcept { return rows_.get_allocator().resource(); }
     bool empty() const noexcept { return rows_.empty(); }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace vox::depth {
+namespace vox {
 
 inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, double{p.z}}; }
 inline Vec3d position_of(const Positions& positions, std::uint32_t vertex) noexcept {
@@ -29,4 +29,4 @@ inline Vec3d normalised(const Vec3d& a) noexcept {
     return {a.x / l, a.y / l, a.z / l};
 }
 
-} // namespace vox::depth
+} // namespace vox

@@ -31,7 +31,7 @@ constexpr double time_share = 0.003;
 // or one of the few far ones, and sampled one whose lists are gone through.
 constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 128, lists_ns = 20000;
 
-double choice_ns(double vertices, double tets, const Effort& effort) {
+double choice_ns(double vertices, double tets, const SampleBudget& effort) {
     return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
            static_cast<double>(effort.sample.lookups) *
                (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns +
@@ -139,12 +139,12 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
         vertices += body.vertex_count;
     }
     for (const Body& body : bodies) check_finite(body);
-    const Effort effort = quick(tets);
+    const SampleBudget effort = quick(tets);
     const vox_cost_weights weights = weights_in_use();
     // The first choice has to be made.
     if (sizes_.count != 0)
         credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
-    const ReferenceCost cost(bodies, setting.storage, effort, weights, memory);
+    const ReferenceModel cost(bodies, setting.storage, effort, weights, memory);
     CellSizeRange range{};
     if (!cost.range(range.min, range.max)) return false;
     floor_ = 0;
@@ -176,7 +176,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
 }
 
 void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
-    const Effort effort = quick(counters.tets);
+    const SampleBudget effort = quick(counters.tets);
     price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets), effort);
     credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), price_);
     if (counters.visited_entries == 0 || counters.visited_cells == 0) return;

@@ -19,19 +19,19 @@ constexpr int rest_bits = 47;
 
 } // namespace
 
-double ListChanges::cell_size(std::size_t i) const noexcept {
+double BranchMisses::cell_size(std::size_t i) const noexcept {
     const double within = 1 + static_cast<double>(i % per_octave) / per_octave;
     return std::ldexp(smallest * scale_ * within, static_cast<int>(i / per_octave));
 }
 
-std::size_t ListChanges::first_above(double distance) noexcept {
+std::size_t BranchMisses::first_above(double distance) noexcept {
     const double ratio = distance / smallest;
     if (!(ratio >= 1)) return 0;
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(ratio);
     return static_cast<std::size_t>((bits >> rest_bits) - (std::uint64_t{1023} << (52 - rest_bits)) + 1);
 }
 
-void ListChanges::add(const double (&lo)[3], const double (&hi)[3], std::span<const Point> points,
+void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<const Point> points,
                       double known) {
     ++boxes_;
     // In order of the first size whose cells they can be in (counting sort).
@@ -89,7 +89,7 @@ void ListChanges::add(const double (&lo)[3], const double (&hi)[3], std::span<co
     }
 }
 
-void ListChanges::finish() noexcept {
+void BranchMisses::finish() noexcept {
     // Sizes for which only boxes with few points around them tell would be wrong about the others.
     while (known_ < sizes && 4 * known_boxes_[known_] > 3 * boxes_) ++known_;
     const auto at = [&](std::size_t i) {
@@ -99,11 +99,11 @@ void ListChanges::finish() noexcept {
         share_[i] = (at(i > 0 ? i - 1 : i) + 2 * at(i) + at(std::min(i + 1, known_ - 1))) / 4;
 }
 
-double ListChanges::nearest(double size) const noexcept {
+double BranchMisses::nearest(double size) const noexcept {
     return known_ == 0 ? 0 : std::clamp(size, cell_size(0), cell_size(known_ - 1));
 }
 
-double ListChanges::share(double size) const noexcept {
+double BranchMisses::share(double size) const noexcept {
     const std::size_t above = std::clamp<std::size_t>(first_above(size / scale_), 1, known_), i = above - 1;
     if (above == known_) return double{share_[i]};
     const double below = cell_size(i), part = (size - below) / (cell_size(above) - below);

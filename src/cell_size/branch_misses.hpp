@@ -15,10 +15,10 @@
 
 namespace vox {
 
-class ListChanges {
+class BranchMisses {
 public:
     // Of boxes whose longest side is from `scale` to twice that.
-    explicit ListChanges(double scale) : scale_(scale) {}
+    explicit BranchMisses(double scale) : scale_(scale) {}
 
     // Cell sizes that are looked at; a point further from a box than one is in no cell of that size.
     double first_size() const noexcept { return cell_size(0); }

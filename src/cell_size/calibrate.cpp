@@ -138,14 +138,14 @@ double shortest(int times, Work&& work) {
 }
 
 void measure_reference(Scene& scene, vox_cost_weights& weights) {
-    Reference engine(Scene::memory());
+    ReferenceEngine engine(Scene::memory());
     std::pmr::vector<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
     std::vector<Timing> timings;
     for (const bool self : {false, true}) {
         for (Body& body : scene.bodies) body.self_collision = self;
-        const ReferenceCost cost(scene.bodies, VOX_STORAGE_HASHED, thorough, weights, Scene::memory());
+        const ReferenceModel cost(scene.bodies, VOX_STORAGE_HASHED, thorough, weights, Scene::memory());
         for (const double cell_size : cell_sizes) {
             ReferenceSettings settings;
             settings.cell_size = cell_size;
@@ -180,14 +180,14 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
 }
 
 void measure_fast(Scene& scene, vox_cost_weights& weights) {
-    Fast engine(Scene::memory());
+    FastEngine engine(Scene::memory());
     std::pmr::vector<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
     std::array<FastMesh*, 2> prepared{&scene.meshes[0], &scene.meshes[1]};
-    const std::array<const fast::Tiles*, 2> tiles{&scene.meshes[0], &scene.meshes[1]};
+    const std::array<const Tiles*, 2> tiles{&scene.meshes[0], &scene.meshes[1]};
     for (Body& body : scene.bodies) body.self_collision = true;
-    const FastCost cost(scene.bodies, tiles, {}, thorough, weights, Scene::memory());
+    const FastModel cost(scene.bodies, tiles, {}, thorough, weights, Scene::memory());
     std::vector<Timing> timings;
     for (const double cell_size : cell_sizes) {
         FastSettings settings;
@@ -197,7 +197,7 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
             hits.clear();
             engine.detect(scene.bodies, prepared, settings, hits, counters, profile);
         });
-        const FastCost::Counts c = cost.counts(cell_size, FastCost::Lie::as_it_is);
+        const FastModel::Counts c = cost.counts(cell_size, FastModel::Alignment::actual);
         const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +
                              c.tested * weights.fast_test_vertex;
         timings.push_back({time, {fixed, c.cells, c.rows, c.read}});

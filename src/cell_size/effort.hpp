@@ -8,7 +8,7 @@
 
 namespace vox {
 
-struct Effort {
+struct SampleBudget {
     std::size_t most_tets;  // whose boxes are taken, about; of more, some from everywhere
     SampleSizes sample;     // of which the surroundings are
     std::size_t most_looks; // of tiles into windows, gone through for each cell size
@@ -16,12 +16,12 @@ struct Effort {
 };
 
 // For a person who asks.
-inline constexpr Effort thorough{std::size_t{1} << 18, {4096, 4096, 1024, 512}, 4096, false};
+inline constexpr SampleBudget thorough{std::size_t{1} << 18, {4096, 4096, 1024, 512}, 4096, false};
 
 // Within a step, where choosing has to cost less than that step.
-Effort quick(std::uint64_t tets) noexcept;
+SampleBudget quick(std::uint64_t tets) noexcept;
 // The same for the model of the fast engine, whose steps are shorter; its lookups are fewer and more alike
 // and its cost is flat.
-Effort quick_tiles(std::uint64_t tets) noexcept;
+SampleBudget quick_tiles(std::uint64_t tets) noexcept;
 
 } // namespace vox

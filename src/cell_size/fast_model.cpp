@@ -8,7 +8,6 @@
 
 namespace vox {
 
-using fast::Box;
 
 namespace {
 
@@ -50,7 +49,7 @@ void append(const fast::Points& from, std::size_t first, std::uint32_t count, fa
 // What is near what, from the positions as they are now.
 class FromPositions {
 public:
-    FromPositions(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+    FromPositions(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
                   std::span<const Activity> activity, SceneBoxes& boxes, std::pmr::memory_resource* memory)
         : bodies_(bodies), tiles_(tiles), activity_(activity), boxes_(boxes), memory_(memory) {}
 
@@ -63,18 +62,18 @@ public:
             if (bodies_[pair.b].tets.empty() || !collide(bodies_[pair.a], bodies_[pair.b])) continue;
             if (!activity_.empty() && !activity_[pair.a].moves && !activity_[pair.b].moves) continue;
             Box region = boxes_.bodies()[pair.a];
-            fast::intersect(region, boxes_.bodies()[pair.b]);
-            Box covered = fast::empty_box;
+            intersect(region, boxes_.bodies()[pair.b]);
+            Box covered = empty_box;
             for (const Box& block : boxes_.blocks(pair.a))
-                if (fast::overlap(block, region)) fast::add(covered, block);
-            fast::intersect(region, covered);
-            if (fast::is_empty(region)) continue;
+                if (overlap(block, region)) add(covered, block);
+            intersect(region, covered);
+            if (is_empty(region)) continue;
             const std::size_t first_tile = met.size();
             boxes_.find_tiles(pair.b, region, met);
-            covered = fast::empty_box;
-            for (std::size_t t = first_tile; t < met.size(); ++t) fast::add(covered, met[t]);
-            fast::intersect(region, covered);
-            if (fast::is_empty(region))
+            covered = empty_box;
+            for (std::size_t t = first_tile; t < met.size(); ++t) add(covered, met[t]);
+            intersect(region, covered);
+            if (is_empty(region))
                 met.resize(first_tile);
             else
                 reaches.push_back({pair.a, pair.b, region, first_tile, met.size()});
@@ -84,7 +83,7 @@ public:
     Box own_region(std::uint32_t body) const {
         const bool self = bodies_[body].self_collision && !bodies_[body].tets.empty() &&
                           (activity_.empty() || activity_[body].meets_itself);
-        return self ? boxes_.bodies()[body] : fast::empty_box;
+        return self ? boxes_.bodies()[body] : empty_box;
     }
 
     void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) {
@@ -96,10 +95,10 @@ public:
                  fast::Points& points) const {
         const std::span<const Box> blocks = boxes_.blocks(body);
         const std::pmr::vector<std::uint32_t>& first_of = tiles_[body]->block_first;
-        const bool all = !fast::is_empty(own);
+        const bool all = !is_empty(own);
         const auto is_wanted = [&](const Box& block) {
             return all || std::any_of(reaches.begin(), reaches.end(),
-                                      [&](const Reach& r) { return fast::overlap(block, r.region); });
+                                      [&](const Reach& r) { return overlap(block, r.region); });
         };
         std::uint32_t first = 0, last = 0; // of a run of wanted blocks
         const auto collect_run = [&] {
@@ -120,7 +119,7 @@ public:
 
 private:
     std::span<const Body> bodies_;
-    std::span<const fast::Tiles* const> tiles_;
+    std::span<const Tiles* const> tiles_;
     std::span<const Activity> activity_;
     SceneBoxes& boxes_;
     std::pmr::memory_resource* memory_;
@@ -129,7 +128,7 @@ private:
 // The same from the engine's last step.
 class FromLastStep {
 public:
-    FromLastStep(std::span<const Body> bodies, const Fast& engine) : bodies_(bodies), engine_(engine) {}
+    FromLastStep(std::span<const Body> bodies, const FastEngine& engine) : bodies_(bodies), engine_(engine) {}
 
     void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) const {
         engine_.for_reaches([&](std::uint32_t a, std::uint32_t b, const Box& region) {
@@ -140,7 +139,7 @@ public:
     }
     Box own_region(std::uint32_t body) const {
         const bool self = engine_.activity(body, bodies_[body].vertex_count).meets_itself;
-        return self ? engine_.own_region(body) : fast::empty_box;
+        return self ? engine_.own_region(body) : empty_box;
     }
     void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
         engine_.for_tiles(body, region, [&](const Box& box) { met.push_back(box); });
@@ -154,46 +153,46 @@ public:
 
 private:
     std::span<const Body> bodies_;
-    const Fast& engine_;
+    const FastEngine& engine_;
 };
 
 } // namespace
 
-Effort quick_tiles(std::uint64_t tets) noexcept {
+SampleBudget quick_tiles(std::uint64_t tets) noexcept {
     const std::size_t lookups = std::clamp<std::size_t>(static_cast<std::size_t>(tets / 2048), 4, 32);
     return {0, {lookups, 2 * lookups + 32, lookups + 8}, std::max<std::size_t>(lookups, 16), true};
 }
 
-FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-                   std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
+FastModel::FastModel(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
+                   std::span<const Activity> activity, const SampleBudget& effort, const vox_cost_weights& weights,
                    std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
     SceneBoxes boxes(bodies, tiles, memory);
     look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
 }
 
-FastCost::FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-                   std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+FastModel::FastModel(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
+                   std::span<const Activity> activity, SceneBoxes& boxes, const SampleBudget& effort,
                    const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
     look(bodies, FromPositions(bodies, tiles, activity, boxes, memory), effort, memory);
 }
 
-FastCost::FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
+FastModel::FastModel(std::span<const Body> bodies, const FastEngine& last_step, const SampleBudget& effort,
                    const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : pools_(memory), weights_(weights), most_looks_(effort.most_looks) {
     look(bodies, FromLastStep(bodies, last_step), effort, memory);
 }
 
 template <class Source>
-void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort& effort,
+void FastModel::look(std::span<const Body> bodies, Source&& source, const SampleBudget& effort,
                     std::pmr::memory_resource* memory) {
     std::pmr::vector<Box> met(memory);
     std::pmr::vector<Reach> reaches(memory);
     source.find_reaches(reaches, met);
     std::size_t all = met.size();
     for (const Body& body : bodies)
-        if (body.self_collision) all += body.tets.size() / fast::tile_size;
+        if (body.self_collision) all += body.tets.size() / tile_size;
     // Of very many looks, every so many.
     const std::size_t stride = all / (looks_to_take * most_looks_) + 1;
     std::size_t seen = stride / 2;
@@ -208,14 +207,14 @@ void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort&
         const std::span<const Reach> own(begin, reach);
         const Box own_region = source.own_region(a);
         Box region = own_region;
-        for (const Reach& r : own) fast::add(region, r.region);
-        if (fast::is_empty(region)) continue;
+        for (const Reach& r : own) add(region, r.region);
+        if (is_empty(region)) continue;
         points.count = 0;
         source.collect(a, own, own_region, region, points);
         if (points.count == 0) continue;
 
         const Box window = fast::bounds(points);
-        const fast::Lattice finest = fast::make_lattice(window, 0, most_cells(points.count));
+        const fast::WindowLattice finest = fast::make_lattice(window, 0, most_cells(points.count));
         Pool& pool = pool_of(1 / double{finest.inverse}, effort.sample);
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
@@ -228,10 +227,10 @@ void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort&
         else
             append(points, 0, points.count, pool.points);
         const auto look = [&](std::span<const Box> tile_boxes, Box where) {
-            fast::intersect(where, window);
+            intersect(where, window);
             for (Box box : tile_boxes) {
-                if (!fast::overlap(box, where) || seen++ % stride != 0) continue;
-                fast::intersect(box, where);
+                if (!overlap(box, where) || seen++ % stride != 0) continue;
+                intersect(box, where);
                 Lookup lookup{};
                 Look& look = pool.looks.emplace_back();
                 for (int i = 0; i < 3; ++i) {
@@ -246,7 +245,7 @@ void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort&
                 pool.profile.add(lookup, static_cast<double>(stride));
             }
         };
-        if (!fast::is_empty(own_region)) {
+        if (!is_empty(own_region)) {
             const std::size_t first_tile = met.size();
             source.find_tiles(a, own_region, met);
             look(std::span(met).subspan(first_tile), own_region);
@@ -261,7 +260,7 @@ void FastCost::look(std::span<const Body> bodies, Source&& source, const Effort&
     }
 }
 
-FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes) {
+FastModel::Pool& FastModel::pool_of(double smallest_cell, const SampleSizes& sizes) {
     const int key = static_cast<int>(std::floor(2 * std::log2(smallest_cell)));
     for (Pool& pool : pools_)
         if (pool.key == key) return pool;
@@ -270,23 +269,23 @@ FastCost::Pool& FastCost::pool_of(double smallest_cell, const SampleSizes& sizes
 
 // In the mean, a side has this much added to it along an axis by whole cells, inside the window: a point at
 // distance e from the side is in one of its cells with probability 1 - e/d.
-double FastCost::Pool::along(const Look& look, int axis, double inverse) noexcept {
+double FastModel::Pool::along(const Look& look, int axis, double inverse) noexcept {
     const double below = std::min(look.below[axis] * inverse, 1.0),
                  above = std::min(look.above[axis] * inverse, 1.0);
     return look.side[axis] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
 }
 
-void FastCost::Pool::add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept {
+void FastModel::Pool::add(double cell_size, Alignment lie, std::size_t most_looks, Counts& sum) const noexcept {
     sum.vertices += points.count;
     sum.cells += cells.at(cell_size);
     sum.looks += profile.count();
     sum.tested += profile.candidates();
     if (looks.empty()) return;
-    if (lie == Lie::in_the_mean) sum.rows += mean_rows(cell_size, most_looks);
-    sum.read += profile.read(cell_size) * (lie == Lie::as_it_is ? laid(cell_size, most_looks, sum) : 1);
+    if (lie == Alignment::average) sum.rows += mean_rows(cell_size, most_looks);
+    sum.read += profile.read(cell_size) * (lie == Alignment::actual ? laid(cell_size, most_looks, sum) : 1);
 }
 
-double FastCost::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
+double FastModel::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {
     if (cell_size >= largest_side) return profile.count(); // all in one cell
     const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
@@ -296,7 +295,7 @@ double FastCost::Pool::mean_rows(double cell_size, std::size_t most_looks) const
     return rows * (profile.count() / count);
 }
 
-double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
+double FastModel::Pool::laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept {
     const std::size_t stride = looks.size() / most_looks + 1;
     const double inverse = 1 / cell_size;
     double rows = 0, visited = 0, mean = 0, as_laid = 0, count = 0;
@@ -323,7 +322,7 @@ double FastCost::Pool::laid(double cell_size, std::size_t most_looks, Counts& su
     return mean > 0 ? as_laid / mean : 1;
 }
 
-FastCost::Work FastCost::work() const noexcept {
+FastModel::Work FastModel::work() const noexcept {
     Work work;
     for (const Pool& pool : pools_) {
         const std::size_t stride = pool.looks.size() / most_looks_ + 1;
@@ -333,7 +332,7 @@ FastCost::Work FastCost::work() const noexcept {
     return work;
 }
 
-bool FastCost::range(double& min, double& max) const noexcept {
+bool FastModel::range(double& min, double& max) const noexcept {
     bool any = false;
     for (const Pool& pool : pools_) {
         double smallest = 0, largest = 0;
@@ -347,13 +346,13 @@ bool FastCost::range(double& min, double& max) const noexcept {
     return any;
 }
 
-FastCost::Counts FastCost::counts(double cell_size, Lie lie) const {
+FastModel::Counts FastModel::counts(double cell_size, Alignment lie) const {
     Counts sum;
     for (const Pool& pool : pools_) pool.add(pool.effective(cell_size), lie, most_looks_, sum);
     return sum;
 }
 
-CostTerms FastCost::terms(double cell_size, Lie lie) const {
+CostTerms FastModel::terms(double cell_size, Alignment lie) const {
     const Counts c = counts(cell_size, lie);
     CostTerms terms;
     terms.add("bin a vertex", c.vertices, weights_.fast_bin_vertex);

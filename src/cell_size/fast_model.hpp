@@ -30,30 +30,30 @@
 
 namespace vox {
 
-class FastCost {
+class FastModel {
 public:
     // `tiles` of each body, and what its last step was like, if it is known: then `activity` has as many.
     // Measures the positions as they are now; all of them are finite.
-    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-             std::span<const Activity> activity, const Effort& effort, const vox_cost_weights& weights,
+    FastModel(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
+             std::span<const Activity> activity, const SampleBudget& effort, const vox_cost_weights& weights,
              std::pmr::memory_resource* memory);
 
     // The same with boxes that are there already, of the same bodies and tiles.
-    FastCost(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
-             std::span<const Activity> activity, SceneBoxes& boxes, const Effort& effort,
+    FastModel(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
+             std::span<const Activity> activity, SceneBoxes& boxes, const SampleBudget& effort,
              const vox_cost_weights& weights, std::pmr::memory_resource* memory);
 
     // The same from what the engine found in its last step, of these bodies where they were then.
-    FastCost(std::span<const Body> bodies, const Fast& last_step, const Effort& effort,
+    FastModel(std::span<const Body> bodies, const FastEngine& last_step, const SampleBudget& effort,
              const vox_cost_weights& weights, std::pmr::memory_resource* memory);
 
     // A window's lattice begins at its corner: how the tiles lie in it is a matter of luck, which tells in
     // small windows. Counted as it is, or in the mean over all ways to lie, which is smooth in the cell size
     // and what to choose one by: bodies move on.
-    enum class Lie { as_it_is, in_the_mean };
+    enum class Alignment { actual, average };
 
-    CostTerms terms(double cell_size, Lie lie) const;
-    double operator()(double cell_size) const { return terms(cell_size, Lie::in_the_mean).cost(); }
+    CostTerms terms(double cell_size, Alignment lie) const;
+    double operator()(double cell_size) const { return terms(cell_size, Alignment::average).cost(); }
 
     // Cell sizes that are worth a look; false where no body is near another one, or itself.
     bool range(double& min, double& max) const noexcept;
@@ -64,7 +64,7 @@ public:
         double rows = 0, read = 0, tested = 0;
         double visited_cells = 0; // as they lie alone
     };
-    Counts counts(double cell_size, Lie lie) const;
+    Counts counts(double cell_size, Alignment lie) const;
 
     // What it takes: points looked at near sampled tiles, once, and looks gone through for each cell size.
     struct Work {
@@ -84,14 +84,14 @@ private:
 
         double effective(double cell_size) const noexcept { return std::max(cell_size, smallest_cell); }
         // From so many looks, evenly spread, at most.
-        void add(double cell_size, Lie lie, std::size_t most_looks, Counts& sum) const noexcept;
+        void add(double cell_size, Alignment lie, std::size_t most_looks, Counts& sum) const noexcept;
         static double along(const Look& look, int axis, double inverse) noexcept; // cells, in the mean
         double mean_rows(double cell_size, std::size_t most_looks) const noexcept;
         // Adds rows and cells as they lie; returns how much of the window they cover, over that in the mean.
         double laid(double cell_size, std::size_t most_looks, Counts& sum) const noexcept;
 
         int key;
-        Profile profile;
+        Lookups profile;
         fast::Points points;
         std::pmr::vector<Look> looks;
         double windows = 0, smallest_cell = 0; // of a window, in the mean
@@ -100,7 +100,7 @@ private:
     };
 
     template <class Source>
-    void look(std::span<const Body> bodies, Source&& source, const Effort& effort,
+    void look(std::span<const Body> bodies, Source&& source, const SampleBudget& effort,
               std::pmr::memory_resource* memory);
     Pool& pool_of(double smallest_cell, const SampleSizes& sizes);
 

@@ -33,7 +33,7 @@ Geometry measure(std::span<const Body> bodies,
 // of each body, around all of its vertices, which are finite then; empty: not known. Counts of edges and
 // facets are the topology's, the rest is an estimate, good to a few per cent where sizes are not spread far.
 Geometry estimate(std::span<const Body> bodies, std::span<const MeshSample* const> meshes,
-                  std::span<const fast::Box> boxes, std::size_t samples, std::pmr::memory_resource* memory);
+                  std::span<const Box> boxes, std::size_t samples, std::pmr::memory_resource* memory);
 
 // The means of the statistics, however they were taken: of each quantity one that has a value().
 template <class Means>

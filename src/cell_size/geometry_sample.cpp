@@ -158,11 +158,11 @@ struct Extent {
 };
 
 // `box` is that of all vertices, if it is known.
-Extent extent_of(const Body& body, const MeshSample& sample, const fast::Box* box) {
+Extent extent_of(const Body& body, const MeshSample& sample, const Box* box) {
     Extent extent;
     const bool some_unused = !sample.unused_vertices.empty();
     if (body.vertex_count > 0 && !some_unused && fast::is_packed(body.positions)) {
-        fast::Box all = fast::empty_box, same{};
+        Box all = empty_box, same{};
         if (box) {
             all = *box;
         } else {
@@ -194,7 +194,7 @@ Extent extent_of(const Body& body, const MeshSample& sample, const fast::Box* bo
 } // namespace
 
 Geometry estimate(std::span<const Body> bodies, std::span<const MeshSample* const> meshes,
-                  std::span<const fast::Box> boxes, std::size_t samples, std::pmr::memory_resource* memory) {
+                  std::span<const Box> boxes, std::size_t samples, std::pmr::memory_resource* memory) {
     Geometry result{};
     vox_geometry_stats& stats = result.stats;
     Extent bounds;

@@ -23,7 +23,7 @@ constexpr std::size_t most_sizes = 160;
 // What the classes cost at the sizes of a range, even in the logarithm. Those of one exponent are one group.
 class Table {
 public:
-    Table(const ReferenceCost& cost, std::span<const int> exponents, const CellSizeRange& range,
+    Table(const ReferenceModel& cost, std::span<const int> exponents, const CellSizeRange& range,
           std::pmr::memory_resource* memory)
         : range_(range), grid_(memory), sum_(memory) {
         const double octaves = std::log2(range.max / range.min);
@@ -75,7 +75,7 @@ private:
 
 // The best cell size for the classes of some exponents near the one of the table, whose sizes are too far
 // apart for what regular points make of it.
-double refined(const ReferenceCost& cost, int first_exponent, int last_exponent, double cell_size,
+double refined(const ReferenceModel& cost, int first_exponent, int last_exponent, double cell_size,
                const CellSizeRange& range) {
     const auto of_level = [&](double d) {
         const double occupied = cost.occupied(d);
@@ -94,7 +94,7 @@ double refined(const ReferenceCost& cost, int first_exponent, int last_exponent,
 
 } // namespace
 
-Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range) {
+Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     std::pmr::memory_resource* const memory = cost.profile().classes().get_allocator().resource();
     std::pmr::vector<int> exponents(memory);
     for (const SizeClass& c : cost.profile().classes()) exponents.push_back(c.exponent);
@@ -149,7 +149,7 @@ const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels)
     return levels[l];
 }
 
-double cost_of_levels(const ReferenceCost& cost, std::span<const CellLevel> levels) {
+double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels) {
     double sum = cost.shared();
     for (const CellLevel& level : levels) sum += cost.of_grid(level.cell_size);
     for (const SizeClass& c : cost.profile().classes()) {

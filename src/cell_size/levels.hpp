@@ -21,11 +21,11 @@ struct Levels {
 
 // The best way to share the size classes of the tetrahedra, in order, among at most that many grids, with
 // cell sizes in the range. Every vertex is in each of them. One level where more do not pay.
-Levels choose_levels(const ReferenceCost& cost, const CellSizeRange& range);
+Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range);
 
 // The level that the boxes of a class look into: that of the smallest of them.
 const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels);
 // A step with these levels, one at least.
-double cost_of_levels(const ReferenceCost& cost, std::span<const CellLevel> levels);
+double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels);
 
 } // namespace vox

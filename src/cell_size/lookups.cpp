@@ -61,15 +61,15 @@ struct Binned {
 };
 
 // The cells that hold all that is not further from a box than `near`.
-void cells_around(const Lookup& l, double near, const fast::Lattice& lattice, std::uint32_t (&lo)[3],
+void cells_around(const Lookup& l, double near, const fast::WindowLattice& lattice, std::uint32_t (&lo)[3],
                   std::uint32_t (&hi)[3]) {
     // As floats no further in than they are.
     constexpr double largest = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
         const auto below = static_cast<float>(std::max(l.lo[a] - near, -largest));
         const auto above = static_cast<float>(std::min(l.hi[a] + near, largest));
-        lo[a] = lattice.cell(std::nextafter(below, -fast::infinity), a);
-        hi[a] = lattice.cell(std::nextafter(above, fast::infinity), a);
+        lo[a] = lattice.cell(std::nextafter(below, -float_infinity), a);
+        hi[a] = lattice.cell(std::nextafter(above, float_infinity), a);
     }
 }
 
@@ -77,7 +77,7 @@ void cells_around(const Lookup& l, double near, const fast::Lattice& lattice, st
 // from the few. The weight is how many of their like they stand for.
 template <class Count>
 void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
-    const fast::Lattice& lattice = in.window.lattice;
+    const fast::WindowLattice& lattice = in.window.lattice;
     std::uint32_t lo[3], hi[3];
     cells_around(l, near, lattice, lo, hi);
     const auto position = [&](std::size_t i) {
@@ -116,16 +116,16 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
 
 // The points nearer to a box than `most`; than less where those are too many, and 0 where those nearer than
 // the smallest cell size are. Returns how near.
-double gather(const Lookup& l, const ListChanges& changes, double most, const Binned& in,
-              std::pmr::vector<ListChanges::Point>& points) {
-    const fast::Lattice& lattice = in.window.lattice;
+double gather(const Lookup& l, const BranchMisses& changes, double most, const Binned& in,
+              std::pmr::vector<BranchMisses::Point>& points) {
+    const fast::WindowLattice& lattice = in.window.lattice;
     const auto in_scale = [&](double length) { return static_cast<float>(length / changes.scale()); };
     for (double near = most; near >= changes.first_size(); near *= 0.8) {
         points.clear();
         std::uint32_t lo[3], hi[3];
         cells_around(l, near, lattice, lo, hi);
         for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
-            for (std::uint32_t y = lo[1]; y <= hi[1] && points.size() <= ListChanges::most_points; ++y) {
+            for (std::uint32_t y = lo[1]; y <= hi[1] && points.size() <= BranchMisses::most_points; ++y) {
                 const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
                 for (std::size_t i = in.begin[row + lo[0]]; i < in.begin[row + hi[0] + 1]; ++i) {
                     const double p[3] = {in.points.x[i], in.points.y[i], in.points.z[i]};
@@ -134,10 +134,10 @@ double gather(const Lookup& l, const ListChanges& changes, double most, const Bi
                     points.push_back(
                         {{in_scale(p[0] - l.lo[0]), in_scale(p[1] - l.lo[1]), in_scale(p[2] - l.lo[2])},
                          in_scale(distance)});
-                    if (points.size() > ListChanges::most_points) break;
+                    if (points.size() > BranchMisses::most_points) break;
                 }
             }
-        if (points.size() <= ListChanges::most_points) return near;
+        if (points.size() <= BranchMisses::most_points) return near;
     }
     points.clear();
     return 0;
@@ -175,12 +175,12 @@ SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std:
     sample.reserve(most_samples);
 }
 
-Profile::Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory)
+Lookups::Lookups(const SampleSizes& sizes, std::pmr::memory_resource* memory)
     : sizes_(sizes), classes_(memory) {
     index_.fill(-1);
 }
 
-SizeClass& Profile::class_of(double side, bool may_meet) {
+SizeClass& Lookups::class_of(double side, bool may_meet) {
     // A box without sides counts as very small; scaled, it would have no class of points.
     const int exponent =
         side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
@@ -192,7 +192,7 @@ SizeClass& Profile::class_of(double side, bool may_meet) {
     return classes_[static_cast<std::size_t>(index)];
 }
 
-void Profile::add(const Lookup& lookup, double weight) {
+void Lookups::add(const Lookup& lookup, double weight) {
     SizeClass& c = class_of(longest_side(lookup), lookup.may_meet);
     const double w[3] = {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1],
                          lookup.hi[2] - lookup.lo[2]};
@@ -212,7 +212,7 @@ void Profile::add(const Lookup& lookup, double weight) {
 // Calls around(lookup, count) for the lookups of a class that are in the sample; there count(id, distances,
 // weight) takes a point. Returns how many they are.
 template <class Around>
-std::size_t Profile::count_around(SizeClass& c, double lookups, Around&& around) {
+std::size_t Lookups::count_around(SizeClass& c, double lookups, Around&& around) {
     // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
     const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
     const auto size =
@@ -229,7 +229,7 @@ std::size_t Profile::count_around(SizeClass& c, double lookups, Around&& around)
     return size;
 }
 
-void Profile::count_points(const fast::Points& points, Occupied occupied) {
+void Lookups::count_points(const fast::Points& points, Occupied occupied) {
     const double lookups = count();
     if (occupied == Occupied::not_counted && points.count <= sizes_.near_points + sizes_.far_points) {
         for (SizeClass& c : classes_) // all of them are around each
@@ -248,16 +248,16 @@ void Profile::count_points(const fast::Points& points, Occupied occupied) {
     }
 }
 
-void Profile::count_binned(const fast::Points& points, double lookups, Occupied occupied) {
+void Lookups::count_binned(const fast::Points& points, double lookups, Occupied occupied) {
     if (points.count == 0) return;
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
     std::pmr::vector<std::uint32_t> buffer(memory);
-    std::pmr::vector<ListChanges::Point> around(memory);
-    const fast::Box box = fast::bounds(points);
+    std::pmr::vector<BranchMisses::Point> around(memory);
+    const Box box = fast::bounds(points);
     const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
     bins.points.reserve(points.count);
-    const fast::Lattice lattice = fast::make_lattice(points, box, 0, most);
+    const fast::WindowLattice lattice = fast::make_lattice(points, box, 0, most);
     const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
     double smallest = 1, largest = 1;
     if (sides(smallest, largest)) {
@@ -278,8 +278,8 @@ void Profile::count_binned(const fast::Points& points, double lookups, Occupied 
 }
 
 template <class In>
-void Profile::count_lists(SizeClass& c, std::size_t wanted, const In& in,
-                          std::pmr::vector<ListChanges::Point>& points) {
+void Lookups::count_lists(SizeClass& c, std::size_t wanted, const In& in,
+                          std::pmr::vector<BranchMisses::Point>& points) {
     const double least = c.changes.first_size(), most = c.changes.last_size();
     double near = most;
     for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
@@ -295,7 +295,7 @@ void Profile::count_lists(SizeClass& c, std::size_t wanted, const In& in,
 // points, and their neighbours for a random number of the same mean (Poisson): E[1 / (1 + N)] = (1 - exp(-m))
 // / m.
 template <class In>
-void Profile::count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
+void Lookups::count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                            double points_per_lookup) {
     const std::size_t size = std::min(c.sample.size(), wanted);
     const double each = c.count * points_per_lookup / static_cast<double>(size);
@@ -317,38 +317,38 @@ void Profile::count_crowds(const SizeClass& c, std::size_t wanted, double near, 
 
 // ---- results --------------------------------------------------------------------------------------
 
-double Profile::count() const noexcept {
+double Lookups::count() const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.count;
     return sum;
 }
-double Profile::cells(double cell_size) const noexcept {
+double Lookups::cells(double cell_size) const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.cells.at(cell_size);
     return sum;
 }
-double Profile::rows(double cell_size) const noexcept {
+double Lookups::rows(double cell_size) const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.rows.at(cell_size);
     return sum;
 }
-double Profile::read(double cell_size) const noexcept {
+double Lookups::read(double cell_size) const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.passed.at(cell_size) + c.tested.at(cell_size);
     return sum;
 }
-double Profile::tested(double cell_size) const noexcept {
+double Lookups::tested(double cell_size) const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.tested.at(cell_size);
     return sum;
 }
-double Profile::candidates() const noexcept {
+double Lookups::candidates() const noexcept {
     double sum = 0;
     for (const SizeClass& c : classes_) sum += c.tested.inside();
     return sum;
 }
 
-double Profile::occupied(double cell_size) const noexcept {
+double Lookups::occupied(double cell_size) const noexcept {
     const double place = std::clamp(std::log(cell_size / first_size_) / std::log(size_ratio_), 0.0,
                                     static_cast<double>(occupied_sizes - 1));
     const auto below = std::min(static_cast<std::size_t>(place), occupied_sizes - 2);
@@ -356,7 +356,7 @@ double Profile::occupied(double cell_size) const noexcept {
     return std::max(occupied_[below] * (1 - part) + occupied_[below + 1] * part, 1.0);
 }
 
-bool Profile::sides(double& smallest, double& largest) const noexcept {
+bool Lookups::sides(double& smallest, double& largest) const noexcept {
     bool any = false;
     for (const SizeClass& c : classes_) {
         if (c.exponent == -exponents / 2) continue;

@@ -108,7 +108,7 @@ struct SizeClass {
     std::uint64_t added = 0; // of calls that gave them
     Moments cells, rows;     // of all lookups of the class together, as the points are
     PointsMet passed, tested;
-    ListChanges changes;
+    BranchMisses changes;
     std::pmr::vector<Lookup> sample;
 };
 
@@ -122,9 +122,9 @@ struct SampleSizes {
 // Whether it is told how many cells have a point in them, which takes a look of its own.
 enum class Occupied : bool { not_counted, counted };
 
-class Profile {
+class Lookups {
 public:
-    Profile(const SampleSizes& sizes, std::pmr::memory_resource* memory);
+    Lookups(const SampleSizes& sizes, std::pmr::memory_resource* memory);
 
     // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample.
     // Sides are finite.
@@ -156,7 +156,7 @@ private:
     void count_binned(const fast::Points& points, double lookups, Occupied occupied);
     template <class In>
     void count_lists(SizeClass& c, std::size_t wanted, const In& in,
-                     std::pmr::vector<ListChanges::Point>& points);
+                     std::pmr::vector<BranchMisses::Point>& points);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);

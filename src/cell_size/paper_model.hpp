@@ -9,7 +9,7 @@
 
 namespace vox {
 
-struct PaperCost {
+struct PaperModel {
     double p_nc; // probability that a tetrahedron has no collision, in (0, 1)
     double
         k; // in [1e-290, 1e290]: then nothing here overflows for x within a factor of 1000 of the least cost
@@ -32,6 +32,6 @@ struct Zone {
 
 // All x with cost(x) <= limit, for a limit of at least the cost at x_best, the minimiser: the cost falls
 // before it and rises after it, without bound.
-Zone zone_around(double x_best, double limit, const PaperCost& cost);
+Zone zone_around(double x_best, double limit, const PaperModel& cost);
 
 } // namespace vox

@@ -67,7 +67,7 @@ bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
 
 } // namespace
 
-Effort quick(std::uint64_t tets) noexcept {
+SampleBudget quick(std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
     // How lists change takes the surroundings of a hundred boxes to tell, whatever the scene. In a small one
     // that takes too long, and is worth little: how the lattice happens to lie decides there.
@@ -79,7 +79,7 @@ Effort quick(std::uint64_t tets) noexcept {
             true};
 }
 
-ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
+ReferenceModel::ReferenceModel(std::span<const Body> bodies, vox_storage storage, const SampleBudget& effort,
                              const vox_cost_weights& weights, std::pmr::memory_resource* memory)
     : profile_(effort.sample, memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
     std::size_t vertices = 0, tets = 0;
@@ -91,9 +91,9 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
     tets_ = static_cast<double>(tets);
     fast::Points points(memory);
     points.reserve(vertices);
-    std::pmr::vector<fast::Box> boxes(memory);
+    std::pmr::vector<Box> boxes(memory);
     for (const Body& body : bodies) {
-        boxes.push_back(fast::empty_box);
+        boxes.push_back(empty_box);
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
             const auto p = body.positions[v];
             const std::uint32_t i = points.count++;
@@ -101,7 +101,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
             points.y[i] = static_cast<float>(p.y);
             points.z[i] = static_cast<float>(p.z);
             points.id[i] = i;
-            fast::add(boxes.back(), {{points.x[i], points.y[i], points.z[i], 0},
+            add(boxes.back(), {{points.x[i], points.y[i], points.z[i], 0},
                                      {points.x[i], points.y[i], points.z[i], 0}});
         }
     }
@@ -144,7 +144,7 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
             const double margin = std::max(
                 {lookup.hi[0] - lookup.lo[0], lookup.hi[1] - lookup.lo[1], lookup.hi[2] - lookup.lo[2]});
             lookup.may_meet = std::any_of(others.begin(), others.end(), [&](const fast::Pair& other) {
-                const fast::Box& box = boxes[other.b];
+                const Box& box = boxes[other.b];
                 for (int a = 0; a < 3; ++a)
                     if (lookup.lo[a] - margin > double{box.hi[a]} ||
                         lookup.hi[a] + margin < double{box.lo[a]})
@@ -155,13 +155,13 @@ ReferenceCost::ReferenceCost(std::span<const Body> bodies, vox_storage storage, 
         });
     }
     if (points.count > 0) {
-        const fast::Box box = fast::bounds(points);
+        const Box box = fast::bounds(points);
         for (int a = 0; a < 3; ++a) sides_[a] = double{box.hi[a]} - double{box.lo[a]};
     }
     profile_.count_points(points, Occupied::counted);
 }
 
-bool ReferenceCost::range(double& min, double& max) const noexcept {
+bool ReferenceModel::range(double& min, double& max) const noexcept {
     double smallest = 0, largest = 0;
     if (!profile_.sides(smallest, largest)) return false;
     min = smallest / 16;
@@ -169,13 +169,13 @@ bool ReferenceCost::range(double& min, double& max) const noexcept {
     return true;
 }
 
-double ReferenceCost::dense_cells(double cell_size) const noexcept {
+double ReferenceModel::dense_cells(double cell_size) const noexcept {
     double cells = 1;
     for (const double side : sides_) cells *= std::max(1.0, std::ceil(side / cell_size));
     return cells;
 }
 
-double ReferenceCost::least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept {
+double ReferenceModel::least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept {
     const double limit = 0x1p31 - 1, fitting = byte_limit / sizeof(std::uint32_t);
     const double most = byte_limit > 0 ? std::min(limit, fitting) : limit;
     if (dense_cells(range.min) <= most) return 0;
@@ -189,27 +189,27 @@ double ReferenceCost::least_cell_size(double byte_limit, const CellSizeRange& ra
     return std::exp(high);
 }
 
-double ReferenceCost::buckets(double cell_size) const noexcept {
+double ReferenceModel::buckets(double cell_size) const noexcept {
     return dense_ ? dense_cells(cell_size) : 2 * vertices_;
 }
 
-double ReferenceCost::occupied(double cell_size) const noexcept {
+double ReferenceModel::occupied(double cell_size) const noexcept {
     return std::min(profile_.occupied(cell_size), vertices_);
 }
 
 // Beyond the sizes looked at, in proportion to what it would be in an irregular mesh.
-double ReferenceCost::changed_share(const SizeClass& c, double cell_size, double mean) noexcept {
+double ReferenceModel::changed_share(const SizeClass& c, double cell_size, double mean) noexcept {
     const double nearest = c.changes.nearest(cell_size);
     if (nearest == cell_size) return c.changes.share(cell_size);
-    const double irregular = ListChanges::of_irregular(mean);
+    const double irregular = BranchMisses::of_irregular(mean);
     if (nearest == 0) return irregular;
     const double mean_there = (c.passed.at(nearest) + c.tested.at(nearest)) / c.cells.at(nearest);
     if (!(mean_there > 0)) return 0;
-    return std::min(c.changes.share(nearest) * irregular / ListChanges::of_irregular(mean_there), 1.0);
+    return std::min(c.changes.share(nearest) * irregular / BranchMisses::of_irregular(mean_there), 1.0);
 }
 
 // A box that meets more cells than are occupied goes through those instead.
-ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, double occupied) noexcept {
+ReferenceModel::Work ReferenceModel::work(const SizeClass& c, double cell_size, double occupied) noexcept {
     Work work;
     const double cells = c.cells.at(cell_size), scanned = occupied * c.count, passed = c.passed.at(cell_size);
     work.tested = c.tested.at(cell_size);
@@ -224,7 +224,7 @@ ReferenceCost::Work ReferenceCost::work(const SizeClass& c, double cell_size, do
     return work;
 }
 
-ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
+ReferenceModel::Work ReferenceModel::work(double cell_size) const noexcept {
     const double occupied_cells = occupied(cell_size);
     Work sum;
     for (const SizeClass& c : profile_.classes()) {
@@ -239,17 +239,17 @@ ReferenceCost::Work ReferenceCost::work(double cell_size) const noexcept {
     return sum;
 }
 
-double ReferenceCost::visit_units(double cell_size) const noexcept {
+double ReferenceModel::visit_units(double cell_size) const noexcept {
     const Work w = work(cell_size);
     return w.visited + w.changed * changed_list;
 }
 
-double ReferenceCost::read_units(double cell_size) const noexcept {
+double ReferenceModel::read_units(double cell_size) const noexcept {
     const Work w = work(cell_size);
     return w.read + w.fetched * fetch;
 }
 
-CostTerms ReferenceCost::terms(double cell_size) const {
+CostTerms ReferenceModel::terms(double cell_size) const {
     const Work w = work(cell_size);
     CostTerms terms;
     terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
@@ -265,16 +265,16 @@ CostTerms ReferenceCost::terms(double cell_size) const {
     return terms;
 }
 
-double ReferenceCost::of_grid(double cell_size) const noexcept {
+double ReferenceModel::of_grid(double cell_size) const noexcept {
     return vertices_ * weights_.reference_classify_vertex +
            buckets(cell_size) * weights_.reference_clear_bucket;
 }
 
-double ReferenceCost::of_changes(double cell_size) const noexcept {
+double ReferenceModel::of_changes(double cell_size) const noexcept {
     return work(cell_size).changed * changed_list * weights_.reference_visit_cell;
 }
 
-double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
+double ReferenceModel::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
     const Work w = work(c, cell_size, occupied);
     return (w.visited + w.changed * changed_list) * weights_.reference_visit_cell +
            w.scanned * weights_.reference_scan_cell +
@@ -282,7 +282,7 @@ double ReferenceCost::of_class(const SizeClass& c, double cell_size, double occu
            w.tested * weights_.reference_test_box;
 }
 
-double ReferenceCost::shared() const noexcept {
+double ReferenceModel::shared() const noexcept {
     return tets_ * weights_.reference_prepare_tet + profile_.candidates() * weights_.reference_test_tet;
 }
 

@@ -27,13 +27,13 @@
 
 namespace vox {
 
-class ReferenceCost {
+class ReferenceModel {
 public:
     // Measures the positions as they are now; all of them are finite. Memory is given back on return.
-    ReferenceCost(std::span<const Body> bodies, vox_storage storage, const Effort& effort,
+    ReferenceModel(std::span<const Body> bodies, vox_storage storage, const SampleBudget& effort,
                   const vox_cost_weights& weights, std::pmr::memory_resource* memory);
-    ReferenceCost(const ReferenceCost&) = delete;
-    ReferenceCost& operator=(const ReferenceCost&) = delete;
+    ReferenceModel(const ReferenceModel&) = delete;
+    ReferenceModel& operator=(const ReferenceModel&) = delete;
 
     CostTerms terms(double cell_size) const;
     double operator()(double cell_size) const { return terms(cell_size).cost(); }
@@ -41,7 +41,7 @@ public:
     // Cell sizes that are worth a look; false where there is no tetrahedron of any size.
     bool range(double& min, double& max) const noexcept;
 
-    const Profile& profile() const noexcept { return profile_; }
+    const Lookups& profile() const noexcept { return profile_; }
     double dense_cells(double cell_size) const noexcept;
     // The smallest cell size in the range whose cells dense storage takes, within the bytes (0: any number);
     // 0 where all of the range is fine.
@@ -74,7 +74,7 @@ private:
     static double changed_share(const SizeClass& c, double cell_size, double mean) noexcept;
     double buckets(double cell_size) const noexcept;
 
-    Profile profile_;
+    Lookups profile_;
     vox_cost_weights weights_;
     bool dense_;
     double vertices_ = 0, tets_ = 0;

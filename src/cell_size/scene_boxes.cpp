@@ -7,9 +7,9 @@
 
 namespace vox {
 
-SceneBoxes::SceneBoxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+SceneBoxes::SceneBoxes(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
                        std::pmr::memory_resource* memory)
-    : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(bodies.size(), fast::empty_box, memory),
+    : tiles_(tiles), rounded_(memory), positions_(memory), bodies_(bodies.size(), empty_box, memory),
       blocks_(memory), tile_boxes_(memory), known_(memory), sides_(memory), first_block_(memory),
       first_tile_(memory) {
     std::size_t block_count = 0, tile_count = 0, rounded = 0;
@@ -45,23 +45,23 @@ SceneBoxes::SceneBoxes(std::span<const Body> bodies, std::span<const fast::Tiles
 }
 
 // A super-tile is out of reach when all of its blocks lie on the same side of the region.
-void SceneBoxes::find_tiles(std::size_t body, const fast::Box& region, std::pmr::vector<fast::Box>& out) {
-    const fast::Tiles& tiles = *tiles_[body];
-    fast::Box* boxes = tile_boxes_.data() + first_tile_[body];
+void SceneBoxes::find_tiles(std::size_t body, const Box& region, std::pmr::vector<Box>& out) {
+    const Tiles& tiles = *tiles_[body];
+    Box* boxes = tile_boxes_.data() + first_tile_[body];
     std::uint8_t* known = known_.data() + first_tile_[body];
-    const std::span<const fast::Box> own = blocks(body);
+    const std::span<const Box> own = blocks(body);
     if (sides_.size() < own.size()) sides_.resize(own.size());
     for (std::size_t block = 0; block < own.size(); ++block)
-        sides_[block] = static_cast<std::uint8_t>(fast::sides_of(own[block], region));
+        sides_[block] = static_cast<std::uint8_t>(sides_of(own[block], region));
     for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-        unsigned beyond = fast::all_sides;
+        unsigned beyond = all_sides;
         for (const std::uint32_t block : tiles.blocks[s])
             if ((beyond &= sides_[block]) == 0) break;
         if (beyond != 0) continue;
         const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
         fast::tile_boxes(tiles, positions_[body], first, last, boxes, known);
         for (std::uint32_t t = first; t < last; ++t)
-            if (fast::overlap(boxes[t], region)) out.push_back(boxes[t]);
+            if (overlap(boxes[t], region)) out.push_back(boxes[t]);
     }
 }
 

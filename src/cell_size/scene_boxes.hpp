@@ -17,25 +17,25 @@ namespace vox {
 class SceneBoxes {
 public:
     // `tiles` of each body; both must stay. Throws Error(NON_FINITE) naming mesh_id and vertex.
-    SceneBoxes(std::span<const Body> bodies, std::span<const fast::Tiles* const> tiles,
+    SceneBoxes(std::span<const Body> bodies, std::span<const Tiles* const> tiles,
                std::pmr::memory_resource* memory);
 
     // Packed; rounded to floats where the body's are not.
     const float* positions(std::size_t body) const noexcept { return positions_[body]; }
     // Of all their vertices.
-    std::span<const fast::Box> bodies() const noexcept { return bodies_; }
-    std::span<const fast::Box> blocks(std::size_t body) const noexcept {
+    std::span<const Box> bodies() const noexcept { return bodies_; }
+    std::span<const Box> blocks(std::size_t body) const noexcept {
         return {blocks_.data() + first_block_[body], tiles_[body]->block_count()};
     }
 
     // Appends the boxes of the tiles of a body that meet a region.
-    void find_tiles(std::size_t body, const fast::Box& region, std::pmr::vector<fast::Box>& out);
+    void find_tiles(std::size_t body, const Box& region, std::pmr::vector<Box>& out);
 
 private:
-    std::span<const fast::Tiles* const> tiles_;
+    std::span<const Tiles* const> tiles_;
     std::pmr::vector<float> rounded_;
     std::pmr::vector<const float*> positions_; // of each body
-    std::pmr::vector<fast::Box> bodies_, blocks_, tile_boxes_;
+    std::pmr::vector<Box> bodies_, blocks_, tile_boxes_;
     std::pmr::vector<std::uint8_t> known_; // of tile_boxes_
     std::pmr::vector<std::uint8_t> sides_; // of the blocks of one body
     std::pmr::vector<std::size_t> first_block_, first_tile_;

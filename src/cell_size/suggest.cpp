@@ -22,7 +22,7 @@ namespace vox {
 // Newton's method from the right of the root: 1/4 + cbrt(c/4) is not below it (the left side, x^2 (4x - 1),
 // is at least 4 (x - 1/4)^3 there), and on an ascending convex function every step from the right stays on
 // the right.
-double PaperCost::minimiser() const {
+double PaperModel::minimiser() const {
     const double c = 3 * p_nc / k;
     double x = 0.25 + std::cbrt(c / 4);
     for (;;) {
@@ -36,7 +36,7 @@ namespace {
 
 // Where the cost passes `limit` on one side of `inside`, found by halving the interval to the last bit;
 // `outside` starts at inside * factor and moves on until the cost there is above the limit.
-double crossing(double inside, double factor, double limit, const PaperCost& cost) {
+double crossing(double inside, double factor, double limit, const PaperModel& cost) {
     double outside = inside * factor;
     while (cost(outside) <= limit) {
         inside = outside;
@@ -51,7 +51,7 @@ double crossing(double inside, double factor, double limit, const PaperCost& cos
 
 } // namespace
 
-Zone zone_around(double x_best, double limit, const PaperCost& cost) {
+Zone zone_around(double x_best, double limit, const PaperModel& cost) {
     if (!(limit > cost(x_best))) return {x_best, x_best};
     return {crossing(x_best, 0.5, limit, cost), crossing(x_best, 2, limit, cost)};
 }
@@ -129,7 +129,7 @@ Reading facet_area(vox_area_reading reading, const vox_geometry_stats& stats) {
     }
 }
 
-PaperCost paper_cost(const vox_suggest_desc& desc, const Reading& s, const Reading& area,
+PaperModel paper_cost(const vox_suggest_desc& desc, const Reading& s, const Reading& area,
                      const vox_geometry_stats& stats) {
     if (stats.tets == 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -215,7 +215,7 @@ void draw(vox_suggestion& result, const CostFunction& cost) {
 
 struct Paper {
     Reading s;
-    PaperCost cost;
+    PaperModel cost;
 };
 
 Paper paper_model(const vox_suggest_desc& desc, const vox_geometry_stats& stats) {
@@ -285,7 +285,7 @@ void explain_model(vox_suggestion& result, const vox_suggest_desc& desc, const G
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
                                  const SuggestScene& scene, const vox_cost_weights& weights,
                                  std::pmr::memory_resource* memory) {
-    const ReferenceCost cost(scene.bodies, desc.storage, scene.effort, weights, memory);
+    const ReferenceModel cost(scene.bodies, desc.storage, scene.effort, weights, memory);
     CellSizeRange range{};
     if (!cost.range(range.min, range.max)) throw_no_size(geometry.stats);
     vox_suggestion result{};
@@ -312,7 +312,7 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& g
     return result;
 }
 
-FastCost fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
+FastModel fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
                    std::pmr::memory_resource* memory) {
     if (scene.last_step) return {scene.bodies, *scene.last_step, scene.effort, weights, memory};
     if (scene.boxes)
@@ -322,7 +322,7 @@ FastCost fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
 
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
                             const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastCost cost = fast_cost(scene, weights, memory);
+    const FastModel cost = fast_cost(scene, weights, memory);
     if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
     // Where no body is near another one any size will do; the usual one is there when some come near.
     CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};
@@ -340,7 +340,7 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geomet
         result.predicted_cost = cost(result.cell_size);
     }
     explain_model(result, desc, geometry, function, table,
-                  cost.terms(result.cell_size, FastCost::Lie::in_the_mean));
+                  cost.terms(result.cell_size, FastModel::Alignment::average));
     return result;
 }
 
@@ -362,10 +362,10 @@ CostTerms predict(const vox_suggest_desc& desc, const Geometry& geometry, const 
                   const vox_cost_weights& weights, double cell_size, std::pmr::memory_resource* memory) {
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
-        return ReferenceCost(scene.bodies, desc.storage, scene.effort, weights, memory).terms(cell_size);
+        return ReferenceModel(scene.bodies, desc.storage, scene.effort, weights, memory).terms(cell_size);
     case VOX_COST_MODEL_FAST:
-        return FastCost(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory)
-            .terms(cell_size, FastCost::Lie::as_it_is);
+        return FastModel(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory)
+            .terms(cell_size, FastModel::Alignment::actual);
     default:
         return paper_terms(desc, paper_model(desc, geometry.stats), cell_size);
     }

@@ -22,13 +22,13 @@ void check_suggest_desc(const vox_suggest_desc& desc);
 // What is suggested for. All positions are finite (measure() has looked).
 struct SuggestScene {
     std::span<const Body> bodies;
-    std::span<const fast::Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone, as what follows
+    std::span<const Tiles* const> tiles; // of each body; for VOX_COST_MODEL_FAST alone, as what follows
     std::span<const Activity> activity;        // of each body in the last step; none where there was none
-    Effort effort = thorough;
+    SampleBudget effort = thorough;
     // For FAST, what there is already of either: the boxes of the bodies and tiles, or a step of the engine in
     // which the bodies were where they are now; then there need be no tiles.
     SceneBoxes* boxes = nullptr;
-    const Fast* last_step = nullptr;
+    const FastEngine* last_step = nullptr;
 };
 
 // For a desc that passed the check. All fields but struct_size are set. Throws INVALID_ARGUMENT when the

@@ -27,17 +27,17 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
 
 } // namespace depth
 
-Depth::Worker::Worker(std::pmr::memory_resource* memory)
+DepthStage::Worker::Worker(std::pmr::memory_resource* memory)
     : number(memory), queue(memory), normals(memory), tree(memory) {}
 
-Depth::Depth(std::pmr::memory_resource* memory)
+DepthStage::DepthStage(std::pmr::memory_resource* memory)
     : starts_(memory), points_(memory), pairs_(memory), rest_(memory), rest_of_(memory), workers_(memory) {}
 
-Solid Depth::Scene::solid(std::uint32_t body) const {
+Solid DepthStage::Scene::solid(std::uint32_t body) const {
     return {topologies[body], bodies[body].tets, bodies[body].positions};
 }
 
-void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
+void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                  std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
                  std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
     penetrations.clear();
@@ -88,7 +88,7 @@ void Depth::find(std::span<const Body> bodies, std::span<const Topology* const> 
 }
 
 // Points, pairs and the rest are never more than contacts.
-void Depth::make_room(std::size_t contacts, std::size_t worker_count) {
+void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
     pairs_.reserve(contacts);
@@ -101,7 +101,7 @@ void Depth::make_room(std::size_t contacts, std::size_t worker_count) {
 }
 
 // Each worker may have to do in the next step what another did in this one.
-void Depth::level_workers() {
+void DepthStage::level_workers() {
     std::size_t points = 0, vertices = 0, triangles = 0, tree = 0;
     for (const Worker& worker : workers_) {
         points = std::max(points, worker.queue.size());
@@ -116,13 +116,13 @@ void Depth::level_workers() {
     }
 }
 
-void Depth::Worker::reserve(std::size_t points, std::size_t vertices) {
+void DepthStage::Worker::reserve(std::size_t points, std::size_t vertices) {
     if (number.size() < vertices) number.resize(vertices, 0);
     if (queue.size() < points) queue.resize(points);
 }
 
 // Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
-void Depth::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
+void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
     points_.clear();
     pairs_.clear();
     const std::span<const Hit> hits = scene.hits;
@@ -153,7 +153,7 @@ void Depth::list_points(const Scene& scene, std::span<const vox_contact> contact
     }
 }
 
-void Depth::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
+void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
     const std::size_t count = range.last - range.first;
     worker.reserve(count, scene.bodies[hit.body_a].vertex_count);
@@ -163,13 +163,13 @@ void Depth::find_consistent(const Scene& scene, const Range& range, Worker& work
                            worker.normals, worker.counts);
 }
 
-void Depth::list_rest(const Scene& scene) {
+void DepthStage::list_rest(const Scene& scene) {
     rest_.clear();
     rest_of_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i)
         if (points_[i].state == VOX_PENETRATION_ENCLOSED || points_[i].state == VOX_PENETRATION_CROSSING)
             rest_.push_back({scene.hits[points_[i].hit].body_b, i});
-    const auto before = [](const Rest& x, const Rest& y) {
+    const auto before = [](const Unresolved& x, const Unresolved& y) {
         return std::tie(x.body_b, x.point) < std::tie(y.body_b, y.point);
     };
     if (!std::is_sorted(rest_.begin(), rest_.end(), before)) std::sort(rest_.begin(), rest_.end(), before);
@@ -179,7 +179,7 @@ void Depth::list_rest(const Scene& scene) {
     }
 }
 
-void Depth::find_closest(const Scene& scene, const Range& range, Worker& worker) {
+void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& worker) {
     const std::uint32_t b = rest_[range.first].body_b;
     const Solid solid = scene.solid(b);
     const bool has_surface = !solid.topology->triangles.empty();

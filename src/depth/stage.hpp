@@ -21,16 +21,16 @@ class Workers;
 
 // The stage's buffers live here from step to step, so that the steady state allocates nothing, with any
 // number of workers.
-class Depth {
+class DepthStage {
 public:
-    explicit Depth(std::pmr::memory_resource* memory);
-    Depth(const Depth&) = delete;
-    Depth& operator=(const Depth&) = delete;
+    explicit DepthStage(std::pmr::memory_resource* memory);
+    DepthStage(const DepthStage&) = delete;
+    DepthStage& operator=(const DepthStage&) = delete;
 
     // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
     // order (make_contacts), and `topologies` that of each body. Sets the counters from `leaving_edges` to
     // `closest_tests`. Nothing depends on the workers; null: none.
-    void find(std::span<const Body> bodies, std::span<const depth::Topology* const> topologies,
+    void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
               std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
               std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
 
@@ -43,7 +43,7 @@ private:
         std::size_t hit;
         std::size_t place; // in the answer
     };
-    struct Rest { // a point that takes the closest point of the surface
+    struct Unresolved { // a point that takes the closest point of the surface
         std::uint32_t body_b;
         std::size_t point;
     };
@@ -60,7 +60,7 @@ private:
     };
     struct Scene {
         std::span<const Body> bodies;
-        std::span<const depth::Topology* const> topologies;
+        std::span<const Topology* const> topologies;
         std::span<const Hit> hits;
 
         depth::Solid solid(std::uint32_t body) const;
@@ -76,7 +76,7 @@ private:
     std::pmr::vector<Start> starts_;
     std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
     std::pmr::vector<Range> pairs_;         // in points_
-    std::pmr::vector<Rest> rest_;           // body_b after body_b
+    std::pmr::vector<Unresolved> rest_;           // body_b after body_b
     std::pmr::vector<Range> rest_of_;       // one body_b, in rest_
     std::pmr::vector<Worker> workers_;
 };

@@ -6,7 +6,6 @@
 
 namespace vox {
 
-using namespace depth;
 
 namespace {
 

@@ -22,7 +22,6 @@
 
 namespace vox {
 
-using fast::Box;
 
 namespace {
 
@@ -69,9 +68,9 @@ Vec3d choose_origin(std::span<const Body> bodies) {
 } // namespace
 
 // Turns findings into hits: the exact part of the narrow phase.
-class Fast::Decide final : public fast::Findings {
+class FastEngine::ExactDecisions final : public fast::Findings {
 public:
-    Decide(Fast& engine, Step& step, std::uint32_t body, Worker& worker)
+    ExactDecisions(FastEngine& engine, Step& step, std::uint32_t body, Worker& worker)
         : engine_(engine), step_(step), body_(body), worker_(worker), tets_(step.bodies[body].tets),
           self_filter_(step.bodies[body].self_filter) {}
 
@@ -126,7 +125,7 @@ private:
         step_.hits.insert(step_.hits.end(), hits.begin(), hits.end());
     }
 
-    Fast& engine_;
+    FastEngine& engine_;
     Step& step_;
     std::uint32_t body_; // of the tets
     Worker& worker_;
@@ -134,13 +133,13 @@ private:
     const SelfFilter* self_filter_;
 };
 
-Fast::WindowBuffers::WindowBuffers(std::pmr::memory_resource* memory)
+FastEngine::WindowBuffers::WindowBuffers(std::pmr::memory_resource* memory)
     : certificate(memory), active(memory), points(memory), cell_of(memory) {}
 
-Fast::Worker::Worker(std::pmr::memory_resource* memory)
+FastEngine::Worker::Worker(std::pmr::memory_resource* memory)
     : windows(memory), sources(memory), near(memory), stamps(memory), scratch(memory) {}
 
-Fast::Fast(std::pmr::memory_resource* memory)
+FastEngine::FastEngine(std::pmr::memory_resource* memory)
     : states_(memory), body_boxes_(memory), block_boxes_(memory), super_boxes_(memory), tile_boxes_(memory),
       block_moves_(memory), super_upright_(memory), tile_known_(memory), reached_regions_(memory),
       block_sides_(memory), block_pieces_(memory), super_pieces_(memory), piece_boxes_(memory),
@@ -148,7 +147,7 @@ Fast::Fast(std::pmr::memory_resource* memory)
       first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
       large_buffers_(memory), degenerate_(memory) {}
 
-void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
+void FastEngine::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                   vox_profile& profile) {
     Step step{bodies, prepared, settings, hits};
@@ -200,7 +199,7 @@ void Fast::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepa
 }
 
 // Lays out the buffers.
-void Fast::prepare(Step& step) {
+void FastEngine::prepare(Step& step) {
     while (workers_.size() < step.worker_count()) workers_.emplace_back(workers_.get_allocator().resource());
     for (Worker& worker : workers_) {
         worker.exact_tests = worker.filtered = worker.decision_ns = 0;
@@ -269,7 +268,7 @@ void Fast::prepare(Step& step) {
 
 // Gives the buffers of all workers the same room: in a later step each may have to do what another did in
 // this one.
-void Fast::level_buffers() {
+void FastEngine::level_buffers() {
     if (workers_.size() == 1) return;
     const auto level = [this](auto&& buffer) {
         std::size_t most = 0;
@@ -296,7 +295,7 @@ void Fast::level_buffers() {
 }
 
 // Packed positions of the bodies, their boxes, and which of them moved.
-void Fast::stream(Step& step) {
+void FastEngine::stream(Step& step) {
     std::atomic<bool> finite{true};
     piece_boxes_.resize(block_pieces_.size());
     piece_moved_.resize(block_pieces_.size());
@@ -307,15 +306,15 @@ void Fast::stream(Step& step) {
                                 finite.store(false, std::memory_order_relaxed);
                     });
     if (!finite) throw_non_finite(step.bodies);
-    body_boxes_.assign(step.bodies.size(), fast::empty_box);
+    body_boxes_.assign(step.bodies.size(), empty_box);
     for (std::size_t p = 0; p < block_pieces_.size(); ++p) {
         const std::uint32_t body = block_pieces_[p].body;
-        fast::add(body_boxes_[body], piece_boxes_[p]);
+        add(body_boxes_[body], piece_boxes_[p]);
         states_[body].moved |= piece_moved_[p] != 0;
     }
 }
 
-bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
+bool FastEngine::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
     const Positions& positions = step.bodies[piece.body].positions;
     const BodyState& state = states_[piece.body];
     FastMesh& mesh = *step.prepared[piece.body];
@@ -339,13 +338,13 @@ bool Fast::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& 
 }
 
 // Bodies whose surface may tell which of their vertices can be in their own tets.
-bool Fast::may_certify(const Step& step, std::uint32_t body) const noexcept {
+bool FastEngine::may_certify(const Step& step, std::uint32_t body) const noexcept {
     return step.settings.winding && step.bodies[body].self_collision &&
            step.prepared[body]->surface.is_closed;
 }
 
 // The boxes of the super-tiles of such bodies, and which of these hold no tet that may have turned over.
-void Fast::follow_turning(Step& step) {
+void FastEngine::follow_turning(Step& step) {
     std::size_t tiles = 0;
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
         states_[b].supers_known = states_[b].moved && may_certify(step, b);
@@ -368,7 +367,7 @@ void Fast::follow_turning(Step& step) {
 }
 
 // Which vertices may be in tets of which other bodies.
-void Fast::find_reaches(Step& step) {
+void FastEngine::find_reaches(Step& step) {
     fast::find_pairs(body_boxes_, pair_buffers_, pairs_);
     reaches_.clear();
     if (reaches_.capacity() < pairs_.size()) reaches_.reserve(pairs_.size() + pairs_.size() / 8);
@@ -376,7 +375,7 @@ void Fast::find_reaches(Step& step) {
         if (step.bodies[pair.b].tets.empty() || !collide(step.bodies[pair.a], step.bodies[pair.b])) continue;
         if (!states_[pair.a].moved && !states_[pair.b].moved) continue;
         Reach reach{pair.a, pair.b, body_boxes_[pair.a], {}};
-        fast::intersect(reach.region, body_boxes_[pair.b]);
+        intersect(reach.region, body_boxes_[pair.b]);
         reaches_.push_back(reach);
     }
     std::size_t blocks = 0, tiles = 0;
@@ -384,13 +383,13 @@ void Fast::find_reaches(Step& step) {
     step.for_ranges(reaches_.size(), blocks, 4096, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t r = begin; r < end; ++r) shrink_to_blocks(step, reaches_[r]);
     });
-    std::erase_if(reaches_, [](const Reach& reach) { return fast::is_empty(reach.region); });
+    std::erase_if(reaches_, [](const Reach& reach) { return is_empty(reach.region); });
     sort_reaches(step);
 
-    reached_regions_.assign(step.bodies.size(), fast::empty_box);
+    reached_regions_.assign(step.bodies.size(), empty_box);
     for (const Reach& reach : reaches_) {
         states_[reach.b].reached = true;
-        fast::add(reached_regions_[reach.b], reach.region);
+        add(reached_regions_[reach.b], reach.region);
         tiles += step.prepared[reach.b]->tiles.size();
     }
     step.for_ranges(block_pieces_.size(), reaches_.empty() ? 0 : block_boxes_.size(), 4 * piece_blocks,
@@ -407,21 +406,21 @@ void Fast::find_reaches(Step& step) {
 }
 
 // Shrinks the region where the bodies' boxes overlap to what blocks of a reach of it.
-void Fast::shrink_to_blocks(const Step& step, Reach& reach) const {
-    Box reached = fast::empty_box;
+void FastEngine::shrink_to_blocks(const Step& step, Reach& reach) const {
+    Box reached = empty_box;
     const Box* blocks = block_boxes_.data() + states_[reach.a].first_block;
     const std::uint32_t count = step.prepared[reach.a]->block_count();
     for (std::uint32_t i = 0; i < count; i += fast::most_boxes) {
         std::uint64_t met =
             fast::find_overlaps(blocks + i, std::min(fast::most_boxes, count - i), reach.region);
         for (; met; met &= met - 1)
-            fast::add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
+            add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
     }
-    fast::intersect(reach.region, reached);
+    intersect(reach.region, reached);
 }
 
 // Where each body begins in reaches_, and the same by b: counted, summed, placed.
-void Fast::sort_reaches(const Step& step) {
+void FastEngine::sort_reaches(const Step& step) {
     first_of_a_.assign(step.bodies.size() + 1, 0);
     first_of_b_.assign(step.bodies.size() + 2, 0);
     for (const Reach& r : reaches_) {
@@ -434,18 +433,18 @@ void Fast::sort_reaches(const Step& step) {
     for (std::uint32_t r = 0; r < reaches_.size(); ++r) by_b_[first_of_b_[reaches_[r].b + 1]++] = r;
 }
 
-std::span<const std::uint32_t> Fast::reaching(std::uint32_t b) const noexcept {
+std::span<const std::uint32_t> FastEngine::reaching(std::uint32_t b) const noexcept {
     return std::span(by_b_).subspan(first_of_b_[b], first_of_b_[b + 1] - first_of_b_[b]);
 }
 
 // Bodies whose super-tiles matter only where others reach them.
-bool Fast::knows_sides(const Step& step, std::uint32_t body) const noexcept {
+bool FastEngine::knows_sides(const Step& step, std::uint32_t body) const noexcept {
     return states_[body].reached && !step.bodies[body].self_collision;
 }
 
 // Where the blocks of a body lie, seen from the region where others reach it: a byte tells most super-tiles
 // to be out of reach, and is less to read than a box.
-void Fast::find_sides(const Step& step, const Piece& piece) {
+void FastEngine::find_sides(const Step& step, const Piece& piece) {
     if (!knows_sides(step, piece.body)) return;
     const std::size_t first = states_[piece.body].first_block;
     const Box region = reached_regions_[piece.body];
@@ -455,7 +454,7 @@ void Fast::find_sides(const Step& step, const Piece& piece) {
 
 // Boxes that hold super-tiles: of the blocks their vertices are in; empty where all those blocks lie on one
 // side of what matters.
-void Fast::know_super_tiles(const Step& step, const Piece& piece) {
+void FastEngine::know_super_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     const FastMesh& mesh = *step.prepared[piece.body];
     const Box* blocks = block_boxes_.data() + state.first_block;
@@ -463,7 +462,7 @@ void Fast::know_super_tiles(const Step& step, const Piece& piece) {
     const bool knows_sides = this->knows_sides(step, piece.body);
     const auto out_of_reach = [&](std::span<const std::uint32_t> of) {
         constexpr std::size_t at_once = 8; // between branches
-        unsigned common = fast::all_sides;
+        unsigned common = all_sides;
         std::size_t i = 0;
         for (; i + at_once <= of.size() && common; i += at_once)
             for (std::size_t j = 0; j < at_once; ++j) common &= sides[of[i + j]];
@@ -471,16 +470,16 @@ void Fast::know_super_tiles(const Step& step, const Piece& piece) {
         return common != 0;
     };
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
-        Box box = fast::empty_box;
+        Box box = empty_box;
         const std::span<const std::uint32_t> of = std::as_const(mesh.blocks)[s];
         if (!knows_sides || !out_of_reach(of))
-            for (const std::uint32_t block : of) fast::add(box, blocks[block]);
+            for (const std::uint32_t block : of) add(box, blocks[block]);
         super_boxes_[state.first_super + s] = box;
     }
 }
 
 // The boxes of the super-tiles of a body, and of all tiles in those that others reach.
-void Fast::know_tiles(const Step& step, const Piece& piece) {
+void FastEngine::know_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     if (!state.reached) return;
     if (!state.supers_known) know_super_tiles(step, piece);
@@ -489,33 +488,33 @@ void Fast::know_tiles(const Step& step, const Piece& piece) {
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         const Box& box = super_boxes_[state.first_super + s];
         if (std::any_of(reaches.begin(), reaches.end(),
-                        [&](std::uint32_t r) { return fast::overlap(box, reaches_[r].region); }))
+                        [&](std::uint32_t r) { return overlap(box, reaches_[r].region); }))
             fast::tile_boxes(mesh, state.positions, mesh.super_first[s], mesh.super_first[s + 1],
                              tile_boxes_.data() + state.first_tile, tile_known_.data() + state.first_tile);
     }
 }
 
 // Shrinks the region to what tiles of b cover.
-void Fast::shrink_to_tiles(const Step& step, Reach& reach) const {
+void FastEngine::shrink_to_tiles(const Step& step, Reach& reach) const {
     const BodyState& state = states_[reach.b];
     const FastMesh& mesh = *step.prepared[reach.b];
     const std::uint32_t super_tiles = mesh.super_tile_count();
     const Box* boxes = tile_boxes_.data() + state.first_tile;
-    Box covered = fast::empty_box;
+    Box covered = empty_box;
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
-        if (!fast::overlap(super_boxes_[state.first_super + s], reach.region)) continue;
+        if (!overlap(super_boxes_[state.first_super + s], reach.region)) continue;
         for (std::uint32_t t = mesh.super_first[s]; t < mesh.super_first[s + 1]; ++t) {
-            if (!fast::overlap(boxes[t], reach.region)) continue;
-            fast::add(covered, boxes[t]);
+            if (!overlap(boxes[t], reach.region)) continue;
+            add(covered, boxes[t]);
             reach.sides.add(boxes[t]);
         }
     }
-    fast::intersect(reach.region, covered);
-    if (fast::is_empty(reach.region)) reach.region = fast::empty_box;
+    intersect(reach.region, covered);
+    if (is_empty(reach.region)) reach.region = empty_box;
 }
 
 // Tiles of a body against the windows of the bodies that reach it.
-void Fast::query(Step& step, const Piece& piece, Worker& worker) {
+void FastEngine::query(Step& step, const Piece& piece, Worker& worker) {
     const std::uint32_t b = piece.body;
     const BodyState& state = states_[b];
     const bool self = state.self && state.bins;
@@ -523,18 +522,18 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
     if (!self && reaches.empty()) return;
     if (!state.reached && !state.supers_known) know_super_tiles(step, piece);
     const Box* super_boxes = super_boxes_.data() + state.first_super;
-    Box box = fast::empty_box;
-    for (std::uint32_t s = piece.first; s < piece.last; ++s) fast::add(box, super_boxes[s]);
+    Box box = empty_box;
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) add(box, super_boxes[s]);
 
     std::pmr::vector<fast::Source>& sources = worker.sources;
     sources.clear();
     const auto add = [&](std::uint32_t a, const Box& region) {
         Box both = box;
-        fast::intersect(both, region);
-        if (!states_[a].bins || fast::is_empty(both)) return;
+        intersect(both, region);
+        if (!states_[a].bins || is_empty(both)) return;
         fast::for_windows(*states_[a].bins, states_[a].root, both, [&](const fast::Window& window) {
             fast::Source source{window, region, a};
-            fast::intersect(source.region, window.box);
+            intersect(source.region, window.box);
             sources.push_back(source);
         });
     };
@@ -562,15 +561,15 @@ void Fast::query(Step& step, const Piece& piece, Worker& worker) {
             scratch.tag = 0;
         }
     }
-    Decide decide(*this, step, b, worker);
+    ExactDecisions decide(*this, step, b, worker);
     std::pmr::vector<fast::Source>& near = worker.near;
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         near.clear();
         for (const fast::Source& source : sources) {
-            if (!fast::overlap(super_boxes[s], source.region)) continue;
+            if (!overlap(super_boxes[s], source.region)) continue;
             if (source.body == b) { // where most of a body is certified, few meet what is left
                 Box met = super_boxes[s];
-                fast::intersect(met, source.region);
+                intersect(met, source.region);
                 if (!fast::holds_point(source.window, met)) continue;
             }
             near.push_back(source);

@@ -29,14 +29,14 @@ class Workers;
 
 // What the engine prepares of a mesh's topology, and keeps of its positions. An empty one is prepared for an
 // empty mesh.
-struct FastMesh : fast::Tiles {
+struct FastMesh : Tiles {
     explicit FastMesh(std::pmr::memory_resource* memory) noexcept
         : Tiles(memory), surface(memory), rest(memory), turning(memory), places(memory) {}
 
-    fast::Surface surface; // of bodies with self-collision
-    fast::Rest rest;       // the positions of the last step
-    fast::Turning turning; // which tets may have turned over
-    fast::Places places;   // for edits
+    Boundary surface; // of bodies with self-collision
+    fast::LastPositions rest;       // the positions of the last step
+    fast::OrientationCache turning; // which tets may have turned over
+    TilePlaces places;   // for edits
 
     // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
     // (or what the memory throws) and leaves this as it was then.
@@ -44,7 +44,7 @@ struct FastMesh : fast::Tiles {
 
     // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it;
     // vertices that are new at the end. False, or what the memory throws: all is to be prepared anew.
-    bool follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of);
+    bool follow(const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of);
     bool follow_vertices(const Body& body, std::uint32_t count_before);
 
 private:
@@ -62,13 +62,13 @@ struct FastSettings {
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
-class Fast {
+class FastEngine {
 public:
-    explicit Fast(std::pmr::memory_resource* memory);
-    Fast(const Fast&) = delete;
-    Fast& operator=(const Fast&) = delete;
+    explicit FastEngine(std::pmr::memory_resource* memory);
+    FastEngine(const FastEngine&) = delete;
+    FastEngine& operator=(const FastEngine&) = delete;
 
-    // As Reference::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
+    // As ReferenceEngine::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
     // any order. `prepared` are the tiles of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
     // the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in their box)
     // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone, of the worker that took
@@ -91,16 +91,16 @@ public:
 
     // What the last step found near each other, for the cost model: good while the bodies are those of that
     // step. The box of a body, as rounded; where vertices in its windows may be in its own tets, empty: nowhere.
-    const fast::Box& box(std::size_t body) const noexcept { return body_boxes_[body]; }
-    fast::Box own_region(std::size_t body) const noexcept {
+    const Box& box(std::size_t body) const noexcept { return body_boxes_[body]; }
+    Box own_region(std::size_t body) const noexcept {
         const BodyState& state = states_[body];
-        return state.self && state.bins ? state.own : fast::empty_box;
+        return state.self && state.bins ? state.own : empty_box;
     }
     // Calls visit(a, b, region), sorted by a, then b: vertices of a in the region may be in tets of b.
     template <class Visit>
     void for_reaches(Visit&& visit) const {
         for (const Reach& reach : reaches_)
-            if (!fast::is_empty(reach.region)) visit(reach.a, reach.b, reach.region);
+            if (!is_empty(reach.region)) visit(reach.a, reach.b, reach.region);
     }
     // Calls visit(points, first, count) for the vertices in each window of a body.
     template <class Visit>
@@ -114,11 +114,11 @@ public:
     }
     // Calls visit(box) for the tiles of a body that were looked at and meet a region.
     template <class Visit>
-    void for_tiles(std::size_t body, const fast::Box& region, Visit&& visit) const {
+    void for_tiles(std::size_t body, const Box& region, Visit&& visit) const {
         const std::size_t end =
             body + 1 < states_.size() ? states_[body + 1].first_tile : tile_boxes_.size();
         for (std::size_t t = states_[body].first_tile; t < end; ++t)
-            if (tile_known_[t] && fast::overlap(tile_boxes_[t], region)) visit(tile_boxes_[t]);
+            if (tile_known_[t] && overlap(tile_boxes_[t], region)) visit(tile_boxes_[t]);
     }
 
     // The cell size of the last window of the last step that had one; 0 before.
@@ -139,7 +139,7 @@ private:
         bool tracked;           // block_moves_ are made
         bool self;              // some vertices of the window may be in tets of the same body
         std::uint32_t binned;   // vertices in the windows
-        fast::Box own;          // where vertices of the window may be in tets of the same body
+        Box own;          // where vertices of the window may be in tets of the same body
         std::uint32_t buffers;  // in large_buffers_, or none
         const fast::Bins* bins; // of its windows; null: there are none
         std::uint32_t root;     // of their tree, in bins->windows
@@ -148,8 +148,8 @@ private:
     // Vertices of body a may be in tets of body b, and then are in `region`.
     struct Reach {
         std::uint32_t a, b;
-        fast::Box region;
-        fast::TileSides sides; // of the tiles that will query the window of a for b
+        Box region;
+        TileSize sides; // of the tiles that will query the window of a for b
     };
     // Blocks or super-tiles [first, last) of a body.
     struct Piece {
@@ -181,11 +181,11 @@ private:
         std::uint64_t exact_tests = 0, filtered = 0, decision_ns = 0; // of the step
     };
     struct Step;
-    class Decide;
+    class ExactDecisions;
 
     void prepare(Step& step);
     void stream(Step& step);
-    bool stream(const Step& step, const Piece& piece, fast::Box& box, std::uint8_t& moved);
+    bool stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved);
     bool may_certify(const Step& step, std::uint32_t body) const noexcept;
     void follow_turning(Step& step);
     void find_reaches(Step& step);
@@ -204,18 +204,18 @@ private:
                          std::uint64_t& exact_tests, Workers* helpers);
     void activate_blocks(const Step& step, std::uint32_t body, WindowBuffers& buffers) const;
     void level_buffers();
-    void sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides);
+    void sample_tiles(const Step& step, std::uint32_t body, TileSize& sides);
     void query(Step& step, const Piece& piece, Worker& worker);
 
     std::pmr::vector<BodyState> states_;
-    std::pmr::vector<fast::Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
-    std::pmr::vector<fast::Box> block_moves_;      // around displacements from the reference of the body
+    std::pmr::vector<Box> body_boxes_, block_boxes_, super_boxes_, tile_boxes_;
+    std::pmr::vector<Box> block_moves_;      // around displacements from the reference of the body
     std::pmr::vector<std::uint8_t> super_upright_; // all tets of a super-tile are surely positive
     std::pmr::vector<std::uint8_t> tile_known_;    // tile_boxes_ is of this step
-    std::pmr::vector<fast::Box> reached_regions_;  // of each body, around the regions where others reach it
+    std::pmr::vector<Box> reached_regions_;  // of each body, around the regions where others reach it
     std::pmr::vector<std::uint8_t> block_sides_;   // of block_boxes_, from there: sides_of()
     std::pmr::vector<Piece> block_pieces_, super_pieces_;
-    std::pmr::vector<fast::Box> piece_boxes_; // of block_pieces_
+    std::pmr::vector<Box> piece_boxes_; // of block_pieces_
     std::pmr::vector<std::uint8_t> piece_moved_;
     fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_;

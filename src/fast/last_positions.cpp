@@ -5,7 +5,7 @@
 
 namespace vox::fast {
 
-bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                   std::uint32_t last) noexcept {
     float* out = rest.positions.data() + std::size_t{first} * 3;
     bool same = rest.parts[part].copied;
@@ -22,7 +22,7 @@ namespace {
 
 // Compares with the copy; copies where that is due.
 template <class IsSame, class Copy>
-bool compare(Rest::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
+bool compare(LastPositions::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
     const bool same = part.copied && is_same();
     const bool same_box =
         std::equal(box.lo, box.lo + 3, part.box.lo) && std::equal(box.hi, box.hi + 3, part.box.hi);
@@ -36,7 +36,7 @@ bool compare(Rest::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
 
 } // namespace
 
-bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
+bool compare_packed(LastPositions& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept {
     const float* from = positions + std::size_t{first} * 3;
     float* copy = rest.positions.data() + std::size_t{first} * 3;
@@ -46,7 +46,7 @@ bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::u
         [&] { std::memcpy(copy, from, bytes); });
 }
 
-bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+bool compare_exact(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                    std::uint32_t last, const Box& box) noexcept {
     const auto is_same = [&] {
         for (std::uint32_t v = first; v < last; ++v) {
@@ -60,7 +60,7 @@ bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std
     });
 }
 
-void Rest::expect(bool rounded) {
+void LastPositions::expect(bool rounded) {
     const std::size_t count = rounded ? positions.size() / 3 : 0;
     if (exact.size() == count) return;
     exact.resize(count);

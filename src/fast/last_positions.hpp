@@ -12,8 +12,8 @@
 namespace vox::fast {
 
 // What is kept of a body from step to step. Its vertices come in parts, always the same ones.
-struct Rest {
-    explicit Rest(std::pmr::memory_resource* memory) noexcept
+struct LastPositions {
+    explicit LastPositions(std::pmr::memory_resource* memory) noexcept
         : positions(memory), exact(memory), parts(memory) {}
 
     // Makes room for what is to come: rounded positions, or floats. Forgets the other kind.
@@ -36,17 +36,17 @@ inline bool is_packed(const Positions& positions) noexcept {
 
 // Copies the vertices [first, last) of a part that is not packed; returns whether they are those of the last
 // step, bit by bit.
-bool copy_strided(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                   std::uint32_t last) noexcept;
 
 // Returns whether the packed vertices [first, last) of a part, `box` around them, are those of the last step,
 // bit by bit. That is known of parts that were copied: when they are new, and when their box stays the same,
 // so that what moves in every step is not copied in every step.
-bool compare_packed(Rest& rest, std::size_t part, const float* positions, std::uint32_t first,
+bool compare_packed(LastPositions& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept;
 
 // The same for positions that were rounded into rest.positions.
-bool compare_exact(Rest& rest, std::size_t part, const Positions& positions, std::uint32_t first,
+bool compare_exact(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                    std::uint32_t last, const Box& box) noexcept;
 
 } // namespace vox::fast

@@ -12,14 +12,14 @@ namespace vox {
 void FastMesh::prepare(const Body& body) {
     std::pmr::memory_resource* memory = surface.triangles.get_allocator().resource();
     FastMesh made(memory);
-    fast::make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
+    make_tiles(body.tets, body.vertex_count, body.positions, made, body.off);
     if (!body.self_collision) {
         made.own.clear();
         made.own.shrink_to_fit();
     } else {
-        fast::make_surface(body.tets, body.vertex_count, body.positions, made, made.surface);
-        if (!fast::surface_pays(made.surface.triangles.size(), made.tets.size()))
-            made.surface = fast::Surface(memory);
+        make_boundary(body.tets, body.vertex_count, body.positions, made, made.surface);
+        if (!boundary_pays(made.surface.triangles.size(), made.tets.size()))
+            made.surface = Boundary(memory);
         std::erase_if(made.surface.loose, [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
     made.expect_vertices(body.vertex_count);
@@ -33,13 +33,13 @@ void FastMesh::expect_vertices(std::uint32_t vertex_count) {
     rest.parts.resize((block_count() + piece_blocks - 1) / piece_blocks);
 }
 
-bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const Lists& tets_of) {
-    if (!fast::repair(*this, surface, places, body, changes, tets_of)) return false;
+bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of) {
+    if (!repair(*this, surface, places, body, changes, tets_of)) return false;
     if (turning.is_known) {
         turning.slack.resize(super_tile_count());
         turning.boxes.resize(super_tile_count());
         for (const TetChange& change : changes)
-            if (places.of_tet[change.tet] != fast::Places::none)
+            if (places.of_tet[change.tet] != TilePlaces::none)
                 turning.slack[super_tile_of(places.tile_of(change.tet))] = 0;
     }
     return true;
@@ -47,7 +47,7 @@ bool FastMesh::follow(const Body& body, std::span<const TetChange> changes, cons
 
 bool FastMesh::follow_vertices(const Body& body, std::uint32_t count_before) {
     if (count_before == 0) return false;
-    fast::add_vertices(*this, surface, places, count_before, body.vertex_count);
+    add_vertices(*this, surface, places, count_before, body.vertex_count);
     expect_vertices(body.vertex_count);
     if (turning.is_known)
         turning.reference.resize(rest.positions.size()); // no matter what: their tets are new

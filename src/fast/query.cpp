@@ -327,7 +327,7 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
     Box box = w.box; // no further than the source matters
     intersect(box, source.region);
     const Window& window = source.window;
-    const Lattice& lattice = window.lattice;
+    const WindowLattice& lattice = window.lattice;
     const std::uint32_t x0 = lattice.cell(box.lo[0], 0), x1 = lattice.cell(box.hi[0], 0);
     const std::uint32_t y0 = lattice.cell(box.lo[1], 1), y1 = lattice.cell(box.hi[1], 1);
     const std::uint32_t z0 = lattice.cell(box.lo[2], 2), z1 = lattice.cell(box.hi[2], 2);

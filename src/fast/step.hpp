@@ -13,7 +13,7 @@ namespace vox {
 
 inline constexpr std::uint32_t piece_blocks = 2048; // of a piece of a body, at most
 
-struct Fast::Step {
+struct FastEngine::Step {
     std::span<const Body> bodies;
     std::span<FastMesh* const> prepared;
     const FastSettings& settings;

@@ -109,9 +109,9 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
     bool finite = true;
     const std::uint32_t count = first[blocks];
     std::uint32_t checked = first[0];
-    auto all_lo = hn::Set(d, infinity), all_hi = hn::Set(d, -infinity);
+    auto all_lo = hn::Set(d, float_infinity), all_hi = hn::Set(d, -float_infinity);
     const Wide dw;
-    auto wide_lo = hn::Set(dw, infinity), wide_hi = hn::Set(dw, -infinity);
+    auto wide_lo = hn::Set(dw, float_infinity), wide_hi = hn::Set(dw, -float_infinity);
     const auto least = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
     const auto most = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
     for (std::size_t b = 0; b < blocks; ++b) {
@@ -139,7 +139,7 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
         }
         const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
         std::uint32_t left = n;
-        auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity), move_lo = lo, move_hi = hi;
+        auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity), move_lo = lo, move_hi = hi;
         if (end == count) {
             --left;
             lo = hi = LoadLast(p + 3 * left);

@@ -75,7 +75,7 @@ template <bool kBox, class Load>
 HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
                          Load load, TileVertices& s, Box& box) {
     const Four d;
-    auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
+    auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity);
     for (std::uint32_t i = 0; i < padded; i += 4) {
         const auto p0 = load(positions, vertices[i]), p1 = load(positions, vertices[i + 1]);
         const auto p2 = load(positions, vertices[i + 2]), p3 = load(positions, vertices[i + 3]);
@@ -170,7 +170,7 @@ HWY_INLINE V Dot(const V* a, const V* b) {
 HWY_INLINE float Underflow(float x, float y, float z) {
     const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
     const float largest = x * y * z * 64;
-    return sums < infinity && largest < infinity ? sums * 0x1p-120f : infinity;
+    return sums < float_infinity && largest < float_infinity ? sums * 0x1p-120f : float_infinity;
 }
 
 // The constants of the filter for tets in `box`: see the top of narrow-inl.hpp.

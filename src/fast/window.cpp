@@ -62,7 +62,7 @@ std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, 
 void MinMax(const float* HWY_RESTRICT values, std::uint32_t count, float& lowest, float& highest) {
     const hn::CappedTag<float, 16> d;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    auto lo = hn::Set(d, infinity), hi = hn::Set(d, -infinity);
+    auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity);
     std::uint32_t i = 0;
     for (; i + lanes <= count; i += lanes) {
         const auto v = hn::LoadU(d, values + i);
@@ -77,8 +77,8 @@ void MinMax(const float* HWY_RESTRICT values, std::uint32_t count, float& lowest
     }
 }
 
-// Lattice::cell for all three axes of whole registers of points; writes up to a register past `count`.
-void Cells(const Lattice& lattice, const float* HWY_RESTRICT x, const float* HWY_RESTRICT y,
+// WindowLattice::cell for all three axes of whole registers of points; writes up to a register past `count`.
+void Cells(const WindowLattice& lattice, const float* HWY_RESTRICT x, const float* HWY_RESTRICT y,
            const float* HWY_RESTRICT z, std::uint32_t count, std::uint32_t* HWY_RESTRICT cell) {
     const hn::CappedTag<float, 16> d;
     const hn::RebindToSigned<decltype(d)> di;
@@ -119,7 +119,7 @@ void Points::reserve(std::size_t most) {
     grow(id);
 }
 
-Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells) {
+WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_cells) {
     double extent[3], longest = 0;
     for (int a = 0; a < 3; ++a) {
         extent[a] = double{box.hi[a]} - double{box.lo[a]};
@@ -128,7 +128,7 @@ Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells) {
     // Numbers a float holds well, whatever was asked for: a cell index stays below 2^23, the inverse normal.
     cell_size = std::clamp(std::max(cell_size, longest * 0x1p-20), 0x1p-100, 0x1p+125);
     const auto most = static_cast<double>(std::max<std::size_t>(most_cells, 1));
-    Lattice lattice;
+    WindowLattice lattice;
     double cells[3];
     for (;;) {
         for (int a = 0; a < 3; ++a) cells[a] = std::floor(extent[a] / cell_size) + 1;
@@ -164,12 +164,12 @@ constexpr std::uint64_t most_crowded = 16; // other points in the cell of a poin
 constexpr std::uint32_t most_samples = 256;
 
 // Its cells are much larger than wanted.
-bool is_coarse(const Lattice& lattice, double cell_size) { return double{lattice.inverse} * cell_size < 0.5; }
+bool is_coarse(const WindowLattice& lattice, double cell_size) { return double{lattice.inverse} * cell_size < 0.5; }
 
 // The lattice covers the bulk of some points where a few that lie far away would make the cells large.
-Lattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
+WindowLattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
                      std::size_t most_cells) {
-    const Lattice lattice = make_lattice(box, cell_size, most_cells);
+    const WindowLattice lattice = make_lattice(box, cell_size, most_cells);
     constexpr std::uint32_t tail = 4; // samples on either side that are no bulk, at most
     if (range.count < 4 * most_samples || !is_coarse(lattice, cell_size)) return lattice;
     // The bulk: what is left of some samples without the outermost on either side, and half of that again.
@@ -199,7 +199,7 @@ Box bounds(const Points& points, Range range) {
 }
 
 // Some points by themselves: far too many of them share a cell.
-bool looks_crowded(const Points& points, Range range, const Lattice& lattice) {
+bool looks_crowded(const Points& points, Range range, const WindowLattice& lattice) {
     if (range.count < 4 * most_samples) return false;
     std::array<std::size_t, most_samples> cell;
     for (std::uint32_t i = 0; i < most_samples; ++i) {
@@ -227,7 +227,7 @@ bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t po
 }
 
 // Adds a window of some points, unless `unless_crowded` and it would be; returns whether it did.
-bool try_bin(const Points& points, Range range, const Lattice& lattice, const Box& box, bool unless_crowded,
+bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box, bool unless_crowded,
              std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
     const std::uint32_t n = range.count;
     const std::size_t cells = lattice.count();
@@ -305,7 +305,7 @@ void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<st
     bins.windows.emplace_back();
     const Box box = bounds(points, range);
     const std::size_t cells = 2 * std::size_t{range.count} + std::min(64u, 2 * range.count);
-    const Lattice lattice = bulk_lattice(points, range, box, cell_size, cells);
+    const WindowLattice lattice = bulk_lattice(points, range, box, cell_size, cells);
     const bool may_halve =
         range.count > few_points && is_coarse(make_lattice(box, cell_size, cells), cell_size);
     Window window;
@@ -326,7 +326,7 @@ void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<st
 
 } // namespace
 
-Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells) {
+WindowLattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells) {
     return bulk_lattice(points, {0, points.count}, box, cell_size, most_cells);
 }
 
@@ -340,7 +340,7 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, st
 
 Box bounds(const Points& points) { return bounds(points, {0, points.count}); }
 
-Window bin(const Points& points, const Lattice& lattice, const Box& box,
+Window bin(const Points& points, const WindowLattice& lattice, const Box& box,
            std::pmr::vector<std::uint32_t>& buffer, Bins& bins) {
     Window window;
     (void)try_bin(points, {0, points.count}, lattice, box, false, buffer, bins, window);
@@ -348,14 +348,14 @@ Window bin(const Points& points, const Lattice& lattice, const Box& box,
 }
 
 bool holds_point(const Window& window, const Box& box) noexcept {
-    const Lattice& lattice = window.lattice;
+    const WindowLattice& lattice = window.lattice;
     const Points& points = window.bins->points;
     const std::uint32_t* begin = window.bins->begin.data() + window.first_cell;
     const float* x = points.x.data() + window.first_point;
     const float* y = points.y.data() + window.first_point;
     const float* z = points.z.data() + window.first_point;
-    const Cell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
-    Cell c = lo;
+    const WindowCell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
+    WindowCell c = lo;
     for (c.index[2] = lo.index[2]; c.index[2] <= hi.index[2]; ++c.index[2])
         for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1]) {
             const std::size_t row = lattice.offset(c);

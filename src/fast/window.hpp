@@ -26,14 +26,14 @@ struct Points {
     void reserve(std::size_t most); // keeps what is there
 };
 
-struct alignas(16) Cell {
+struct alignas(16) WindowCell {
     std::uint32_t index[4]; // along x, y, z; [3] means nothing
 };
 
 // Where a coordinate falls: trunc((c - origin) * inverse), clamped to [0, last]. Monotone in c also as
 // rounded, so the cells from that of a box's low corner to that of its high corner hold every point of the
 // box, wherever the lattice lies; points outside count to the nearest border cell.
-struct Lattice {
+struct WindowLattice {
     alignas(16) float origin[4] = {0, 0, 0, 0}; // [3] mean nothing here, nor in `last`
     alignas(16) float last[4] = {0, 0, 0, 0};
     float inverse = 1; // of the cell size; > 0, finite
@@ -46,8 +46,8 @@ struct Lattice {
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(t));
     }
     // The cells of all axes, from a corner of a box.
-    Cell cell(const float (&corner)[4]) const noexcept {
-        Cell c;
+    WindowCell cell(const float (&corner)[4]) const noexcept {
+        WindowCell c;
 #if defined(__SSE2__)
         __m128 t = _mm_mul_ps(_mm_sub_ps(_mm_load_ps(corner), _mm_load_ps(origin)), _mm_set1_ps(inverse));
         t = _mm_min_ps(_mm_max_ps(t, _mm_setzero_ps()), _mm_load_ps(last));
@@ -57,25 +57,25 @@ struct Lattice {
 #endif
         return c;
     }
-    std::size_t offset(const Cell& c) const noexcept {
+    std::size_t offset(const WindowCell& c) const noexcept {
         return (std::size_t{c.index[2]} * cells[1] + c.index[1]) * cells[0] + c.index[0];
     }
     std::size_t count() const noexcept { return std::size_t{cells[0]} * cells[1] * cells[2]; }
 };
 
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
-Lattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
+WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 
 // The same for points in `box`. Where a few of them that lie far away would make the cells large, the lattice
 // covers the bulk alone.
-Lattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
+WindowLattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
 
 struct Bins;
 
 // The binned vertices of a body, or some of them; or, without any, a node of the tree over several windows.
 struct Window {
     const Bins* bins; // where they are
-    Lattice lattice;
+    WindowLattice lattice;
     Box box;                 // of its points
     std::size_t first_point; // in Bins::points
     std::size_t
@@ -110,7 +110,7 @@ Box bounds(const Points& points);
 
 // Adds the window of `points`, sorted stably into the cells of `lattice`. `buffer` is kept from call to
 // call: the cell of each unsorted point.
-Window bin(const Points& points, const Lattice& lattice, const Box& box,
+Window bin(const Points& points, const WindowLattice& lattice, const Box& box,
            std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
 
 // Appends to bins.windows a tree of windows of all points in cells of `cell_size`, or of larger ones where

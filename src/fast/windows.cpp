@@ -8,7 +8,6 @@
 
 namespace vox {
 
-using fast::Box;
 
 namespace {
 
@@ -30,7 +29,7 @@ bool is_large(const Body& body) { return body.self_collision && body.tets.size()
 
 // A group of bodies is the work of one worker. Where there are fewer large bodies than workers, these share
 // the first part of each.
-void Fast::make_windows(Step& step) {
+void FastEngine::make_windows(Step& step) {
     std::size_t vertices = 0, large = 0;
     for (std::size_t a = 0; a < step.bodies.size(); ++a) {
         vertices += step.bodies[a].vertex_count;
@@ -52,7 +51,7 @@ void Fast::make_windows(Step& step) {
 }
 
 // The sides of some tiles of a body.
-void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& sides) {
+void FastEngine::sample_tiles(const Step& step, std::uint32_t body, TileSize& sides) {
     const FastMesh& mesh = *step.prepared[body];
     const BodyState& state = states_[body];
     const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
@@ -66,12 +65,12 @@ void Fast::sample_tiles(const Step& step, std::uint32_t body, fast::TileSides& s
 
 // Whether winding numbers tell which vertices may be in the body's own tets; then they are in
 // `certificate`.
-bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
+bool FastEngine::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
                            std::uint64_t& exact_tests, Workers* helpers) {
     if (!may_certify(step, b)) return false;
     FastMesh& mesh = *step.prepared[b];
     const BodyState& state = states_[b];
-    fast::TileSides sides;
+    TileSize sides;
     sample_tiles(step, b, sides);
     const fast::WindingBody body{mesh,
                                  mesh.surface,
@@ -92,7 +91,7 @@ bool Fast::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate&
 }
 
 // Marks the blocks with vertices that are not certified.
-void Fast::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buffers) const {
+void FastEngine::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buffers) const {
     const FastMesh& mesh = *step.prepared[b];
     const BodyState& state = states_[b];
     const fast::Certificate& certificate = buffers.certificate;
@@ -113,7 +112,7 @@ void Fast::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buf
 }
 
 // The window of the vertices of a body that reach another one, or that may be in tets of the same body.
-void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Worker& worker,
+void FastEngine::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Worker& worker,
                        Workers* helpers) {
     const Body& body = step.bodies[a];
     BodyState& state = states_[a];
@@ -128,16 +127,16 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
     const std::uint32_t count = step.prepared[a]->block_count();
     Box own =
-        self && !culled ? body_boxes_[a] : fast::empty_box; // of the vertices that may be in the same body
+        self && !culled ? body_boxes_[a] : empty_box; // of the vertices that may be in the same body
     if (culled) {
         activate_blocks(step, a, buffers);
         for (std::uint32_t b = 0; b < count; ++b)
-            if (buffers.active[b]) fast::add(own, blocks[b]);
+            if (buffers.active[b]) add(own, blocks[b]);
     }
-    state.self = !fast::is_empty(own);
+    state.self = !is_empty(own);
     Box region = own;
-    for (const Reach& reach : reaches) fast::add(region, reach.region);
-    if (fast::is_empty(region)) return;
+    for (const Reach& reach : reaches) add(region, reach.region);
+    if (is_empty(region)) return;
 
     fast::Points& points = buffers.points;
     points.count = 0;
@@ -159,7 +158,7 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     if (points.count == 0) return;
 
     // From the mean side of the tiles that will query the window.
-    fast::TileSides sides;
+    TileSize sides;
     for (const Reach& reach : reaches) sides.add(reach.sides);
     if (state.self) sample_tiles(step, a, sides);
     const double automatic = cells_per_tile * sides.mean(), wanted = step.settings.cell_size;
@@ -170,7 +169,7 @@ void Fast::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Work
     state.bins = &bins;
     state.binned = bins.points.count - before;
     state.own = own;
-    fast::intersect(state.own, bins.windows[state.root].box);
+    intersect(state.own, bins.windows[state.root].box);
 }
 
 } // namespace vox

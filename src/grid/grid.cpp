@@ -143,7 +143,7 @@ void vox_grid::clear() {
 
 void vox_grid::mark_moved(vox_mesh id) {
     meshes_hold_ = false;
-    for (fast::Rest::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
+    for (fast::LastPositions::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
 }
 
 void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
@@ -210,7 +210,7 @@ void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, st
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     Mesh& grown = mesh(id);
     check_limit(tet_count_, corners.size(), VOX_MAX_TETS, "tets");
-    if (find_penetrations_) depth::check_tet_count(grown.tet_count() + corners.size());
+    if (find_penetrations_) check_tet_count(grown.tet_count() + corners.size());
     const std::uint32_t first = grown.append_tets(corners);
     tet_count_ += corners.size();
     was_cut(id, corners.size());

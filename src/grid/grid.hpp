@@ -53,10 +53,10 @@ public:
             : bodies(memory), tiles(memory), meshes(memory), activity(memory) {}
 
         std::pmr::vector<vox::Body> bodies;
-        std::pmr::vector<const vox::fast::Tiles*> tiles; // null where they were not made
+        std::pmr::vector<const vox::Tiles*> tiles; // null where they were not made
         std::pmr::vector<const vox::Mesh*> meshes;
         std::pmr::vector<vox::Activity> activity;
-        const vox::Fast* last_step = nullptr; // null unless it was of the same bodies, but for their positions
+        const vox::FastEngine* last_step = nullptr; // null unless it was of the same bodies, but for their positions
     };
     Known known(std::pmr::memory_resource* memory) const;
     void describe(vox_suggest_desc& desc) const noexcept;
@@ -145,10 +145,10 @@ private:
     // one step
     std::pmr::vector<vox::Body> bodies_;
     std::pmr::vector<vox::FastMesh*> tiles_; // of each body, for the fast engine
-    vox::Fast fast_engine_;
-    vox::Reference reference_;
-    std::pmr::vector<const vox::depth::Topology*> topologies_; // of each body, for the depth stage
-    vox::Depth depth_;
+    vox::FastEngine fast_engine_;
+    vox::ReferenceEngine reference_;
+    std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage
+    vox::DepthStage depth_;
     std::pmr::vector<vox::Hit> hits_;
 
     // results

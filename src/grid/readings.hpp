@@ -21,7 +21,7 @@ class Workers;
 // A mesh as it is now.
 struct ReadingBody {
     Body body{};
-    const depth::Topology* topology = nullptr; // null: gone
+    const Topology* topology = nullptr; // null: gone
 };
 
 class Readings {

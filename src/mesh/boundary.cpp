@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace vox::fast {
+namespace vox {
 
 bool is_negative(const Tet& tet, const Positions& positions) noexcept {
     const Vec3d a = positions.exact(tet.v[0]);
@@ -34,7 +34,7 @@ using Open = SortedFacet;
 
 // Adds the facets of tile `index` that have no partner in it to `open`; false when some facet has two.
 bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& tiles, std::size_t index,
-                   Surface& made, std::pmr::vector<Open>& open, std::pmr::vector<std::uint8_t>& used) {
+                   Boundary& made, std::pmr::vector<Open>& open, std::pmr::vector<std::uint8_t>& used) {
     const Tile& tile = tiles.tiles[index];
     const std::uint8_t* corners = tiles.corners.data() + index * 4 * tile_size;
     const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
@@ -76,10 +76,10 @@ bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& 
 
 } // namespace
 
-void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
-                  const Tiles& tiles, Surface& out) {
+void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
+                  const Tiles& tiles, Boundary& out) {
     std::pmr::memory_resource* memory = out.triangles.get_allocator().resource();
-    Surface made(memory);
+    Boundary made(memory);
     std::pmr::vector<Open> open(memory);
     std::pmr::vector<std::uint8_t> used(vertex_count, 0, memory);
     open.reserve(tets.size() + 64);
@@ -87,7 +87,7 @@ void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positio
     made.ignored.reserve(tiles.tiles.size());
     for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
         if (!match_in_tile(tets, positions, tiles, i, made, open, used)) {
-            out = Surface(memory);
+            out = Boundary(memory);
             return;
         }
     for (std::uint32_t v = 0; v < vertex_count; ++v)
@@ -112,7 +112,7 @@ void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positio
             while (end < last && !before(placed[i], placed[end])) ++end;
             const Open& facet = open[placed[i]];
             if (end - i > 2 || (end - i == 2 && facet.even == open[placed[i + 1]].even)) {
-                out = Surface(memory);
+                out = Boundary(memory);
                 return;
             }
             if (end - i == 1) made.triangles.push_back(triangle_of(facet));
@@ -125,4 +125,4 @@ void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positio
     out = std::move(made);
 }
 
-} // namespace vox::fast
+} // namespace vox

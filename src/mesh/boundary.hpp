@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-namespace vox::fast {
+namespace vox {
 
-struct Surface {
-    explicit Surface(std::pmr::memory_resource* memory) noexcept
+struct Boundary {
+    explicit Boundary(std::pmr::memory_resource* memory) noexcept
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
     // The triangles are the boundary of all tets: their facets, where those on different sides cancel. So
@@ -34,7 +34,7 @@ inline constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {
 
 // Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
 // on: a surface that is most of the body never pays.
-constexpr bool surface_pays(std::size_t triangles, std::size_t tets) noexcept {
+constexpr bool boundary_pays(std::size_t triangles, std::size_t tets) noexcept {
     return tets >= 2000 && triangles * 8 <= tets;
 }
 
@@ -45,7 +45,7 @@ bool is_negative(const Tet& tet, const Positions& positions) noexcept;
 std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept;
 
 // Throws std::bad_alloc and leaves `out` as it was then.
-void make_surface(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
-                  const Tiles& tiles, Surface& out);
+void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
+                  const Tiles& tiles, Boundary& out);
 
-} // namespace vox::fast
+} // namespace vox

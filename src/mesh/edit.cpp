@@ -234,7 +234,7 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         removed_vertices_.add(v);
-        fast::forget_loose(tiles_.surface, v);
+        forget_loose(tiles_.surface, v);
     }
 }
 
@@ -274,7 +274,7 @@ void Mesh::forget_tiles() noexcept {
 }
 
 void Mesh::forget_topology() noexcept {
-    topology_ = depth::Topology(memory());
+    topology_ = Topology(memory());
     has_topology_ = false;
 }
 
@@ -284,7 +284,7 @@ void Mesh::forget_rings() noexcept {
 }
 
 void Mesh::forget_prepared() noexcept {
-    tets_of_ = Lists(memory());
+    tets_of_ = IndexLists(memory());
     has_tets_of_ = false;
     sample_.reset();
     forget_tiles();
@@ -316,8 +316,8 @@ void Mesh::follow(std::span<const TetChange> changes) noexcept {
     }
     if (has_topology_) {
         try {
-            depth::check_tet_count(tets_.size());
-            depth::repair_topology(tets_, tets_of_, changes, topology_);
+            check_tet_count(tets_.size());
+            repair_topology(tets_, tets_of_, changes, topology_);
         } catch (...) {
             forget_topology();
         }
@@ -336,7 +336,7 @@ void Mesh::follow_vertices(std::uint32_t count_before) noexcept {
     try {
         if (has_tets_of_) tets_of_.resize(vertex_count_);
         if (has_tiles_ && !tiles_.follow_vertices(body(VOX_NULL_MESH), count_before)) forget_tiles();
-        if (has_topology_) depth::add_vertices(vertex_count_, topology_);
+        if (has_topology_) add_vertices(vertex_count_, topology_);
         if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
     } catch (...) {
         forget_prepared();

@@ -56,7 +56,7 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
              std::pmr::memory_resource* memory)
     : Rings(memory) {
     if (count == 0 || vertex_count == 0) return;
-    Lists tets_of(memory);
+    IndexLists tets_of(memory);
     tets_of.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count,
                            [&](std::uint32_t t) { return std::span<const std::uint32_t>(tets[t].v); });
     reached_from.resize(vertex_count, 0);
@@ -70,7 +70,7 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
 }
 
 // Breadth first; the queue is what is found.
-void Rings::search(std::span<const Tet> tets, const Lists& tets_of, std::uint32_t vertex, std::uint32_t count,
+void Rings::search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex, std::uint32_t count,
                    std::pmr::vector<std::uint32_t>& found) {
     if (++searches == 0) { // after 2^32 of them
         std::fill(reached_from.begin(), reached_from.end(), 0u);
@@ -104,7 +104,7 @@ void Rings::add_vertices(std::size_t vertex_count) {
 
 // Where an edge came or went, its ends are among the changed vertices: others are near it if they are, or were,
 // near those.
-void Rings::repair(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+void Rings::repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                    std::uint32_t count) {
     std::pmr::memory_resource* memory = near.memory();
     std::pmr::vector<std::uint32_t> changed(memory), affected(memory), found(memory);
@@ -134,9 +134,9 @@ bool SelfFilter::rests_close(std::uint32_t vertex, const Tet& tet) const noexcep
     const Vec3f& p = rest[vertex];
     const Vec3f corner[4] = {rest[tet.v[0]], rest[tet.v[1]], rest[tet.v[2]], rest[tet.v[3]]};
     for (int i = 0; i < 4; ++i) {
-        const Vec3d a = depth::vec(corner[(i + 1) % 4]), b = depth::vec(corner[(i + 2) % 4]),
-                    c = depth::vec(corner[(i + 3) % 4]);
-        if (std::sqrt(closest_on_triangle(depth::vec(p), a, b, c).squared_distance) < rest_distance)
+        const Vec3d a = vec(corner[(i + 1) % 4]), b = vec(corner[(i + 2) % 4]),
+                    c = vec(corner[(i + 3) % 4]);
+        if (std::sqrt(closest_on_triangle(vec(p), a, b, c).squared_distance) < rest_distance)
             return true;
     }
     std::uint64_t exact_tests = 0;

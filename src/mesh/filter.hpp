@@ -33,16 +33,16 @@ struct Rings {
 
     // Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it. Throws what the memory
     // throws, and is to be made anew then.
-    void repair(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+    void repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                 std::uint32_t count);
 
     // More of them, at the end, that no tetrahedron names. Throws as repair().
     void add_vertices(std::size_t vertex_count);
 
-    Lists near; // of each vertex: ascending, itself among them
+    IndexLists near; // of each vertex: ascending, itself among them
 
 private:
-    void search(std::span<const Tet> tets, const Lists& tets_of, std::uint32_t vertex, std::uint32_t count,
+    void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex, std::uint32_t count,
                 std::pmr::vector<std::uint32_t>& found);
 
     std::pmr::vector<std::uint32_t> reached_from; // of each vertex, the last search that met it

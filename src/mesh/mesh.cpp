@@ -32,7 +32,7 @@ void Mesh::make_tiles() {
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    depth::make_topology(tets_, vertex_count_, topology_);
+    vox::make_topology(tets_, vertex_count_, topology_);
     has_topology_ = true;
 }
 

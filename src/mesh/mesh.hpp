@@ -35,11 +35,11 @@ public:
 
     // Prepares the depth stage, unless that is done.
     void make_topology();
-    const depth::Topology& topology() const noexcept { return topology_; }
+    const Topology& topology() const noexcept { return topology_; }
 
     // What suggestions look at, made when the first one asks. From the topology where that is prepared.
     const MeshSample& sample() const;
-    bool may_sample() const noexcept { return tets_.size() <= depth::most_tets; }
+    bool may_sample() const noexcept { return tets_.size() <= most_tets; }
 
     // Makes the fast engine's tiles, unless that is done; needs positions.
     void make_tiles();
@@ -131,8 +131,8 @@ private:
     Bits off_, removed_;          // tets; those that are removed are off as well
     Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
-    Lists tets_of_;                  // the tets around each vertex, once an edit needed them
-    depth::Topology topology_;
+    IndexLists tets_of_;                  // the tets around each vertex, once an edit needed them
+    Topology topology_;
     Lazy<MeshSample> sample_;
     FastMesh tiles_;
     Positions positions_; // without the transform

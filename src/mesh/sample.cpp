@@ -34,7 +34,7 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept {
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 48, 96, 256));
 }
 
-MeshSample make_sample(const Body& body, const depth::Topology& topology, std::pmr::memory_resource* memory) {
+MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::memory_resource* memory) {
     MeshSample sample(memory);
     const std::size_t wanted = sampled_tets(body.tets.size());
     for_stratified(body.tets.size(), wanted, [&](std::uint64_t t) {
@@ -44,7 +44,7 @@ MeshSample make_sample(const Body& body, const depth::Topology& topology, std::p
             const std::uint32_t across = topology.across[t][f];
             // Where three or more meet, nothing is told to be across.
             const bool own =
-                across != depth::Topology::nothing && (across & depth::Topology::surface_bit) != 0;
+                across != Topology::nothing && (across & Topology::surface_bit) != 0;
             shared |= std::uint32_t{!own} << f;
         }
         if (names_a_vertex_twice(body.tets[t])) shared = MeshSample::SampledTet::no_facets;
@@ -76,8 +76,8 @@ MeshSample make_sample(const Body& body, const depth::Topology& topology, std::p
 }
 
 MeshSample make_sample(const Body& body, std::pmr::memory_resource* memory) {
-    depth::Topology topology(memory);
-    depth::make_topology(body.tets, body.vertex_count, topology);
+    Topology topology(memory);
+    make_topology(body.tets, body.vertex_count, topology);
     return make_sample(body, topology, memory);
 }
 

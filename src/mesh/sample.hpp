@@ -43,7 +43,7 @@ struct MeshSample {
 std::size_t sampled_tets(std::uint64_t tets) noexcept;
 
 // `topology` is that of the tets. Throws what the memory throws.
-MeshSample make_sample(const Body& body, const depth::Topology& topology, std::pmr::memory_resource* memory);
+MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::memory_resource* memory);
 // The same without one, which takes as long as to make a topology, and its memory meanwhile.
 MeshSample make_sample(const Body& body, std::pmr::memory_resource* memory);
 

@@ -8,8 +8,8 @@
 namespace vox {
 
 void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, std::uint32_t vertex_count,
-               Lists& tets_of) {
-    Lists made(tets_of.memory());
+               IndexLists& tets_of) {
+    IndexLists made(tets_of.memory());
     std::uint32_t corners[4];
     made.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
         std::size_t count = 0;
@@ -19,7 +19,7 @@ void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, st
     tets_of = std::move(made);
 }
 
-void follow(std::span<const TetChange> changes, Lists& tets_of) {
+void follow(std::span<const TetChange> changes, IndexLists& tets_of) {
     for (const TetChange& change : changes) {
         if (change.was_on)
             for_corners(change.before, [&](std::uint32_t v) { tets_of.remove(v, change.tet); });

@@ -63,9 +63,9 @@ void for_corners(const Tet& tet, Function&& function) {
 
 // The tetrahedra around each vertex: those that are on, in any order.
 void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, std::uint32_t vertex_count,
-               Lists& tets_of);
+               IndexLists& tets_of);
 // Follows changes. Throws what the memory throws, and is to be made anew then.
-void follow(std::span<const TetChange> changes, Lists& tets_of);
+void follow(std::span<const TetChange> changes, IndexLists& tets_of);
 
 // The facets of all that changed, before and after; their vertices. Sorted, each once.
 void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<FacetKey>& facets);
@@ -73,7 +73,7 @@ void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<
 
 // Calls function(tet, i) for each tetrahedron of which `key` is facet i.
 template <class Function>
-void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const Lists& tets_of, Function&& function) {
+void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const IndexLists& tets_of, Function&& function) {
     std::span<const std::uint32_t> around = tets_of[key.low];
     for (const std::uint32_t v : {key.middle, key.high})
         if (tets_of[v].size() < around.size()) around = tets_of[v];

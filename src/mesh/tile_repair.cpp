@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace vox::fast {
+namespace vox {
 
 namespace {
 
@@ -14,12 +14,12 @@ constexpr std::uint64_t bit(std::uint32_t i) { return std::uint64_t{1} << i; }
 
 class Repair {
 public:
-    Repair(Tiles& tiles, Surface& surface, Places& places, const Body& body, const Lists& tets_of)
+    Repair(Tiles& tiles, Boundary& surface, TilePlaces& places, const Body& body, const IndexLists& tets_of)
         : tiles_(tiles), surface_(surface), places_(places), body_(body), tets_of_(tets_of) {}
 
     void run(std::span<const TetChange> changes) {
         if (places_.room.empty()) find_places();
-        places_.of_tet.resize(std::max(places_.of_tet.size(), body_.tets.size()), Places::none);
+        places_.of_tet.resize(std::max(places_.of_tet.size(), body_.tets.size()), TilePlaces::none);
         places_.changes += changes.size();
         for (const TetChange& change : changes) {
             if (change.was_on) take_out(change.tet);
@@ -33,8 +33,8 @@ public:
         std::pmr::vector<std::uint32_t> vertices(memory);
         list_changed_vertices(changes, vertices);
         for (const std::uint32_t v : vertices) mind_loose(v);
-        if (!surface_pays(surface_.triangles.size(), body_.tets.size() - body_.off_count))
-            surface_ = Surface(memory);
+        if (!boundary_pays(surface_.triangles.size(), body_.tets.size() - body_.off_count))
+            surface_ = Boundary(memory);
     }
 
 private:
@@ -43,7 +43,7 @@ private:
     }
 
     void find_places() {
-        places_.of_tet.assign(body_.tets.size(), Places::none);
+        places_.of_tet.assign(body_.tets.size(), TilePlaces::none);
         places_.room.reserve(tiles_.tiles.size() + 16);
         for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
             const Tile& tile = tiles_.tiles[t];
@@ -65,7 +65,7 @@ private:
         std::uint32_t* tets = tiles_.tets.data() + tile.first_tet;
         const std::uint32_t last = --tile.tet_count;
         for (std::uint32_t c = 0; own && c < 4; ++c) own[corners[c * tile_size + place]] &= ~bit(place);
-        places_.of_tet[tet] = Places::none;
+        places_.of_tet[tet] = TilePlaces::none;
         if (place != last) {
             for (std::uint32_t c = 0; c < 4; ++c) {
                 const std::uint8_t local = corners[c * tile_size + last];
@@ -113,7 +113,7 @@ private:
     // the most of the corners.
     std::uint32_t choose_tile(const Tet& corners) {
         constexpr std::size_t most_tets = 16, most_tiles = 8;
-        std::uint32_t seen[most_tiles], best = Places::none, fewest_missing = 4;
+        std::uint32_t seen[most_tiles], best = TilePlaces::none, fewest_missing = 4;
         std::size_t count = 0;
         const auto look_at = [&](std::uint32_t t) {
             if (count == most_tiles || std::find(seen, seen + count, t) != seen + count) return;
@@ -128,9 +128,9 @@ private:
         for (const std::uint32_t v : corners.v) {
             const std::span<const std::uint32_t> around = tets_of_[v];
             for (std::size_t i = 0; i < std::min(around.size(), most_tets); ++i)
-                if (places_.of_tet[around[i]] != Places::none) look_at(places_.of_tet[around[i]] / tile_size);
+                if (places_.of_tet[around[i]] != TilePlaces::none) look_at(places_.of_tet[around[i]] / tile_size);
         }
-        if (best != Places::none) return best;
+        if (best != TilePlaces::none) return best;
         // A few tets that lie apart share a tile.
         constexpr std::uint32_t few_tets = 8;
         const auto last = static_cast<std::uint32_t>(tiles_.tiles.size() - 1);
@@ -168,7 +168,7 @@ private:
     // For one more tet and so many more vertices: where a tile has none, its lists move to the end, once.
     void make_room(std::uint32_t t, std::uint32_t vertices) {
         Tile& tile = tiles_.tiles[t];
-        Places::Room& room = places_.room[t];
+        TilePlaces::Room& room = places_.room[t];
         const auto move_to_end = [](auto& list, std::uint32_t first, std::uint32_t count) {
             const std::size_t end = list.size();
             list.resize(end + tile_size);
@@ -260,17 +260,17 @@ private:
     }
 
     Tiles& tiles_;
-    Surface& surface_;
-    Places& places_;
+    Boundary& surface_;
+    TilePlaces& places_;
     const Body& body_;
-    const Lists& tets_of_;
+    const IndexLists& tets_of_;
     const bool keeps_own_ = body_.self_collision || !tiles_.own.empty();
 };
 
 } // namespace
 
-bool repair(Tiles& tiles, Surface& surface, Places& places, const Body& body,
-            std::span<const TetChange> changes, const Lists& tets_of) {
+bool repair(Tiles& tiles, Boundary& surface, TilePlaces& places, const Body& body,
+            std::span<const TetChange> changes, const IndexLists& tets_of) {
     // The share of the tets that may change before tiles are made anew, which takes about as long as their
     // repair did by then.
     if (places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;
@@ -278,7 +278,7 @@ bool repair(Tiles& tiles, Surface& surface, Places& places, const Body& body,
     return true;
 }
 
-void add_vertices(Tiles& tiles, Surface& surface, Places& places, std::uint32_t count_before,
+void add_vertices(Tiles& tiles, Boundary& surface, TilePlaces& places, std::uint32_t count_before,
                   std::uint32_t count_after) {
     std::pmr::vector<std::uint32_t>& first = tiles.block_first;
     for (std::uint32_t v = count_before; v < count_after; ++v) {
@@ -293,9 +293,9 @@ void add_vertices(Tiles& tiles, Surface& surface, Places& places, std::uint32_t 
     if (!places.triangles.empty()) places.triangles.resize(count_after);
 }
 
-void forget_loose(Surface& surface, std::uint32_t vertex) noexcept {
+void forget_loose(Boundary& surface, std::uint32_t vertex) noexcept {
     const auto place = std::lower_bound(surface.loose.begin(), surface.loose.end(), vertex);
     if (place != surface.loose.end() && *place == vertex) surface.loose.erase(place);
 }
 
-} // namespace vox::fast
+} // namespace vox

@@ -14,11 +14,11 @@
 #include <span>
 #include <vector>
 
-namespace vox::fast {
+namespace vox {
 
 // Where things are; all but the counts is made at the first edit.
-struct Places {
-    explicit Places(std::pmr::memory_resource* memory) noexcept
+struct TilePlaces {
+    explicit TilePlaces(std::pmr::memory_resource* memory) noexcept
         : of_tet(memory), room(memory), triangles(memory) {}
 
     static constexpr std::uint32_t none = ~0u;
@@ -28,7 +28,7 @@ struct Places {
         std::uint8_t tets, vertices; // that a tile has room for where it lies
     };
     std::pmr::vector<Room> room;
-    Lists triangles;                     // of the surface, by their lowest vertex
+    IndexLists triangles;                     // of the surface, by their lowest vertex
     std::uint32_t first_young_super = 0; // super-tiles and vertices from here on came with edits
     std::uint32_t first_young_vertex = 0;
     std::uint64_t changes = 0; // of tets since the tiles were made
@@ -37,15 +37,15 @@ struct Places {
 // Follows changes of `body`, which is as it is now, around each vertex `tets_of` it. False, or what the
 // memory throws: tiles, surface and places are to be made anew. The surface is emptied when it does not pay
 // any more.
-bool repair(Tiles& tiles, Surface& surface, Places& places, const Body& body,
-            std::span<const TetChange> changes, const Lists& tets_of);
+bool repair(Tiles& tiles, Boundary& surface, TilePlaces& places, const Body& body,
+            std::span<const TetChange> changes, const IndexLists& tets_of);
 
 // Takes in vertices that no tet names yet, [count_before, count_after), count_before > 0. What the memory
 // throws: as above.
-void add_vertices(Tiles& tiles, Surface& surface, Places& places, std::uint32_t count_before,
+void add_vertices(Tiles& tiles, Boundary& surface, TilePlaces& places, std::uint32_t count_before,
                   std::uint32_t count_after);
 
 // A vertex that will never make contacts need not be looked at for being of no tet.
-void forget_loose(Surface& surface, std::uint32_t vertex) noexcept;
+void forget_loose(Boundary& surface, std::uint32_t vertex) noexcept;
 
-} // namespace vox::fast
+} // namespace vox

@@ -3,10 +3,10 @@
 
 #include "base/boxes.hpp"
 
-namespace vox::fast {
+namespace vox {
 
 // The harmonic mean of the sides of tiles: a few that reach across the world do not count.
-struct TileSides {
+struct TileSize {
     double inverse_sum = 0, count = 0;
 
     void add(const Box& box) noexcept {
@@ -17,11 +17,11 @@ struct TileSides {
         inverse_sum += 3 / sides;
         count += 1;
     }
-    void add(const TileSides& other) noexcept {
+    void add(const TileSize& other) noexcept {
         inverse_sum += other.inverse_sum;
         count += other.count;
     }
     double mean() const noexcept { return count > 0 ? count / inverse_sum : 0; }
 };
 
-} // namespace vox::fast
+} // namespace vox

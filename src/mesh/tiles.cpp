@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace vox::fast {
+namespace vox {
 
 namespace {
 
@@ -57,7 +57,7 @@ private:
     }
 
     static int longest_side(const Item* items, std::uint32_t count) {
-        float lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+        float lo[3] = {float_infinity, float_infinity, float_infinity}, hi[3] = {-float_infinity, -float_infinity, -float_infinity};
         for (std::uint32_t i = 0; i < count; ++i)
             for (int a = 0; a < 3; ++a) {
                 const float c = items[i].centroid[a];
@@ -134,7 +134,7 @@ void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     for (std::uint32_t i = 0; i < samples; ++i) {
         const float d =
             distance(1 + static_cast<std::uint32_t>(std::uint64_t{vertex_count - 1} * i / samples));
-        sample[i] = d < infinity ? d : infinity;
+        sample[i] = d < float_infinity ? d : float_infinity;
     }
     std::nth_element(sample.begin(), sample.begin() + samples / 2, sample.begin() + samples);
     const float far = 25 * sample[samples / 2]; // five times the median distance
@@ -217,4 +217,4 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
     out = std::move(made);
 }
 
-} // namespace vox::fast
+} // namespace vox

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace vox::fast {
+namespace vox {
 
 inline constexpr std::uint32_t tile_size = 64;       // most tets, and most vertices, of a tile
 inline constexpr std::uint32_t super_tile_size = 16; // tiles of a super-tile, about
@@ -48,7 +48,7 @@ struct Tiles {
     std::pmr::vector<std::uint32_t> block_first;
     // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree.
     std::pmr::vector<std::uint32_t> super_first;
-    Lists blocks; // of each super-tile, ascending: those that hold its vertices
+    IndexLists blocks; // of each super-tile, ascending: those that hold its vertices
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
@@ -70,4 +70,4 @@ private:
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
                 std::span<const std::uint64_t> off = {});
 
-} // namespace vox::fast
+} // namespace vox

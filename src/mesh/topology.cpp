@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace vox::depth {
+namespace vox {
 
 namespace {
 
@@ -84,7 +84,7 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
         return;
     }
     check_tet_count(tets.size());
-    Lists tets_around(memory);
+    IndexLists tets_around(memory);
     std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
     std::pmr::vector<Facet> facets(memory);
     tets_around.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
@@ -119,7 +119,7 @@ namespace {
 
 class Repair {
 public:
-    Repair(std::span<const Tet> tets, const Lists& tets_of, Topology& topology)
+    Repair(std::span<const Tet> tets, const IndexLists& tets_of, Topology& topology)
         : tets_(tets), tets_of_(tets_of), topology_(topology), facets_(tets_of.memory()),
           found_(tets_of.memory()) {}
 
@@ -192,7 +192,7 @@ private:
     }
 
     std::span<const Tet> tets_;
-    const Lists& tets_of_;
+    const IndexLists& tets_of_;
     Topology& topology_;
     std::pmr::vector<Facet> facets_;
     std::pmr::vector<std::uint32_t> found_;
@@ -206,11 +206,11 @@ void add_vertices(std::uint32_t vertex_count, Topology& topology) {
     topology.rings.resize(vertex_count);
 }
 
-void repair_topology(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+void repair_topology(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                      Topology& topology) {
     topology.neighbours.resize(tets_of.size());
     topology.rings.resize(tets_of.size());
     Repair(tets, tets_of, topology).run(changes);
 }
 
-} // namespace vox::depth
+} // namespace vox

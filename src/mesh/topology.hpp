@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace vox::depth {
+namespace vox {
 
 // The facets of a tetrahedron, facet i opposite corner i; counter-clockwise from outside when it is positive.
 inline constexpr std::uint8_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -35,10 +35,10 @@ struct Topology {
     static constexpr std::uint32_t nothing = 0xffffffffu;
 
     // All empty for a mesh without tetrahedra.
-    Lists neighbours;                                      // of each vertex, over edges, ascending
+    IndexLists neighbours;                                      // of each vertex, over edges, ascending
     std::pmr::vector<std::array<std::uint32_t, 4>> across; // of each tetrahedron's facets
     std::pmr::vector<Triangle> triangles;
-    Lists rings;             // of each vertex the triangles around it, in the order of before()
+    IndexLists rings;             // of each vertex the triangles around it, in the order of before()
     bool is_repaired = false; // else the order of before() is that of `triangles`
 
     std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const noexcept {
@@ -75,7 +75,7 @@ void add_vertices(std::uint32_t vertex_count, Topology& topology);
 // Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it; those that are off name a
 // vertex twice. As make_topology() but for the order of triangles. Throws what the memory throws, and is to be
 // made anew then.
-void repair_topology(std::span<const Tet> tets, const Lists& tets_of, std::span<const TetChange> changes,
+void repair_topology(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                      Topology& topology);
 
-} // namespace vox::depth
+} // namespace vox

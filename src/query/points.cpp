@@ -16,7 +16,7 @@ namespace vox {
 namespace {
 
 Box3f box_of(const Vec3d& p) noexcept {
-    Box3f box = empty_box();
+    Box3f box = empty_box3f();
     extend(box, p);
     return box;
 }

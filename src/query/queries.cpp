@@ -86,13 +86,13 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
     const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
     const bool rounded = body.positions.rounded(); // else all are floats
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
-    for (const fast::Tile& tile : from.tiles->tiles) {
+    for (const Tile& tile : from.tiles->tiles) {
         if (tile.tet_count == 0) continue; // all of them are off
-        Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box()};
+        Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box3f()};
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t index = from.tiles->tets[tile.first_tet + i];
             Tetrahedron t{index, 0, {}};
-            Box3f box = empty_box();
+            Box3f box = empty_box3f();
             for (std::size_t c = 0; c < 4; ++c) {
                 t.corner[c] = first_vertex + body.tets[index].v[c];
                 const Vec3d& p = vertices_[t.corner[c]];
@@ -103,7 +103,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
                     extend(box, {at, at});
                 }
                 const std::uint32_t across = from.topology->across[index][c];
-                if (across != depth::Topology::nothing && (across & depth::Topology::surface_bit))
+                if (across != Topology::nothing && (across & Topology::surface_bit))
                     t.facets |= 1u << c;
             }
             tetrahedra_.push_back(t);
@@ -115,7 +115,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
 }
 
 void Queries::sort_leaves() noexcept {
-    Box3f all = empty_box();
+    Box3f all = empty_box3f();
     for (const Leaf& leaf : leaves_) extend(all, leaf.box);
     const auto part = [](float lo, float hi, float min, float max) { // of the way along one axis, in 21 bits
         const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
@@ -137,7 +137,7 @@ void Queries::sort_leaves() noexcept {
 }
 
 Box3f Queries::surface_box(const Leaf& leaf) const noexcept {
-    Box3f box = empty_box();
+    Box3f box = empty_box3f();
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
         const Tetrahedron& t = tetrahedra_[i];
         for (std::size_t c = 0; c < 4; ++c)
@@ -148,8 +148,8 @@ Box3f Queries::surface_box(const Leaf& leaf) const noexcept {
 }
 
 void Queries::build_trees() noexcept {
-    std::fill(tree_.begin(), tree_.end(), empty_box());
-    std::fill(surface_tree_.begin(), surface_tree_.end(), empty_box());
+    std::fill(tree_.begin(), tree_.end(), empty_box3f());
+    std::fill(surface_tree_.begin(), surface_tree_.end(), empty_box3f());
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
         tree_[first_leaf_node() + i] = leaves_[i].box;
         surface_tree_[first_leaf_node() + i] = surface_box(leaves_[i]);

@@ -19,8 +19,8 @@ namespace vox {
 // A mesh as prepare() takes it.
 struct QueryBody {
     Body body;
-    const fast::Tiles* tiles;
-    const depth::Topology* topology;
+    const Tiles* tiles;
+    const Topology* topology;
 };
 
 class Queries {
@@ -56,7 +56,7 @@ private:
         Box3f box;
     };
     // As copied: the tetrahedron's index in its mesh, its corners in vertices_, and bit i for facet i (see
-    // depth::facet_corners) on the surface.
+    // facet_corners) on the surface.
     struct Tetrahedron {
         std::uint32_t index;
         std::uint32_t facets;

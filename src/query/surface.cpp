@@ -17,7 +17,6 @@
 
 namespace vox {
 
-using namespace depth;
 
 namespace {
 
@@ -100,7 +99,7 @@ private:
 };
 
 // The corners of facet i of a tetrahedron in ascending order, so that both sides of a facet compute the same;
-// `place` is where each of them stands in depth::facet_corners.
+// `place` is where each of them stands in facet_corners.
 struct Facet {
     std::uint32_t vertex[3];
     std::size_t place[3] = {0, 1, 2};

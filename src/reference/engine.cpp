@@ -4,6 +4,7 @@
 #include "reference/engine.hpp"
 
 #include "base/bits.hpp"
+#include "base/boxes.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "exact/predicates.hpp"
@@ -16,7 +17,7 @@
 
 namespace vox {
 
-struct Reference::Step {
+struct ReferenceEngine::Step {
     std::span<const Body> bodies;
     const ReferenceSettings& settings;
     std::pmr::vector<Hit>& hits;
@@ -26,24 +27,6 @@ struct Reference::Step {
 };
 
 namespace {
-
-Box3f empty_box() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-}
-
-bool is_empty(const Box3f& box) { return box.min.x > box.max.x; }
-
-void extend(Box3f& box, const Vec3f& p) {
-    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
-    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
-}
-
-bool contains(const Box3f& box, const Vec3f& p) {
-    // Not &&: most particles fail one of the six comparisons at random, and one branch is cheaper than six.
-    return bool(int(p.x >= box.min.x) & int(p.x <= box.max.x) & int(p.y >= box.min.y) &
-                int(p.y <= box.max.y) & int(p.z >= box.min.z) & int(p.z <= box.max.z));
-}
 
 bool in_range(const CellCoord& at, const CellCoord& min, const CellCoord& max) {
     return at.i >= min.i && at.i <= max.i && at.j >= min.j && at.j <= max.j && at.k >= min.k && at.k <= max.k;
@@ -55,10 +38,10 @@ double cells_between(const CellCoord& min, const CellCoord& max) {
 
 } // namespace
 
-Reference::Reference(std::pmr::memory_resource* memory)
+ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
     : particles_(memory), exact_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
 
-void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
+void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
                        std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
@@ -83,7 +66,7 @@ void Reference::detect(std::span<const Body> bodies, const ReferenceSettings& se
     if (settings.levels.empty()) detect_level(step, settings.cell_size, {above, infinity});
 }
 
-void Reference::detect_level(Step& step, double cell_size, const Sizes& sizes) {
+void ReferenceEngine::detect_level(Step& step, double cell_size, const Sizes& sizes) {
     const ReferenceSettings& settings = step.settings;
     // Hashed storage knows no borders; 2^30 cells each way are enough for floats at any sensible cell size,
     // and clamping beyond keeps the order.
@@ -101,7 +84,7 @@ void Reference::detect_level(Step& step, double cell_size, const Sizes& sizes) {
 }
 
 template <class Address>
-void Reference::run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address) {
+void ReferenceEngine::run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address) {
     const std::uint64_t start = nanoseconds(), decided = step.profile.narrow_ns;
     classify(step, lattice, address);
     const std::uint64_t classified = nanoseconds();
@@ -118,7 +101,7 @@ void Reference::run(Step& step, const Sizes& sizes, const Lattice& lattice, cons
 
 // ---- pass one -------------------------------------------------------------------------------------
 
-void Reference::load_particles(std::span<const Body> bodies) {
+void ReferenceEngine::load_particles(std::span<const Body> bodies) {
     std::size_t count = 0;
     first_.clear();
     for (const Body& body : bodies) {
@@ -143,13 +126,13 @@ void Reference::load_particles(std::span<const Body> bodies) {
 }
 
 // The particle's position as the predicates take it.
-inline Vec3d Reference::position(std::size_t particle) const {
+inline Vec3d ReferenceEngine::position(std::size_t particle) const {
     return exact_.empty() ? Vec3d(particles_[particle].position) : exact_[particle];
 }
 
 // Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an empty
 // box.
-void Reference::compute_boxes(Step& step) {
+void ReferenceEngine::compute_boxes(Step& step) {
     std::size_t count = 0;
     for (const Body& body : step.bodies) count += body.tets.size();
     boxes_.resize(count);
@@ -159,7 +142,7 @@ void Reference::compute_boxes(Step& step) {
         const std::size_t own = first_[b];
         const Body& body = step.bodies[b];
         for (const Tet& tet : body.tets) {
-            *box = empty_box();
+            *box = empty_box3f();
             if (body.off_count != 0 && has_bit(body.off, static_cast<std::size_t>(&tet - body.tets.data()))) {
                 ++box;
                 continue;
@@ -175,11 +158,11 @@ void Reference::compute_boxes(Step& step) {
 }
 
 // The box of cells of dense storage; its lattice counts from the box's corner.
-Lattice Reference::prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address) {
+Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address) {
     Vec3d min = settings.world_min, max = settings.world_max;
     const bool automatic = min.x == 0 && min.y == 0 && min.z == 0 && max.x == 0 && max.y == 0 && max.z == 0;
     if (automatic && !particles_.empty()) {
-        Box3f box = empty_box();
+        Box3f box = empty_box3f();
         for (const Particle& particle : particles_) extend(box, particle.position);
         min = {box.min.x, box.min.y, box.min.z};
         max = {box.max.x, box.max.y, box.max.z};
@@ -209,7 +192,7 @@ Lattice Reference::prepare_dense(const ReferenceSettings& settings, double cell_
 }
 
 // The hash table: prime, and at least twice the number of particles unless the caller says otherwise.
-Modulus Reference::prepare_hashed(const ReferenceSettings& settings) {
+Modulus ReferenceEngine::prepare_hashed(const ReferenceSettings& settings) {
     const std::uint64_t wanted =
         settings.hash_table_size != 0 ? settings.hash_table_size : std::uint64_t(particles_.size()) * 2;
     const std::uint32_t size = next_prime(wanted);
@@ -218,7 +201,7 @@ Modulus Reference::prepare_hashed(const ReferenceSettings& settings) {
 }
 
 template <class Address>
-void Reference::classify(Step& step, const Lattice& lattice, const Address& address) {
+void ReferenceEngine::classify(Step& step, const Lattice& lattice, const Address& address) {
     std::uint32_t fullest = 0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
         Particle& particle = particles_[p];
@@ -233,7 +216,7 @@ void Reference::classify(Step& step, const Lattice& lattice, const Address& addr
 
 // Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its
 // own.
-bool Reference::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
+bool ReferenceEngine::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
     const auto is_filtered = [&](std::size_t a) { return a != body && !collide(bodies[a], bodies[body]); };
     bool any = false;
     for (std::size_t a = 0; a < bodies.size() && !any; ++a) any = is_filtered(a);
@@ -247,7 +230,7 @@ bool Reference::filter_particles(std::span<const Body> bodies, std::uint32_t bod
 // ---- pass two -------------------------------------------------------------------------------------
 
 template <class Address>
-void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
+void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
                             const Lattice& lattice, const Address& address) {
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* particles = particles_.data();
@@ -304,7 +287,7 @@ void Reference::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, 
 }
 
 // Decides the collected candidates of tetrahedra of `body`.
-void Reference::narrow_phase(Step& step, std::uint32_t body) {
+void ReferenceEngine::narrow_phase(Step& step, std::uint32_t body) {
     const std::uint64_t start = nanoseconds();
     const std::span<const Tet> tets = step.bodies[body].tets;
     const std::size_t own = first_[body];

@@ -28,9 +28,9 @@ struct ReferenceSettings {
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing (dense storage
 // in the box of all positions may, when that box grows).
-class Reference {
+class ReferenceEngine {
 public:
-    explicit Reference(std::pmr::memory_resource* memory);
+    explicit ReferenceEngine(std::pmr::memory_resource* memory);
 
     // Appends a Hit for every vertex in a closed tetrahedron that does not own it (all of them: canonical
     // filtering is contacts.hpp's), in the order of (body_b, tet) level by level. Throws Error(NON_FINITE)

@@ -36,7 +36,7 @@ inline std::vector<Key> brute_force(const std::vector<vox::Body>& bodies) {
     return keys(hits);
 }
 
-inline std::vector<Key> run_fast(vox::Fast& engine, Scene& scene, double cell_size,
+inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double cell_size,
                                  vox_counters* out = nullptr) {
     std::pmr::vector<vox::Hit> hits;
     vox_counters counters{};
@@ -54,7 +54,7 @@ inline std::vector<Key> run_reference(Scene& scene, double cell_size) {
     vox_profile profile{};
     vox::ReferenceSettings settings;
     settings.cell_size = cell_size;
-    vox::Reference engine(std::pmr::get_default_resource());
+    vox::ReferenceEngine engine(std::pmr::get_default_resource());
     engine.detect(scene.bodies(), settings, hits, counters, profile);
     return keys(hits);
 }
@@ -64,7 +64,7 @@ inline constexpr vox::simd::Level levels[] = {vox::simd::Level::portable, vox::s
 
 // The fast engine gives `expected` at every level and cell size, with the same counters at every level.
 inline void check_scene(Scene& scene, const std::vector<Key>& expected, const char* name, double edge = 1) {
-    vox::Fast engine(std::pmr::get_default_resource());
+    vox::FastEngine engine(std::pmr::get_default_resource());
     for (const double cells : {0.0, 0.3, 1.0, 3.0, 1e4}) {
         vox_counters first{};
         for (const vox::simd::Level level : levels) {

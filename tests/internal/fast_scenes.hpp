@@ -151,7 +151,7 @@ public:
 
     std::vector<vox::Body>& bodies() { return bodies_; }
     const std::vector<vox::FastMesh*>& prepared() const { return prepared_; }
-    std::vector<const vox::fast::Tiles*> tiles() const { return {prepared_.begin(), prepared_.end()}; }
+    std::vector<const vox::Tiles*> tiles() const { return {prepared_.begin(), prepared_.end()}; }
 
 private:
     std::pmr::memory_resource* memory_;

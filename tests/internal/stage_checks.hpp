@@ -28,21 +28,21 @@ inline const float* packed(const Mesh& mesh) { return reinterpret_cast<const flo
 
 inline std::uint32_t vertex_count(const Mesh& mesh) { return std::uint32_t(mesh.positions.size()); }
 
-inline vox::fast::Tiles tiles_of(const Mesh& mesh) {
-    vox::fast::Tiles tiles(std::pmr::get_default_resource());
-    vox::fast::make_tiles(mesh.tets, vertex_count(mesh), view(mesh), tiles);
+inline vox::Tiles tiles_of(const Mesh& mesh) {
+    vox::Tiles tiles(std::pmr::get_default_resource());
+    vox::make_tiles(mesh.tets, vertex_count(mesh), view(mesh), tiles);
     return tiles;
 }
 
-inline vox::fast::Box box_around(const vox::Vec3f& p) { return {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}}; }
+inline vox::Box box_around(const vox::Vec3f& p) { return {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}}; }
 
-inline vox::fast::Box box_of(const Mesh& mesh) {
-    vox::fast::Box box = vox::fast::empty_box;
-    for (const vox::Vec3f& p : mesh.positions) vox::fast::add(box, box_around(p));
+inline vox::Box box_of(const Mesh& mesh) {
+    vox::Box box = vox::empty_box;
+    for (const vox::Vec3f& p : mesh.positions) vox::add(box, box_around(p));
     return box;
 }
 
-inline bool same(const vox::fast::Box& a, const vox::fast::Box& b) {
+inline bool same(const vox::Box& a, const vox::Box& b) {
     return std::equal(a.lo, a.lo + 3, b.lo) && std::equal(a.hi, a.hi + 3, b.hi);
 }
 

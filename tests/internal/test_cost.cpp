@@ -116,9 +116,9 @@ START_TEST(reference_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    const Profile& counts = cost.profile();
-    Reference engine(heap);
+    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const Lookups& counts = cost.profile();
+    ReferenceEngine engine(heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         ReferenceSettings settings;
         settings.cell_size = size * named.unit;
@@ -148,7 +148,7 @@ START_TEST(reference_counts) {
 END_TEST
 
 // Without what the vertices of a lattice make of the lists' lengths: a smooth function.
-Effort smooth(Effort effort) {
+SampleBudget smooth(SampleBudget effort) {
     effort.sample.listed = 0;
     return effort;
 }
@@ -163,9 +163,9 @@ START_TEST(reference_quick_look) {
     std::uint64_t tets = 0;
     for (const Body& body : scene.bodies()) tets += body.tets.size();
     for (const bool large : {false, true}) {
-        const ReferenceCost all(scene.bodies(), VOX_STORAGE_HASHED, large ? thorough : smooth(thorough),
+        const ReferenceModel all(scene.bodies(), VOX_STORAGE_HASHED, large ? thorough : smooth(thorough),
                                 shipped_weights(), heap);
-        const ReferenceCost some(scene.bodies(), VOX_STORAGE_HASHED, quick(large ? 200000 : tets),
+        const ReferenceModel some(scene.bodies(), VOX_STORAGE_HASHED, quick(large ? 200000 : tets),
                                  shipped_weights(), heap);
         CellSizeRange range{};
         ck_assert(all.range(range.min, range.max));
@@ -226,7 +226,7 @@ START_TEST(reference_lists_of_other_length) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         const double cell_size = size * named.unit;
         ck_near(named, size, "lists of another length", term(cost.terms(cell_size), "list of another length"),
@@ -247,7 +247,7 @@ START_TEST(cells_as_large_as_those_of_a_lattice) {
         move(mesh, 1, 0.21, 0.34, 0.43);
         scene.add(std::move(mesh), true);
         scene.prepare();
-        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+        const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
         const double beside = std::min(cost(1 / 1.12), cost(1.12));
         if (jittered < 0.1)
             ck_assert_double_lt(cost(1), 0.97 * beside);
@@ -264,7 +264,7 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     scenes[0].fill(scene);
     scene.prepare();
     const auto terms = [&] {
-        return ReferenceCost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap)
+        return ReferenceModel(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap)
             .terms(1.5);
     };
     const CostTerms before = terms();
@@ -294,11 +294,11 @@ START_TEST(fast_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const std::vector<const fast::Tiles*> tiles = scene.tiles();
-    const FastCost cost(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
-    Fast engine(heap);
+    const std::vector<const Tiles*> tiles = scene.tiles();
+    const FastModel cost(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
+    FastEngine engine(heap);
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
-        FastCost::Counts predicted;
+        FastModel::Counts predicted;
         double cells = 0, read = 0;
         constexpr int sizes = 9;
         for (int i = 0; i < sizes; ++i) {
@@ -310,7 +310,7 @@ START_TEST(fast_counts) {
             settings.winding =
                 false; // the model has it that bodies which collide with themselves are looked at
             engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
-            const FastCost::Counts counts = cost.counts(settings.cell_size, FastCost::Lie::as_it_is);
+            const FastModel::Counts counts = cost.counts(settings.cell_size, FastModel::Alignment::actual);
             ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
             predicted.visited_cells += counts.visited_cells;
             predicted.read += counts.read;
@@ -330,11 +330,11 @@ START_TEST(fast_quick_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const std::vector<const fast::Tiles*> tiles = scene.tiles();
+    const std::vector<const Tiles*> tiles = scene.tiles();
     std::uint64_t tets = 0;
     for (const Body& body : scene.bodies()) tets += body.tets.size();
-    const FastCost all(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
-    const FastCost some(scene.bodies(), tiles, {}, quick_tiles(tets), shipped_weights(), heap);
+    const FastModel all(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
+    const FastModel some(scene.bodies(), tiles, {}, quick_tiles(tets), shipped_weights(), heap);
     CellSizeRange range{};
     ck_assert(all.range(range.min, range.max));
     const CostMinimum best = minimise([&](double d) { return all(d); }, range);
@@ -350,15 +350,15 @@ START_TEST(fast_bodies_at_rest) {
     Scene scene;
     scenes[2].fill(scene);
     scene.prepare();
-    const std::vector<const fast::Tiles*> tiles = scene.tiles();
+    const std::vector<const Tiles*> tiles = scene.tiles();
     std::vector<Activity> activity(tiles.size(), {false, false});
     const auto counts = [&] {
-        return FastCost(scene.bodies(), tiles, activity, thorough, shipped_weights(), heap)
-            .counts(2, FastCost::Lie::as_it_is);
+        return FastModel(scene.bodies(), tiles, activity, thorough, shipped_weights(), heap)
+            .counts(2, FastModel::Alignment::actual);
     };
     ck_assert_double_eq(counts().vertices, 0);
     activity[0].moves = true;
-    Fast engine(heap);
+    FastEngine engine(heap);
     std::pmr::vector<Hit> hits(heap);
     vox_counters counters{};
     vox_profile profile{};
@@ -371,7 +371,7 @@ START_TEST(fast_bodies_at_rest) {
         break;
     }
     engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
-    const FastCost::Counts one = counts();
+    const FastModel::Counts one = counts();
     ck_assert_double_gt(one.vertices, 0);
     ck_near(scenes[2], 2, "vertices binned", one.vertices, double(counters.entries), 0.02);
     ck_near(scenes[2], 2, "cells", one.visited_cells, double(counters.visited_cells), 0.1);
@@ -387,14 +387,14 @@ START_TEST(levels_where_they_pay) {
     Scene alike, unlike;
     scenes[0].fill(alike);
     alike.prepare();
-    const ReferenceCost one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceModel one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
     CellSizeRange range{};
     ck_assert(one.range(range.min, range.max));
     ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
-    const ReferenceCost cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceModel cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
     ck_assert(cost.range(range.min, range.max));
     const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
@@ -410,7 +410,7 @@ START_TEST(levels_are_one_engine) {
         Scene scene;
         scenes[s].fill(scene);
         scene.prepare();
-        const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+        const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
         CellSizeRange range{};
         ck_assert(cost.range(range.min, range.max));
         range.min = std::max(range.min, cost.least_cell_size(0, range)); // what dense storage can have
@@ -422,7 +422,7 @@ START_TEST(levels_are_one_engine) {
         for (const vox_storage storage : {VOX_STORAGE_HASHED, VOX_STORAGE_DENSE})
             for (const std::span<const CellLevel> levels :
                  {std::span<const CellLevel>(), best.list(), std::span<const CellLevel>(some)}) {
-                Reference engine(heap);
+                ReferenceEngine engine(heap);
                 std::pmr::vector<Hit> hits(heap);
                 vox_counters counters{};
                 vox_profile profile{};
@@ -447,7 +447,7 @@ START_TEST(levels_are_one_engine) {
         constexpr int places = 25; // a fine body lies in few coarse cells
         const double step = best.level[best.count - 1].cell_size;
         for (int place = 0; place < places; ++place) {
-            Reference engine(heap);
+            ReferenceEngine engine(heap);
             std::pmr::vector<Hit> hits(heap);
             vox_counters counters{};
             vox_profile profile{};
@@ -466,7 +466,7 @@ END_TEST
 
 // ---- a cell size that follows ---------------------------------------------------------------------
 
-double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
+double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     std::pmr::vector<Hit> hits(heap);
     vox_counters counters{};
     vox_profile profile{};
@@ -484,7 +484,7 @@ double step(Reference& engine, Scene& scene, AdaptiveCellSize& adaptive) {
 
 // How much the model says a size loses for the scene as it is, but for what its lattices make of the lists.
 double loss(Scene& scene, double cell_size) {
-    const ReferenceCost cost(scene.bodies(), VOX_STORAGE_HASHED, smooth(thorough), shipped_weights(), heap);
+    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, smooth(thorough), shipped_weights(), heap);
     CellSizeRange range{};
     ck_assert(cost.range(range.min, range.max));
     return cost(cell_size) / minimise([&](double d) { return cost(d); }, range).cost - 1;
@@ -495,7 +495,7 @@ START_TEST(adaptive_follows) {
     Scene scene;
     scenes[0].fill(scene);
     scene.prepare();
-    Reference engine(heap);
+    ReferenceEngine engine(heap);
     AdaptiveCellSize adaptive;
     const double first = step(engine, scene, adaptive);
     for (int i = 0; i < 20; ++i) ck_assert_double_eq(step(engine, scene, adaptive), first);

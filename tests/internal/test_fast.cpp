@@ -276,7 +276,7 @@ START_TEST(non_finite_positions) {
                 scene.prepare();
                 std::string texts[2];
                 for (int engine = 0; engine < 2; ++engine) try {
-                        Fast fast(std::pmr::get_default_resource());
+                        FastEngine fast(std::pmr::get_default_resource());
                         if (engine == 0)
                             run_reference(scene, 1);
                         else
@@ -296,7 +296,7 @@ START_TEST(steady_state_allocates_nothing) {
     Scene scene = two_blocks(r, 8, 2.0, true);
     scene.prepare();
     CountingMemory memory;
-    Fast engine(&memory);
+    FastEngine engine(&memory);
     std::pmr::vector<Hit> hits(&memory);
     vox_counters counters{};
     vox_profile profile{};
@@ -324,7 +324,7 @@ START_TEST(memory_is_bounded) {
     const std::vector<Key> expected = brute_force(scene.bodies());
     for (const double cell_size : {0.0, 1e-30, 1e-6, 1e30}) {
         CountingMemory memory;
-        Fast engine(&memory);
+        FastEngine engine(&memory);
         ck_assert(run_fast(engine, scene, cell_size) == expected);
         ck_assert_uint_lt(memory.peak, 4u << 20); // 4000 vertices, 15000 tets
     }
@@ -340,7 +340,7 @@ START_TEST(outliers_do_not_fill_a_cell) {
             mesh.positions[r.below(std::uint32_t(mesh.positions.size()))] = {r.uniform(-1e20, 1e20), 1e12f,
                                                                              -1e30f};
     scene.prepare();
-    Fast engine(std::pmr::get_default_resource());
+    FastEngine engine(std::pmr::get_default_resource());
     vox_counters counters{};
     ck_assert(run_fast(engine, scene, 0, &counters) == run_reference(scene, 1.3));
     ck_assert_uint_lt(counters.fullest_cell, 200); // of 6750 vertices
@@ -373,7 +373,7 @@ START_TEST(clumps_far_apart) {
             check_scene(scene, run_reference(scene, 1.3), "clumps far apart");
         }
         CountingMemory memory;
-        Fast engine(&memory);
+        FastEngine engine(&memory);
         vox_counters counters{};
         (void)run_fast(engine, scene, 0, &counters);
         ck_assert_uint_lt(counters.fullest_cell, 129);

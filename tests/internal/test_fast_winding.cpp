@@ -14,7 +14,7 @@ std::uint64_t check_winding(Scene& scene, const char* name) {
     std::uint64_t entries = 0;
     for (const simd::Level level : levels) {
         if (simd::force_level(level) != level) continue;
-        Fast engine(std::pmr::get_default_resource());
+        FastEngine engine(std::pmr::get_default_resource());
         for (const bool winding : {true, false}) {
             std::pmr::vector<Hit> hits;
             vox_counters counters{};
@@ -78,7 +78,7 @@ START_TEST(winding_turned_inside_out) {
     scene.prepare();
     for (Vec3f& p : scene.meshes()[0].positions) p.x = -p.x; // all tets inverted after they were prepared
     const std::vector<Key> expected = run_reference(scene, 1);
-    Fast engine(std::pmr::get_default_resource());
+    FastEngine engine(std::pmr::get_default_resource());
     ck_assert(run_fast(engine, scene, 0) == expected);
 }
 END_TEST

@@ -60,11 +60,11 @@ START_TEST(contacts_of_a_step) {
 END_TEST
 
 START_TEST(tets_with_a_surface) {
-    depth::Topology topology(std::pmr::new_delete_resource());
+    Topology topology(std::pmr::new_delete_resource());
     const Tet tet{};
     std::string text;
     const std::span<const Tet> many(&tet, 357913942);
-    const vox_result result = thrown_by([&] { depth::make_topology(many, 1, topology); }, text);
+    const vox_result result = thrown_by([&] { make_topology(many, 1, topology); }, text);
     ck_assert_int_eq(result, VOX_ERROR_LIMIT);
     ck_assert(contains(text, "357913942 tets"));
     ck_assert(contains(text, "at most 357913941"));

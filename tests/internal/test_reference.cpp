@@ -18,7 +18,7 @@ namespace {
 // The engine with all that it keeps from step to step.
 struct Engine {
     CountingMemory memory{std::size_t(1) << 26};
-    Reference reference{&memory};
+    ReferenceEngine reference{&memory};
     std::pmr::vector<Hit> hits{&memory};
     std::pmr::vector<vox_contact> contacts{&memory};
     vox_counters counters{};

@@ -74,7 +74,7 @@ struct Edited {
     Mesh mesh;
     std::vector<Tet> given;
     Bits off;
-    Lists tets_of;
+    IndexLists tets_of;
     std::vector<TetChange> changes;
 };
 
@@ -119,7 +119,7 @@ void edit(Edited& e, Random& random, std::uint32_t most) {
 
 START_TEST(lists_change) {
     Random random{std::uint64_t(_i)};
-    Lists lists(heap());
+    IndexLists lists(heap());
     std::vector<std::vector<std::uint32_t>> expected(1 + random.below(30));
     for (std::vector<std::uint32_t>& list : expected) {
         lists.begin_list();
@@ -164,7 +164,7 @@ END_TEST
 
 START_TEST(lists_do_not_grow_for_ever) {
     CountingMemory memory;
-    Lists lists(&memory);
+    IndexLists lists(&memory);
     for (std::uint32_t i = 0; i < 100; ++i) {
         lists.begin_list();
         for (std::uint32_t k = 0; k < 20; ++k) lists.push(k);
@@ -180,10 +180,9 @@ END_TEST
 
 // ---- topology -------------------------------------------------------------------------------------
 
-void check_topology(const Edited& e, const depth::Topology& repaired) {
-    using depth::Topology;
+void check_topology(const Edited& e, const Topology& repaired) {
     Topology anew(heap());
-    depth::make_topology(e.mesh.tets, vertex_count(e.mesh), anew);
+    make_topology(e.mesh.tets, vertex_count(e.mesh), anew);
     ck_assert_uint_eq(repaired.triangles.size(), anew.triangles.size());
     std::vector<std::uint32_t> number(anew.triangles.size()); // of a repaired triangle among those made anew
     std::map<FacetKey, std::uint32_t> numbers;
@@ -191,7 +190,7 @@ void check_topology(const Edited& e, const depth::Topology& repaired) {
     for (std::uint32_t t = 0; t < repaired.triangles.size(); ++t) {
         ck_assert(numbers.count(repaired.key(t)) == 1);
         number[t] = numbers[repaired.key(t)];
-        const depth::Triangle &is = repaired.triangles[t], &was = anew.triangles[number[t]];
+        const Triangle &is = repaired.triangles[t], &was = anew.triangles[number[t]];
         ck_assert(std::equal(is.v, is.v + 3, was.v) && is.apex == was.apex);
         for (std::uint32_t u = 0; u < t; ++u) ck_assert(repaired.before(u, t) == (number[u] < number[t]));
     }
@@ -216,12 +215,12 @@ START_TEST(topology_is_repaired) {
     const std::uint32_t long_side = 1 + random.below(3), vertices = 5 + random.below(10),
                         tets = 1 + random.below(40);
     Edited e(_i % 2 ? block(static_cast<int>(long_side), 2, 2) : soup(random, vertices, tets));
-    depth::Topology topology(heap());
-    depth::make_topology(e.mesh.tets, vertex_count(e.mesh), topology);
+    Topology topology(heap());
+    make_topology(e.mesh.tets, vertex_count(e.mesh), topology);
     for (int step = 0; step < 40; ++step) {
         edit(e, random, 5);
         e.follow_all();
-        depth::repair_topology(e.mesh.tets, e.tets_of, e.changes, topology);
+        repair_topology(e.mesh.tets, e.tets_of, e.changes, topology);
         check_topology(e, topology);
         e.changes.clear();
     }
@@ -248,13 +247,13 @@ END_TEST
 // ---- tiles and surface ----------------------------------------------------------------------------
 
 // Each tet that is on is in one place, with its corners; boxes of blocks cover every super-tile.
-void check_tiles(const Edited& e, const fast::Tiles& tiles, const fast::Places& places) {
+void check_tiles(const Edited& e, const Tiles& tiles, const TilePlaces& places) {
     std::vector<int> seen(e.mesh.tets.size());
     std::vector<std::uint32_t> block_of(e.mesh.positions.size());
     const auto& first = tiles.block_first;
     ck_assert_uint_eq(first.back(), vertex_count(e.mesh));
     for (std::uint32_t b = 0; b < tiles.block_count(); ++b) {
-        ck_assert(first[b] < first[b + 1] && first[b + 1] - first[b] <= fast::block_size);
+        ck_assert(first[b] < first[b + 1] && first[b + 1] - first[b] <= block_size);
         for (std::uint32_t v = first[b]; v < first[b + 1]; ++v) block_of[v] = b;
     }
     ck_assert(e.self || tiles.own.empty());
@@ -264,18 +263,18 @@ void check_tiles(const Edited& e, const fast::Tiles& tiles, const fast::Places& 
     std::set<std::pair<std::uint32_t, std::uint32_t>> taken; // of tets and vertices, no two tiles share room
     for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s)
         for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t) {
-            const fast::Tile& tile = tiles.tiles[t];
-            ck_assert(tile.tet_count <= fast::tile_size && tile.vertex_count <= fast::tile_size);
+            const Tile& tile = tiles.tiles[t];
+            ck_assert(tile.tet_count <= tile_size && tile.vertex_count <= tile_size);
             ck_assert_uint_eq(tile.first_vertex % 4, 0);
             const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
             std::vector<std::uint64_t> own(tile.vertex_count);
             for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
                 const std::uint32_t tet = tiles.tets[tile.first_tet + i];
-                ck_assert_uint_eq(places.of_tet[tet], t * fast::tile_size + i);
+                ck_assert_uint_eq(places.of_tet[tet], t * tile_size + i);
                 ck_assert(taken.insert({0, tile.first_tet + i}).second);
                 ++seen[tet];
                 for (std::uint32_t c = 0; c < 4; ++c) {
-                    const std::uint8_t local = tiles.corners[(t * 4 + c) * fast::tile_size + i];
+                    const std::uint8_t local = tiles.corners[(t * 4 + c) * tile_size + i];
                     ck_assert_uint_lt(local, tile.vertex_count);
                     ck_assert_uint_eq(vertices[local], e.mesh.tets[tet].v[c]);
                     own[local] |= std::uint64_t{1} << i;
@@ -296,15 +295,15 @@ void check_tiles(const Edited& e, const fast::Tiles& tiles, const fast::Places& 
 
 // By its definition: the facets that tets on one side have more of than those on the other. Which of the tets
 // count as mirrored is for is_negative() to say, of the positions that do not move here.
-void check_surface(const Edited& e, const fast::Surface& surface) {
+void check_surface(const Edited& e, const Boundary& surface) {
     std::map<FacetKey, int> net;
     std::vector<bool> used(e.mesh.positions.size());
     for (std::size_t t = 0; t < e.mesh.tets.size(); ++t) {
         const Tet& tet = e.mesh.tets[t];
         if (e.off[t] || names_a_vertex_twice(tet)) continue;
-        const bool negative = fast::is_negative(tet, view(e.mesh));
+        const bool negative = is_negative(tet, view(e.mesh));
         for (const std::uint32_t v : tet.v) used[v] = true;
-        for (const auto& f : fast::facets) {
+        for (const auto& f : facets) {
             const SortedFacet facet = sorted_facet(tet.v[f[0]], tet.v[f[1]], tet.v[f[2]]);
             net[facet.key] += facet.even != negative ? 1 : -1;
         }
@@ -326,23 +325,23 @@ void check_surface(const Edited& e, const fast::Surface& surface) {
 
 struct Prepared {
     explicit Prepared(const Edited& e, bool with_surface) : tiles(heap()), surface(heap()), places(heap()) {
-        fast::make_tiles(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, e.off.words());
+        make_tiles(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, e.off.words());
         if (!e.self) tiles.own.clear();
-        if (with_surface) fast::make_surface(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, surface);
+        if (with_surface) make_boundary(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, surface);
         places.first_young_super = tiles.super_tile_count();
         places.first_young_vertex = vertex_count(e.mesh);
     }
 
     bool follow(Edited& e) {
         e.follow_all();
-        const bool done = fast::repair(tiles, surface, places, e.body(), e.changes, e.tets_of);
+        const bool done = repair(tiles, surface, places, e.body(), e.changes, e.tets_of);
         e.changes.clear();
         return done;
     }
 
-    fast::Tiles tiles;
-    fast::Surface surface;
-    fast::Places places;
+    Tiles tiles;
+    Boundary surface;
+    TilePlaces places;
 };
 
 void append_vertices(Edited& e, Prepared& p, Random& random) {
@@ -350,7 +349,7 @@ void append_vertices(Edited& e, Prepared& p, Random& random) {
     for (std::uint32_t n = 1 + random.below(10); n > 0; --n)
         e.mesh.positions.push_back(e.mesh.positions[random.below(before)]);
     e.tets_of.resize(e.mesh.positions.size());
-    fast::add_vertices(p.tiles, p.surface, p.places, before, vertex_count(e.mesh));
+    add_vertices(p.tiles, p.surface, p.places, before, vertex_count(e.mesh));
 }
 
 START_TEST(tiles_are_repaired) {
@@ -369,7 +368,7 @@ START_TEST(tiles_are_repaired) {
             if (random.below(6) == 0) e.append(any_tet(random, vertex_count(e.mesh)));
             changes += e.changes.size();
             const bool done = p.follow(e);
-            ck_assert(done == (changes <= e.given.size() / 4 + fast::tile_size));
+            ck_assert(done == (changes <= e.given.size() / 4 + tile_size));
             if (!done) break;
             check_tiles(e, p.tiles, p.places);
         }

@@ -11,13 +11,12 @@
 
 using namespace vox;
 using namespace stages;
-using fast::Box;
 
 namespace {
 
 // ---- tiles ----------------------------------------------------------------------------------------
 
-void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) {
+void check_blocks(const Mesh& mesh, const Tiles& tiles, const char* name) {
     if (mesh.positions.empty()) {
         ck_assert_uint_eq(tiles.block_count(), 0);
         ck_assert_uint_eq(tiles.super_tile_count(), 0);
@@ -28,7 +27,7 @@ void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) 
     ck_assert_uint_eq(first.back(), vertex_count(mesh));
     std::vector<std::uint32_t> block_of(mesh.positions.size());
     for (std::uint32_t b = 0; b < tiles.block_count(); ++b) {
-        ck_assert_msg(first[b] < first[b + 1] && first[b + 1] - first[b] <= fast::block_size,
+        ck_assert_msg(first[b] < first[b + 1] && first[b + 1] - first[b] <= block_size,
                       "%s: block %u is vertices %u to %u", name, b, first[b], first[b + 1]);
         for (std::uint32_t v = first[b]; v < first[b + 1]; ++v) block_of[v] = b;
     }
@@ -48,12 +47,12 @@ void check_blocks(const Mesh& mesh, const fast::Tiles& tiles, const char* name) 
 }
 
 void check_tiles(const Mesh& mesh, const char* name) {
-    const fast::Tiles tiles = tiles_of(mesh);
+    const Tiles tiles = tiles_of(mesh);
     ck_assert_uint_eq(tiles.tets.size(), mesh.tets.size());
     std::vector<int> seen(mesh.tets.size());
     std::uint32_t next_tet = 0;
     for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
-        const fast::Tile& tile = tiles.tiles[t];
+        const Tile& tile = tiles.tiles[t];
         ck_assert_msg(tile.tet_count >= 1 && tile.tet_count <= 64 && tile.vertex_count >= 1 &&
                           tile.vertex_count <= 64,
                       "%s: tile %zu has %u tets, %u vertices", name, t, tile.tet_count, tile.vertex_count);
@@ -73,7 +72,7 @@ void check_tiles(const Mesh& mesh, const char* name) {
             ck_assert_uint_lt(tet, mesh.tets.size());
             ++seen[tet];
             for (std::uint32_t c = 0; c < 4; ++c) {
-                const std::uint32_t local = tiles.corners[(t * 4 + c) * fast::tile_size + i];
+                const std::uint32_t local = tiles.corners[(t * 4 + c) * tile_size + i];
                 ck_assert_uint_lt(local, count);
                 ck_assert_msg(vertices[local] == mesh.tets[tet].v[c], "%s: corner %u of tet %u is %u", name,
                               c, tet, vertices[local]);
@@ -122,14 +121,14 @@ END_TEST
 START_TEST(tiles_are_full_and_compact) {
     double radius = 0;
     const Mesh mesh = ball(20000, &radius);
-    const fast::Tiles tiles = tiles_of(mesh);
+    const Tiles tiles = tiles_of(mesh);
     const double per_tile = double(mesh.tets.size()) / double(tiles.tiles.size());
     ck_assert_msg(per_tile > 40, "%g tets a tile", per_tile);
     double volume = 0; // of the tiles' boxes; five tets make up a cube of one
-    for (const fast::Tile& tile : tiles.tiles) {
-        Box box = fast::empty_box;
+    for (const Tile& tile : tiles.tiles) {
+        Box box = empty_box;
         for (std::uint32_t i = 0; i < tile.vertex_count; ++i)
-            fast::add(box, box_around(mesh.positions[tiles.vertices[tile.first_vertex + i]]));
+            add(box, box_around(mesh.positions[tiles.vertices[tile.first_vertex + i]]));
         volume +=
             double(box.hi[0] - box.lo[0]) * double(box.hi[1] - box.lo[1]) * double(box.hi[2] - box.lo[2]);
     }
@@ -148,15 +147,15 @@ START_TEST(stream_finds_the_boxes) {
         for (float& c : positions) c = r.below(50) ? r.uniform(-9, 9) : r.any_finite();
         std::vector<std::uint32_t> first{0};
         while (first.back() < count)
-            first.push_back(std::min(count, first.back() + 1 + r.below(fast::block_size)));
+            first.push_back(std::min(count, first.back() + 1 + r.below(block_size)));
         const std::size_t blocks = first.size() - 1;
-        std::vector<Box> expected(blocks, fast::empty_box);
-        Box expected_all = fast::empty_box;
+        std::vector<Box> expected(blocks, empty_box);
+        Box expected_all = empty_box;
         for (std::size_t b = 0; b < blocks; ++b) {
             for (std::uint32_t v = first[b]; v < first[b + 1]; ++v)
-                fast::add(expected[b],
+                add(expected[b],
                           box_around({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}));
-            fast::add(expected_all, expected[b]);
+            add(expected_all, expected[b]);
         }
         at_each_level([&](const char* level) {
             std::vector<Box> boxes(blocks);
@@ -177,7 +176,7 @@ START_TEST(stream_sees_what_is_not_finite) {
         for (std::size_t i = 0; i < positions.size(); ++i)
             positions[i] = i % 5 == 0 ? FLT_MAX : i % 5 == 1 ? -FLT_MAX : i % 5 == 2 ? 1e-45f : -0.0f;
         std::vector<std::uint32_t> first{0};
-        while (first.back() < count) first.push_back(std::min(count, first.back() + fast::block_size));
+        while (first.back() < count) first.push_back(std::min(count, first.back() + block_size));
         at_each_level([&](const char* level) {
             std::vector<Box> boxes(first.size());
             Box all{};
@@ -207,7 +206,7 @@ START_TEST(pairs_are_all_that_overlap) {
         std::vector<Box> boxes(r.below(60));
         for (Box& box : boxes) {
             if (r.below(10) == 0) {
-                box = fast::empty_box;
+                box = empty_box;
                 continue;
             }
             for (int a = 0; a < 3; ++a) { // of whole numbers, so that many touch
@@ -248,7 +247,7 @@ START_TEST(common_sides_are_those_of_the_box_around) {
     std::size_t out = 0, touching = 0;
     for (int round = 0; round < 20000; ++round) {
         const auto box = [&] { // of whole numbers, so that many touch
-            Box made = fast::empty_box;
+            Box made = empty_box;
             for (int a = 0; a < 3; ++a) {
                 made.lo[a] = float(r.below(9));
                 made.hi[a] = made.lo[a] + float(r.below(3));
@@ -257,16 +256,16 @@ START_TEST(common_sides_are_those_of_the_box_around) {
             return made;
         };
         const Box region = box();
-        Box around = fast::empty_box;
-        unsigned common = fast::all_sides;
+        Box around = empty_box;
+        unsigned common = all_sides;
         for (std::uint32_t i = 0; i < 1 + r.below(5); ++i) {
             const Box one = box();
-            const unsigned sides = fast::sides_of(one, region);
-            ck_assert_int_eq(sides == 0, fast::overlap(one, region));
+            const unsigned sides = sides_of(one, region);
+            ck_assert_int_eq(sides == 0, overlap(one, region));
             common &= sides;
-            fast::add(around, one);
+            add(around, one);
         }
-        ck_assert_int_eq(common == 0, fast::overlap(around, region));
+        ck_assert_int_eq(common == 0, overlap(around, region));
         out += common != 0;
         touching += common == 0 && around.hi[0] == region.lo[0];
     }
@@ -284,7 +283,7 @@ START_TEST(sides_of_many_boxes) {
     at_each_level([&](const char* level) {
         for (std::uint32_t count = 0; count <= fast::most_boxes; ++count) {
             const auto box = [&] { // of whole numbers, so that many touch
-                Box made = fast::empty_box;
+                Box made = empty_box;
                 for (int a = 0; a < 3; ++a) {
                     made.lo[a] = float(r.below(5));
                     made.hi[a] = made.lo[a] + float(r.below(4));
@@ -294,14 +293,14 @@ START_TEST(sides_of_many_boxes) {
             };
             const Box region = box();
             std::vector<Box> boxes(count);
-            for (Box& one : boxes) one = r.below(8) == 0 ? fast::empty_box : box();
+            for (Box& one : boxes) one = r.below(8) == 0 ? empty_box : box();
             std::vector<std::uint8_t> sides(count + 1, 0xee);
             fast::find_sides(boxes.data(), count, region, sides.data());
             const std::uint64_t overlaps = fast::find_overlaps(boxes.data(), count, region);
             for (std::uint32_t i = 0; i < count; ++i) {
-                ck_assert_msg(sides[i] == fast::sides_of(boxes[i], region), "%s: box %u of %u: sides %x",
+                ck_assert_msg(sides[i] == sides_of(boxes[i], region), "%s: box %u of %u: sides %x",
                               level, i, count, unsigned{sides[i]});
-                ck_assert_msg((overlaps >> i & 1) == fast::overlap(boxes[i], region), "%s: box %u of %u",
+                ck_assert_msg((overlaps >> i & 1) == overlap(boxes[i], region), "%s: box %u of %u",
                               level, i, count);
                 overlapping += overlaps >> i & 1;
             }

@@ -89,10 +89,10 @@ START_TEST(the_model_looks_at_few) {
         for (int kind = 0; kind < 3; ++kind) {
             Scene scene;
             fill(scene, tets, distances[kind], kind == 2);
-            const std::vector<const fast::Tiles*> tiles = scene.tiles();
-            const Effort effort = quick_tiles(2 * tets);
-            const FastCost cost(scene.bodies(), tiles, {}, effort, shipped_weights(), heap);
-            const FastCost::Work work = cost.work();
+            const std::vector<const Tiles*> tiles = scene.tiles();
+            const SampleBudget effort = quick_tiles(2 * tets);
+            const FastModel cost(scene.bodies(), tiles, {}, effort, shipped_weights(), heap);
+            const FastModel::Work work = cost.work();
             // All pools together: windows of unlike sizes have one each.
             ck_assert_uint_gt(work.points, 0);
             ck_assert_uint_gt(work.looks, 0);

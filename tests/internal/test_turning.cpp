@@ -7,16 +7,15 @@
 
 using namespace vox;
 using namespace stages;
-using fast::Box;
 
 namespace {
 
 // A body, its tiles, and what is kept from step to step.
 struct Followed {
     Mesh mesh;
-    fast::Tiles tiles = tiles_of(mesh);
-    fast::Surface surface = fast::Surface(std::pmr::get_default_resource());
-    fast::Turning turning = fast::Turning(std::pmr::get_default_resource());
+    Tiles tiles = tiles_of(mesh);
+    Boundary surface = Boundary(std::pmr::get_default_resource());
+    fast::OrientationCache turning = fast::OrientationCache(std::pmr::get_default_resource());
     std::vector<Box> blocks{tiles.block_count()}, moves{tiles.block_count()};
     std::vector<Box> super_boxes{tiles.super_tile_count()}, tile_boxes{tiles.tiles.size()};
     std::vector<std::uint8_t> upright = std::vector<std::uint8_t>(tiles.super_tile_count());
@@ -24,7 +23,7 @@ struct Followed {
     std::vector<std::uint64_t> bad = std::vector<std::uint64_t>(tiles.tiles.size());
 
     explicit Followed(Mesh from) : mesh(std::move(from)) {
-        fast::make_surface(mesh.tets, vertex_count(mesh), view(mesh), tiles, surface);
+        make_boundary(mesh.tets, vertex_count(mesh), view(mesh), tiles, surface);
         ck_assert(surface.is_closed);
     }
 
@@ -62,7 +61,7 @@ struct Followed {
                     Vec3f q[4];
                     for (int c = 0; c < 4; ++c) {
                         q[c] = mesh.positions[tet.v[c]];
-                        ck_assert_msg(fast::overlap(super_boxes[s], box_around(q[c])),
+                        ck_assert_msg(overlap(super_boxes[s], box_around(q[c])),
                                       "%s: a vertex is outside of the box of its super-tile", name);
                     }
                     const int sign = surface.mirrored[t] >> i & 1 ? -1 : 1;
@@ -184,7 +183,7 @@ START_TEST(upright_to_the_last) {
 END_TEST
 
 START_TEST(a_body_too_fast_to_follow) {
-    fast::Turning turning(std::pmr::get_default_resource());
+    fast::OrientationCache turning(std::pmr::get_default_resource());
     int references = 0, steps = 0;
     for (; steps < 400; ++steps) { // every tet doubtful in every step
         if (!fast::wants_reference(turning, 100, 100)) continue;
@@ -194,7 +193,7 @@ START_TEST(a_body_too_fast_to_follow) {
     ck_assert_int_gt(references, 5); // it may calm down
     ck_assert_int_lt(references, 20);
     references = 0;
-    turning = fast::Turning(std::pmr::get_default_resource());
+    turning = fast::OrientationCache(std::pmr::get_default_resource());
     for (steps = 0; steps < 400; ++steps) { // a few more in each step
         if (!fast::wants_reference(turning, turning.is_known ? turning.age * 2 : 100, 100)) continue;
         ++references;
@@ -215,7 +214,7 @@ START_TEST(engine_follows_deforming_bodies) {
         Scene scene;
         scene.add(mesh, true);
         scene.prepare();
-        Fast engine(std::pmr::get_default_resource());
+        FastEngine engine(std::pmr::get_default_resource());
         std::size_t found_some = 0, found_none = 0;
         double phase = 0;
         for (int step = 0; step < 60; ++step) {

@@ -8,17 +8,16 @@
 
 using namespace vox;
 using namespace stages;
-using fast::Box;
 
 namespace {
 
-fast::Surface surface_of(const Mesh& mesh, const fast::Tiles& tiles) {
-    fast::Surface surface(std::pmr::get_default_resource());
-    fast::make_surface(mesh.tets, vertex_count(mesh), view(mesh), tiles, surface);
+Boundary surface_of(const Mesh& mesh, const Tiles& tiles) {
+    Boundary surface(std::pmr::get_default_resource());
+    make_boundary(mesh.tets, vertex_count(mesh), view(mesh), tiles, surface);
     return surface;
 }
 
-fast::Surface surface_of(const Mesh& mesh) { return surface_of(mesh, tiles_of(mesh)); }
+Boundary surface_of(const Mesh& mesh) { return surface_of(mesh, tiles_of(mesh)); }
 
 // ---- components -----------------------------------------------------------------------------------
 
@@ -112,8 +111,8 @@ void check_surface(const Mesh& mesh, const char* name, bool manifold) {
     }
     ck_assert_msg(manifold == is_manifold, "%s: manifold %d", name, is_manifold);
 
-    const fast::Tiles tiles = tiles_of(mesh);
-    const fast::Surface surface = surface_of(mesh, tiles);
+    const Tiles tiles = tiles_of(mesh);
+    const Boundary surface = surface_of(mesh, tiles);
     ck_assert_msg(surface.is_closed ? !left_twice : !manifold, "%s: closed %d, manifold %d, left twice %d",
                   name, surface.is_closed, manifold, left_twice);
     if (!surface.is_closed) {
@@ -157,7 +156,7 @@ START_TEST(surface_of_good_meshes) {
     check_surface(mesh, "one negative tet", true);
     for (const int n : {1, 3, 9}) {
         mesh = block(n, n, n);
-        const fast::Surface surface = surface_of(mesh);
+        const Boundary surface = surface_of(mesh);
         ck_assert_uint_eq(surface.triangles.size(), 12u * std::uint32_t(n) * std::uint32_t(n));
         double volume = 0; // six times it
         for (const Facet& f : surface.triangles) {
@@ -239,18 +238,18 @@ struct Checked {
 
 // No vertex in a certified cell is in a tet that does not own it. `prepared` is the mesh as it was when its
 // tiles and surface were made.
-std::vector<Box> super_boxes_of(const Mesh& mesh, const fast::Tiles& tiles) {
-    std::vector<Box> boxes(tiles.super_tile_count(), fast::empty_box);
+std::vector<Box> super_boxes_of(const Mesh& mesh, const Tiles& tiles) {
+    std::vector<Box> boxes(tiles.super_tile_count(), empty_box);
     for (std::uint32_t s = 0; s < boxes.size(); ++s)
         for (const std::uint32_t b : tiles.blocks[s])
             for (std::uint32_t v = tiles.block_first[b]; v < tiles.block_first[b + 1]; ++v)
-                fast::add(boxes[s], box_around(mesh.positions[v]));
+                add(boxes[s], box_around(mesh.positions[v]));
     return boxes;
 }
 
 Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_size, const char* name) {
-    const fast::Tiles tiles = tiles_of(prepared);
-    const fast::Surface surface = surface_of(prepared, tiles);
+    const Tiles tiles = tiles_of(prepared);
+    const Boundary surface = surface_of(prepared, tiles);
     if (!surface.is_closed) return {};
     const std::set<std::uint32_t> loose(surface.loose.begin(), surface.loose.end());
     std::vector<bool> in_foreign(mesh.positions.size());
@@ -260,12 +259,12 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
               [&](std::uint32_t a, std::uint32_t b) { return mesh.positions[a].x < mesh.positions[b].x; });
     Checked checked;
     for (const Tet& tet : mesh.tets) {
-        Box box = fast::empty_box;
-        for (const std::uint32_t v : tet.v) fast::add(box, box_around(mesh.positions[v]));
+        Box box = empty_box;
+        for (const std::uint32_t v : tet.v) add(box, box_around(mesh.positions[v]));
         auto next = std::lower_bound(by_x.begin(), by_x.end(), box.lo[0],
                                      [&](std::uint32_t v, float x) { return mesh.positions[v].x < x; });
         for (; next != by_x.end() && mesh.positions[*next].x <= box.hi[0]; ++next)
-            if (!in_foreign[*next] && fast::overlap(box, box_around(mesh.positions[*next])) &&
+            if (!in_foreign[*next] && overlap(box, box_around(mesh.positions[*next])) &&
                 !owns(tet, *next) && holds(locate_in(mesh, tet, mesh.positions[*next])))
                 in_foreign[*next] = true;
     }
@@ -275,7 +274,7 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
         std::vector<Box> boxes(tiles.tiles.size());
         std::vector<std::uint8_t> known(tiles.tiles.size());
         fast::Certificate certificate(std::pmr::get_default_resource());
-        fast::Turning turning(std::pmr::get_default_resource());
+        fast::OrientationCache turning(std::pmr::get_default_resource());
         std::uint64_t exact_tests = 0;
         const std::vector<Box> supers = super_boxes_of(mesh, tiles);
         const std::vector<std::uint8_t> upright(supers.size());
@@ -301,9 +300,9 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
                           "%s: the box of vertex %u is certified, the vertex is not", name, v);
         }
         for (const Box& box : supers) { // as its cells one by one
-            const fast::Cell lo = certificate.lattice.cell(box.lo), hi = certificate.lattice.cell(box.hi);
+            const fast::WindowCell lo = certificate.lattice.cell(box.lo), hi = certificate.lattice.cell(box.hi);
             bool all = true;
-            fast::Cell c = lo;
+            fast::WindowCell c = lo;
             for (c.index[2] = lo.index[2]; c.index[2] <= hi.index[2]; ++c.index[2])
                 for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
                     for (c.index[0] = lo.index[0]; c.index[0] <= hi.index[0]; ++c.index[0])

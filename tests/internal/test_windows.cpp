@@ -9,7 +9,6 @@
 
 using namespace vox;
 using namespace stages;
-using fast::Box;
 
 namespace {
 
@@ -30,12 +29,12 @@ fast::Points collected(const Mesh& mesh, const Box& region) {
 Box random_box(Random& r, double extent) {
     Box box =
         box_around({r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)});
-    fast::add(box, box_around(
+    add(box, box_around(
                        {r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)}));
     return box;
 }
 
-bool inside(const Vec3f& p, const Box& box) { return fast::overlap(box_around(p), box); }
+bool inside(const Vec3f& p, const Box& box) { return overlap(box_around(p), box); }
 
 START_TEST(window_collects_and_bins) {
     Random r{4};
@@ -49,11 +48,11 @@ START_TEST(window_collects_and_bins) {
         at_each_level([&](const char* level) {
             const fast::Points points = collected(mesh, region);
             std::vector<std::uint32_t> expected;
-            Box expected_box = fast::empty_box;
+            Box expected_box = empty_box;
             for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
                 if (inside(mesh.positions[v], region)) {
                     expected.push_back(v);
-                    fast::add(expected_box, box_around(mesh.positions[v]));
+                    add(expected_box, box_around(mesh.positions[v]));
                 }
             ck_assert_msg(std::equal(expected.begin(), expected.end(), points.id.begin(),
                                      points.id.begin() + std::ptrdiff_t(points.count)),
@@ -65,13 +64,13 @@ START_TEST(window_collects_and_bins) {
             // Two windows in the same buffers: the second must leave the first alone.
             fast::Bins bins(std::pmr::get_default_resource());
             std::pmr::vector<std::uint32_t> cell_of;
-            const fast::Lattice lattices[2] = {fast::make_lattice(box, cell_size, most_cells),
+            const fast::WindowLattice lattices[2] = {fast::make_lattice(box, cell_size, most_cells),
                                                fast::make_lattice(points, box, cell_size / 3, most_cells)};
             const fast::Window windows[2] = {fast::bin(points, lattices[0], box, cell_of, bins),
                                              fast::bin(points, lattices[1], box, cell_of, bins)};
             std::uint64_t occupied = 0, fullest = 0;
             for (const fast::Window& window : windows) {
-                const fast::Lattice& l = window.lattice;
+                const fast::WindowLattice& l = window.lattice;
                 ck_assert_uint_le(l.count(), most_cells);
                 ck_assert_uint_eq(window.count, points.count);
                 const std::uint32_t* begin = bins.begin.data() + window.first_cell;
@@ -114,11 +113,11 @@ START_TEST(lattice_is_monotone) {
         Box box = random_box(r, 10);
         if (round % 4 == 0) {
             box = box_around({r.any_finite(), r.any_finite(), r.any_finite()});
-            fast::add(box, box_around({r.any_finite(), r.any_finite(), r.any_finite()}));
+            add(box, box_around({r.any_finite(), r.any_finite(), r.any_finite()}));
         }
         const double sizes[] = {r.uniform(1e-3, 5), 1e-300, 1e300, std::abs(double(r.any_finite()))};
         const std::size_t most_cells = 1 + r.below(5000);
-        const fast::Lattice l = fast::make_lattice(box, sizes[r.below(4)], most_cells);
+        const fast::WindowLattice l = fast::make_lattice(box, sizes[r.below(4)], most_cells);
         ck_assert_uint_le(l.count(), most_cells);
         ck_assert(l.inverse > 0 && std::isfinite(l.inverse));
         for (int a = 0; a < 3; ++a) {
@@ -150,7 +149,7 @@ START_TEST(lattice_covers_the_bulk) {
     Mesh mesh = soup(r, 4000, 0, 5, false);
     for (int i = 0; i < 5; ++i) mesh.positions[r.below(4000)] = {r.uniform(-1e6, 1e6), 1e7f, -1e5f};
     const fast::Points points = collected(mesh, box_of(mesh));
-    const fast::Lattice l = fast::make_lattice(points, box_of(mesh), 0.5, 64000);
+    const fast::WindowLattice l = fast::make_lattice(points, box_of(mesh), 0.5, 64000);
     ck_assert_msg(1 / double(l.inverse) < 1, "cells of %g", 1 / double(l.inverse));
     ck_assert_uint_le(l.count(), 64000);
 }
@@ -199,10 +198,10 @@ START_TEST(windows_of_sparse_space) {
         std::vector<int> met(count);
         std::uint64_t together = 0;
         fast::for_windows(bins, root, box_of(mesh), [&](const fast::Window& window) {
-            Box box = fast::empty_box;
+            Box box = empty_box;
             for (std::uint32_t i = 0; i < window.count; ++i) {
                 const std::uint32_t v = bins.points.id[window.first_point + i];
-                fast::add(box, box_around(mesh.positions[v]));
+                add(box, box_around(mesh.positions[v]));
                 ++met[v];
             }
             ck_assert(same(box, window.box));
@@ -216,7 +215,7 @@ START_TEST(windows_of_sparse_space) {
 
         for (int k = 0; k < 50; ++k) {
             Box box = box_around(mesh.positions[r.below(std::uint32_t(count))]);
-            fast::add(box, box_around(mesh.positions[r.below(std::uint32_t(count))]));
+            add(box, box_around(mesh.positions[r.below(std::uint32_t(count))]));
             std::vector<int> found(count);
             fast::for_windows(bins, root, box, [&](const fast::Window& window) {
                 for (std::uint32_t i = 0; i < window.count; ++i)
@@ -251,7 +250,7 @@ END_TEST
 std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
                          double cell_size) {
     const Mesh& mesh = meshes[0];
-    const fast::Tiles tiles = tiles_of(mesh);
+    const Tiles tiles = tiles_of(mesh);
     const auto tile_count = std::uint32_t(tiles.tiles.size());
     fast::Bins bins(std::pmr::get_default_resource());
     std::pmr::vector<std::uint32_t> cell_of;
@@ -260,7 +259,7 @@ std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>
         const fast::Points points = collected(meshes[a], regions[a]);
         if (points.count == 0) continue;
         const Box box = fast::bounds(points);
-        const fast::Lattice lattice = fast::make_lattice(points, box, cell_size, 100000);
+        const fast::WindowLattice lattice = fast::make_lattice(points, box, cell_size, 100000);
         sources.push_back({fast::bin(points, lattice, box, cell_of, bins), regions[a], std::uint32_t(a)});
     }
     std::vector<Box> boxes(tile_count);
@@ -280,9 +279,9 @@ std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>
         fast::query_tiles(q, sources, t, std::min(tile_count, t + 5), *scratch, out);
     fast::flush(*scratch, out);
     for (std::uint32_t t = 0; t < tile_count; ++t) {
-        Box box = fast::empty_box;
+        Box box = empty_box;
         for (std::uint32_t i = 0; i < tiles.tiles[t].vertex_count; ++i)
-            fast::add(box, box_around(mesh.positions[tiles.vertices[tiles.tiles[t].first_vertex + i]]));
+            add(box, box_around(mesh.positions[tiles.vertices[tiles.tiles[t].first_vertex + i]]));
         ck_assert_msg(known[t] && same(boxes[t], box), "box of tile %u", t);
     }
     std::sort(out.found.begin(), out.found.end());
@@ -349,7 +348,7 @@ START_TEST(query_misses_nothing) {
                 move(mesh, scale, 0, 0, 0);
                 whole.push_back(box_of(mesh));
                 Box part = random_box(r, 3 * scale);
-                fast::intersect(part, whole.back());
+                intersect(part, whole.back());
                 parts.push_back(part);
             }
             const double cell_size = r.uniform(0.2, 3) * scale;

@@ -80,12 +80,12 @@ void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_verte
 // them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
 // is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the cells that
 // meet the boxes.
-void Facing(TriangleBatch& batch, std::size_t count, const Lattice& lattice, float e_of_rounding) {
+void Facing(TriangleBatch& batch, std::size_t count, const WindowLattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
     const hn::RebindToSigned<Floats> di;
     const V inverse = hn::Set(d, lattice.inverse);
-    const auto cell = [&](V c, int axis) HWY_ATTR { // as Lattice::cell()
+    const auto cell = [&](V c, int axis) HWY_ATTR { // as WindowLattice::cell()
         const V t = hn::Mul(hn::Sub(c, hn::Set(d, lattice.origin[axis])), inverse);
         return hn::BitCast(
             du, hn::ConvertTo(di, hn::Min(hn::Max(t, hn::Zero(d)), hn::Set(d, lattice.last[axis]))));
@@ -175,10 +175,10 @@ private:
         for (int a = 0; a < 3; ++a) {
             around.lo[a] -= static_cast<float>(1.5 * body_.cell_size);
             around.hi[a] += static_cast<float>(1.5 * body_.cell_size);
-            if (!(around.lo[a] > -infinity && around.hi[a] < infinity)) return false;
+            if (!(around.lo[a] > -float_infinity && around.hi[a] < float_infinity)) return false;
         }
         out_.lattice = make_lattice(around, body_.cell_size, most_cells);
-        const Lattice& l = out_.lattice;
+        const WindowLattice& l = out_.lattice;
         nx_ = l.cells[0];
         nxy_ = nx_ * l.cells[1];
         cells_ = l.count();
@@ -225,7 +225,7 @@ private:
     // Looks at the tets that may have turned over.
     void orient_tets() {
         const Tiles& tiles = body_.tiles;
-        Turning& turning = body_.turning;
+        OrientationCache& turning = body_.turning;
         const std::uint32_t supers = tiles.super_tile_count();
         const auto upright = static_cast<std::uint32_t>(
             std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
@@ -279,7 +279,7 @@ private:
 
     // Nothing is safe where the box is.
     bool mark_unsafe(const Box& box) {
-        const Lattice& l = out_.lattice;
+        const WindowLattice& l = out_.lattice;
         std::uint32_t first[3], more[3];
         for (int a = 0; a < 3; ++a) {
             first[a] = l.cell(box.lo[a], a);
@@ -382,7 +382,7 @@ private:
     }
 
     bool covered_at_most_once(std::size_t cell) {
-        const Lattice& l = out_.lattice;
+        const WindowLattice& l = out_.lattice;
         const std::uint32_t index[3] = {static_cast<std::uint32_t>(cell % nx_),
                                         static_cast<std::uint32_t>(cell / nx_ % l.cells[1]),
                                         static_cast<std::uint32_t>(cell / nxy_)};

@@ -29,14 +29,14 @@ struct Certificate {
     std::pmr::vector<std::uint64_t> bad;
     Components components;
 
-    Lattice lattice;
+    WindowLattice lattice;
     std::pmr::vector<std::uint8_t> certified; // per cell
     std::pmr::vector<std::uint8_t> with_next; // it and those that are next to it, up along any axes
     bool complete = false;                    // all are
 
     // All cells that meet `box`, as far as a look at them is cheap, are certified.
     bool holds(const Box& box) const noexcept {
-        const Cell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
+        const WindowCell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
         std::uint64_t cells = 1;
         bool is_small = true;
         for (int a = 0; a < 3; ++a) {
@@ -46,21 +46,21 @@ struct Certificate {
         if (is_small && with_next[lattice.offset(lo)]) return true;
         constexpr std::uint32_t few = 16;
         if (cells > few) return false;
-        for (Cell c = lo; c.index[2] <= hi.index[2]; ++c.index[2])
+        for (WindowCell c = lo; c.index[2] <= hi.index[2]; ++c.index[2])
             for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
                 for (c.index[0] = lo.index[0]; c.index[0] <= hi.index[0]; ++c.index[0])
                     if (!certified[lattice.offset(c)]) return false;
         return true;
     }
     bool holds(const float* p) const noexcept {
-        const Cell c{{lattice.cell(p[0], 0), lattice.cell(p[1], 1), lattice.cell(p[2], 2), 0}};
+        const WindowCell c{{lattice.cell(p[0], 0), lattice.cell(p[1], 1), lattice.cell(p[2], 2), 0}};
         return certified[lattice.offset(c)] != 0;
     }
 };
 
 struct WindingBody {
     const Tiles& tiles;
-    const Surface& surface;
+    const Boundary& surface;
     const float* positions; // packed
     std::uint32_t vertex_count;
     Box box;
@@ -69,7 +69,7 @@ struct WindingBody {
     const std::uint8_t* super_upright; // super-tiles whose tets are known to be positive
     Box* tile_boxes;                   // those that were looked at are known afterwards
     std::uint8_t* tile_known;
-    Turning& turning; // renewed where that pays
+    OrientationCache& turning; // renewed where that pays
     Workers* workers; // not null: share the pass over the tiles, as one task
     // The packed positions are those in `exact` less `origin`, rounded to floats.
     bool rounded = false;
@@ -78,7 +78,7 @@ struct WindingBody {
 };
 
 // Fills `out` so that no vertex in a certified cell lies in a tet that does not own it, vertices of no tet
-// (see Surface::loose) excepted. False: it would not pay, or cannot be told; use all vertices. `exact_tests`
+// (see Boundary::loose) excepted. False: it would not pay, or cannot be told; use all vertices. `exact_tests`
 // as in predicates.hpp.
 bool certify(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests);
 

@@ -44,14 +44,14 @@ HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longes
 }
 
 template <bool kMeasure>
-HWY_INLINE float OrientTiles(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions,
                              bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
                              std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
     const Words du;
     const hn::Rebind<std::uint8_t, Floats> db;
     TileVertices vertices;
-    V least = hn::Set(d, infinity);
+    V least = hn::Set(d, float_infinity);
     std::uint64_t any_bad = 0;
     for (std::uint32_t t = first; t < last; ++t) {
         const Tile& tile = tiles.tiles.data()[t];
@@ -92,7 +92,7 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Surface& surface, const f
             const V width = Width(e1, e2, e3, n, longest, hn::Sub(hn::Abs(volume), bound));
             for (std::size_t byte = 0; byte < 8; ++byte)
                 bits[byte] = static_cast<std::uint8_t>(counted >> i >> 8 * byte);
-            least = hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, infinity)));
+            least = hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, float_infinity)));
         }
         const std::uint64_t mirrored = surface.mirrored.data()[t];
         bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & counted;
@@ -101,13 +101,13 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Surface& surface, const f
     return any_bad ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-void Orient(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions, bool rounded,
+void Orient(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
     (void)OrientTiles<false>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
 }
 
-float OrientAndMeasure(const Tiles& tiles, const Surface& surface, const float* HWY_RESTRICT positions,
+float OrientAndMeasure(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions,
                        bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
                        std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
     return OrientTiles<true>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
@@ -162,7 +162,7 @@ float slack_of_rounding(const Box& box) noexcept {
     return largest * (8 * 1.125f * 0x1p-24f) + 0x1p-100f;
 }
 
-void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
+void follow(const Tiles& tiles, const OrientationCache& turning, const Box* blocks, const Box* moves, float rounding,
             std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright) {
     for (std::uint32_t s = first; s < last; ++s) {
         upright[s] = 0;
@@ -176,7 +176,7 @@ void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const
     }
 }
 
-bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
+bool wants_reference(OrientationCache& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
     constexpr std::uint32_t young = 4, pause = 32; // steps
     ++turning.age;
     if (turning.wait > 0) {
@@ -193,12 +193,12 @@ bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t sup
     return true;
 }
 
-void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+void orient(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
     VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
 }
 
-float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+float orient_and_measure(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad) {
     return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, rounded, first, last, boxes, known,

@@ -18,8 +18,8 @@
 namespace vox::fast {
 
 // Kept of a body from step to step: its positions in some earlier one, and what was found then.
-struct Turning {
-    explicit Turning(std::pmr::memory_resource* memory) noexcept
+struct OrientationCache {
+    explicit OrientationCache(std::pmr::memory_resource* memory) noexcept
         : reference(memory), slack(memory), boxes(memory) {}
 
     std::pmr::vector<float> reference; // the positions, packed
@@ -39,21 +39,21 @@ float slack_of_rounding(const Box& box) noexcept;
 // Of the super-tiles [first, last): boxes that hold them, and which hold no tet that may have turned over.
 // `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null;
 // `rounding` is slack_of_rounding(), or 0 where positions are not rounded.
-void follow(const Tiles& tiles, const Turning& turning, const Box* blocks, const Box* moves, float rounding,
+void follow(const Tiles& tiles, const OrientationCache& turning, const Box* blocks, const Box* moves, float rounding,
             std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright);
 
 // Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
 // reference is worth its while.
-bool wants_reference(Turning& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
+bool wants_reference(OrientationCache& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter
 // (narrow-inl.hpp) does not find positive.
-void orient(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+void orient(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
 
 // Returns a lower bound on the widths of the tets, too, with their positions as they are rounded; 0 where
 // some are in a set.
-float orient_and_measure(const Tiles& tiles, const Surface& surface, const float* positions, bool rounded,
+float orient_and_measure(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad);
 
