@@ -1,0 +1,100 @@
+"""Every link in the Markdown files leads to a file of the repository, and to a heading that is there; every path of the
+repository that a document names exists."""
+
+import os
+import re
+import unittest
+
+from repository import ROOT, files, text_of
+
+# Folders of the repository that paths in documents begin with.
+TREE = ("src", "tests", "bench", "docs", "examples", "include", "tools", "cmake", "scenes", "bindings")
+
+
+def anchors_of(text):
+    """The anchors that GitHub makes of the headings."""
+    seen, anchors = {}, set()
+    for heading in re.findall(r"^#+ +(.+?) *$", without_code(text), flags=re.M):
+        heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+        anchor = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        anchors.add(anchor if anchor not in seen else f"{anchor}-{seen[anchor]}")
+        seen[anchor] = seen.get(anchor, 0) + 1
+    return anchors
+
+
+def without_code(text):
+    """Also without <!-- remarks -->."""
+    return re.sub(r"^```.*?^```|<!--.*?-->", lambda m: "\n" * m[0].count("\n"), text, flags=re.S | re.M)
+
+
+def links_of(text):
+    """(line, target) of inline links, pictures and reference definitions."""
+    text = re.sub(r"`[^`\n]*`", lambda m: "`" + " " * (len(m[0]) - 2) + "`", without_code(text))
+    for match in re.finditer(r"\]\(([^()\s]+)\)|^\[[^\]]+\]: *(\S+)", text, flags=re.M):
+        yield text.count("\n", 0, match.start()) + 1, match[1] or match[2]
+
+
+def faults_of(path, text, exists, text_at):
+    found = []
+    folder = os.path.dirname(path)
+    for line, target in links_of(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        name, _, anchor = target.partition("#")
+        where = os.path.normpath(os.path.join(folder, name)).replace(os.sep, "/") if name else path
+        if where.startswith(".."):
+            found.append(f"{path}:{line}: {target} leads out of the repository")
+        elif not exists(where):
+            found.append(f"{path}:{line}: {target}: there is no {where}")
+        elif anchor and where.endswith(".md") and anchor not in anchors_of(text_at(where)):
+            found.append(f"{path}:{line}: {target}: {where} has no such heading")
+    text = re.sub(r"<!--.*?-->", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
+    for match in re.finditer(r"(?<![\w/.])(?:" + "|".join(TREE) + r")/[\w./+-]*[\w+]", text):
+        name = match[0]
+        line = text.count("\n", 0, match.start()) + 1
+        ending = text[match.end():match.end() + 2]
+        if ending.startswith(".*") or ending.startswith("*"):  # x.*: a pair of files
+            parent, stem = os.path.split(name)
+            if not exists(parent) or not any(n.startswith(stem) for n in text_at(parent)):
+                found.append(f"{path}:{line}: {name}{ending}: there is no such file")
+        elif not exists(name) and not exists(f"{folder}/{name}"):
+            found.append(f"{path}:{line}: {name}: there is no such file")
+    return found
+
+
+def in_repository(where):
+    return os.path.exists(os.path.join(ROOT, where))
+
+
+def text_or_names(where):
+    path = os.path.join(ROOT, where)
+    return os.listdir(path) if os.path.isdir(path) else text_of(where)
+
+
+class Links(unittest.TestCase):
+    def test_repository(self):
+        found = [fault for path in files(".md") for fault in faults_of(path, text_of(path), in_repository, text_or_names)]
+        # What docs/paper.md is made of: its links are those of that page.
+        found += faults_of("docs/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
+        self.assertEqual(found, [], "\n" + "\n".join(found))
+
+    def test_each_fault_is_noticed(self):
+        tree = {"docs/a.md": "# One thing\n## One, two `x`\n", "docs/b.md": "", "src/base/lists.hpp": "",
+                "src/base": ["lists.hpp"]}
+
+        def faults(text):
+            return "\n".join(faults_of("docs/b.md", text, tree.__contains__, tree.__getitem__))
+
+        for sound in ["[a](a.md)", "[a](a.md#one-two-x)", "![a](../docs/a.md)", "`[a](no.md)`", "```\n[a](no.md)\n```",
+                      "[a](https://example.org/x.md)", "see `src/base/lists.hpp`", "see src/base/lists.*"]:
+            with self.subTest(text=sound):
+                self.assertEqual(faults(sound), "")
+        for text, words in [("[a](no.md)", "there is no docs/no.md"), ("x\n[a](a.md#two)", "docs/b.md:2: a.md#two: docs/a.md"),
+                            ("[a](#two)", "has no such heading"), ("[a](../../x.md)", "leads out"),
+                            ("`src/lists.hpp`", "src/lists.hpp: there is no"), ("src/base/trees.*", "there is no such file")]:
+            with self.subTest(text=text):
+                self.assertIn(words, faults(text))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,71 @@
+"""A stage of the fast engine has one name: in src/README.md, in vox_profile, in the stage benchmark, and in docs/step.dot."""
+
+import re
+import unittest
+
+from repository import text_of
+
+
+def stages_of_readme(text):
+    """The numbered list under the heading "Stages": 1. **stream** ..."""
+    part = re.search(r"^## .*[Ss]tages.*?(?=^## |\Z)", text, flags=re.S | re.M)
+    return re.findall(r"^\d+\. \*\*(\w+)\*\*", part[0], flags=re.M) if part else []
+
+
+def stages_of_profile(text):
+    """The fields of vox_profile that time a stage of the fast engine: those after events_ns, the last of the step's."""
+    body = re.search(r"typedef struct vox_profile \{(.*?)\} vox_profile;", text, flags=re.S)[1]
+    fields = re.findall(r"uint64_t (\w+)_ns;", body)
+    return fields[fields.index("events") + 1:]
+
+
+def rows_of_benchmark(text):
+    """Names of the rows of bench/stages/stages.cpp: {"name", "element", ...}."""
+    return re.findall(r'\{"([^"]+)", "[^"]+",', text)
+
+
+def stages_of_picture(text):
+    """The nodes of docs/step.dot that are stages: lines like `stream [stage`."""
+    return re.findall(r"^\s*(\w+) \[class=stage", text, flags=re.M)
+
+
+def differences(readme, profile, benchmark, picture):
+    stages = stages_of_readme(readme)
+    found = []
+    if len(stages) < 2:
+        found.append("src/README.md lists no stages")
+    if stages_of_profile(profile) != stages:
+        found.append(f"vox_profile has {stages_of_profile(profile)}, src/README.md {stages}")
+    rows = rows_of_benchmark(benchmark)
+    if [row for row in rows if row in stages] != stages:
+        found.append(f"bench/stages/stages.cpp has the rows {rows}, src/README.md the stages {stages}")
+    if stages_of_picture(picture) != stages:
+        found.append(f"docs/step.dot has {stages_of_picture(picture)}, src/README.md {stages}")
+    return found
+
+
+class StageNames(unittest.TestCase):
+    def test_repository(self):
+        found = differences(text_of("src/README.md"), text_of("include/vox/vox.h"),
+                            text_of("bench/stages/stages.cpp"), text_of("docs/step.dot"))
+        self.assertEqual(found, [], "\n" + "\n".join(found))
+
+    README = "## Stages of a step\n\n1. **stream** reads\n2. **query** asks\n\n## Other\n\n1. **body** is\n"
+    PROFILE = ("typedef struct vox_profile {\n uint64_t step_ns;\n uint64_t events_ns;\n uint64_t stream_ns; /* a */\n"
+               " uint64_t query_ns;\n} vox_profile;\n")
+    BENCH = '{"tiles", "tet", t},\n{"stream", "vertex", v,\n[] {}},\n{"sides", "box", b},\n{"query", "tet", t},\n'
+    PICTURE = "  stream [class=stage]\n  hits [class=data]\n  query [class=stage]\n"
+
+    def test_each_difference_is_noticed(self):
+        sound = [self.README, self.PROFILE, self.BENCH, self.PICTURE]
+        self.assertEqual(differences(*sound), [])
+        for place, words in enumerate(["vox_profile", "vox_profile has", "bench/stages/stages.cpp", "docs/step.dot"]):
+            with self.subTest(words=words):
+                changed = list(sound)
+                changed[place] = changed[place].replace("query", "ask")
+                self.assertIn(words, "\n".join(differences(*changed)))
+        self.assertIn("lists no stages", "\n".join(differences("", *sound[1:])))
+
+
+if __name__ == "__main__":
+    unittest.main()
