@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pictures of the example examples/pile.c: a strip of four frames and an animation.
+"""Pictures of the example examples/sim/pile.c: a strip of four frames and an animation.
 
 usage: render_pile.py FOLDER STRIP.png ANIMATION.gif
 

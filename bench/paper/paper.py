@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The paper's experiment again: Tables 1 to 5 and Fig. 3, on all eight models, with the reference engine.
 
-    bench/paper.py --vox build/release/tools/vox --meshes FOLDER
+    bench/paper/paper.py --vox build/release/tools/vox --meshes FOLDER
 
 runs `vox sweep` on every model and writes docs/paper.csv, docs/paper-models.csv, docs/paper.md and docs/paper-*.svg. The
 spheres are made by the library. FOLDER holds bunny.msh, cow.msh and armadillo.msh; instead, --surfaces names a folder with
