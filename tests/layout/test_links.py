@@ -9,6 +9,8 @@ from repository import ROOT, files, text_of
 
 # Folders of the repository that paths in documents begin with.
 TREE = ("src", "tests", "bench", "docs", "examples", "include", "tools", "cmake", "scenes", "bindings")
+# In src/README.md also those of src/.
+TREE_OF_SRC = ("base", "exact", "mesh", "reference", "fast", "depth", "query", "cell_size", "grid", "api", "io", "sim")
 
 
 def anchors_of(text):
@@ -49,13 +51,16 @@ def faults_of(path, text, exists, text_at):
         elif anchor and where.endswith(".md") and anchor not in anchors_of(text_at(where)):
             found.append(f"{path}:{line}: {target}: {where} has no such heading")
     text = re.sub(r"<!--.*?-->", lambda m: "\n" * m[0].count("\n"), text, flags=re.S)
-    for match in re.finditer(r"(?<![\w/.])(?:" + "|".join(TREE) + r")/[\w./+-]*[\w+]", text):
+    tree = TREE + (TREE_OF_SRC if folder == "src" else ())
+    for match in re.finditer(r"(?<![\w/.])(?:" + "|".join(tree) + r")/[\w./+-]*[\w+]", text):
         name = match[0]
         line = text.count("\n", 0, match.start()) + 1
         ending = text[match.end():match.end() + 2]
+        if "NAME" in name:  # stands for any
+            continue
         if ending.startswith(".*") or ending.startswith("*"):  # x.*: a pair of files
             parent, stem = os.path.split(name)
-            if not exists(parent) or not any(n.startswith(stem) for n in text_at(parent)):
+            if not any(exists(at) and any(n.startswith(stem) for n in text_at(at)) for at in (parent, f"{folder}/{parent}")):
                 found.append(f"{path}:{line}: {name}{ending}: there is no such file")
         elif not exists(name) and not exists(f"{folder}/{name}"):
             found.append(f"{path}:{line}: {name}: there is no such file")
