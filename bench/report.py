@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""Writes docs/performance.md from the benchmark's results, figures to reach included.
+"""Writes docs/performance.md from the benchmark's results, and what is aimed at beside them into bench/README.md.
 
 usage: report.py RESULTS.csv [CHART] > performance.md
+       report.py RESULTS.csv --aims PAGE.md      between the lines of the page that say where they go
 """
 
+import contextlib
+import io
 import math
+import re
 import sys
 
 from figures import F1, F2, REFERENCE, SUBJECT, read
@@ -62,40 +66,49 @@ def goal_scene(scenes, name):
     return None
 
 
-def goals(scenes):
+def aims(scenes):
+    """Each figure beside what is aimed at."""
     rows = []
     for name, reference, peer, floor in GOALS:
         scene = goal_scene(scenes, name)
         if scene is None:
             continue
-        best = scene.best_peer()
         on_floor = "-"
         if floor:
             ratio = scene.times_faster(floor[0])
             on_floor = judged(1 / ratio if ratio else None, floor[1], False) + f" ({floor[0].split()[0]})"
-        rows.append([scene.label(), str(scene.tets),
-                     judged(scene.times_faster(REFERENCE), reference, True),
-                     judged(scene.times_faster(best), peer, True) + (f" ({best})" if best else ""), on_floor])
+        rows.append([scene.label(), str(scene.tets), judged(scene.times_faster(REFERENCE), reference, True),
+                     judged(scene.times_faster(scene.best_peer()), peer, True), on_floor])
     if not rows:
-        print("The figures to reach are for a million tetrahedra; this run has no such scene.\n")
+        print("The aims are for a million tetrahedra; this run has no such scene.\n")
         return
     table(["scene", "tets", "× as fast as the reference engine", "× as fast as the best peer", "× a floor"], rows)
-    print("What is missed, why, and what was tried: "
-          "[bench/README.md](../bench/README.md#what-misses-its-figure-and-why).\n")
+    most, per_tet, largest, rate = memory_and_insertion(scenes)
+    print(f"* Memory, bytes a tetrahedron beyond the caller's arrays, the worst scene ({most.name}, {most.tets} tets): "
+          f"{judged(per_tet, GOAL_BYTES_PER_TET, False)}.")
+    print(f"* Insertion, million tetrahedra a second ({largest.name}, {largest.tets} tets): "
+          f"{judged(rate / 1e6, GOAL_INSERTED_PER_SECOND / 1e6, True)}.")
+
+
+def in_short(scenes):
+    """How many times as fast as the paper's algorithm and as the best of the others, scene by scene."""
+    rows = []
+    for scene in scenes:
+        best, floor = scene.best_peer(), scene.times_faster(F2)
+        rows.append([scene.label(), str(scene.tets), number(scene.ms(SUBJECT)), number(scene.times_faster(REFERENCE)),
+                     number(scene.times_faster(best)) + (f" ({best})" if best else ""),
+                     number(1 / floor if floor else None)])
+    table(["scene", "tets", "ms a step", "× as fast as the paper's algorithm", "× as fast as the best other library",
+           "× the time of making all boxes (F2)"], rows)
 
 
 def memory_and_insertion(scenes):
+    """The scene that takes most memory, its bytes a tetrahedron; the largest scene, tetrahedra inserted a second."""
     scenes = [scene for scene in scenes if SUBJECT in scene.rows]
-    if not scenes:
-        return
     largest = max(scenes, key=lambda s: s.tets)
     most = max(scenes, key=lambda s: int(s.rows[SUBJECT]["bytes"]) / s.tets)
     per_tet = int(most.rows[SUBJECT]["bytes"]) / most.tets
-    rate = largest.tets / (float(largest.rows[SUBJECT]["setup_ns"]) / 1e9)
-    print(f"* Memory, bytes a tetrahedron beyond the caller's arrays, the worst scene ({most.name}, "
-          f"{most.tets} tets): {judged(per_tet, GOAL_BYTES_PER_TET, False)}.")
-    print(f"* Insertion, million tetrahedra a second ({largest.name}, {largest.tets} tets): "
-          f"{judged(rate / 1e6, GOAL_INSERTED_PER_SECOND / 1e6, True)}.")
+    return most, per_tet, largest, largest.tets / (float(largest.rows[SUBJECT]["setup_ns"]) / 1e9)
 
 
 def growth(scenes):
@@ -136,23 +149,41 @@ def bytes_per_tet(scenes):
     table(["scene", "tets"] + entrants, rows)
 
 
+def put(page, text):
+    begin, end = "<!-- bench/aims -->\n", "<!-- /bench/aims -->"
+    with open(page, encoding="utf-8") as file:
+        head, rest = file.read().split(begin)
+    with open(page, "w", encoding="utf-8") as file:
+        file.write(head + begin + text + end + rest.split(end)[1])
+
+
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) not in (2, 3, 4) or (len(sys.argv) == 4 and sys.argv[2] != "--aims"):
         raise SystemExit(__doc__)
     rows, scenes = read(sys.argv[1])
-    comparisons = [scene for scene in scenes if scene.is_comparison()]
+    comparisons = [scene for scene in scenes if scene.is_comparison() and SUBJECT in scene.rows]
+    if len(sys.argv) == 4:
+        with contextlib.redirect_stdout(io.StringIO()) as text:
+            aims(comparisons)
+        put(sys.argv[3], text.getvalue())
+        return
     run = rows[0]
+    command = re.sub(r"(--meshes)[ =]\S+", r"\1 FOLDER", run["command"])
     print("# Performance\n")
     print("Written by `bench/report.py` from the benchmark's results; [bench/README.md](../bench/README.md) says what is "
-          "timed and how.\n")
-    print(f"    {run['command']}\n")
+          "timed and how, what was tried, and what is aimed at.\n")
+    print(f"    {command}\n")
     print(f"* Machine: {run['cpu']}, one thread\n* Build: {run['build']}\n* Date: {run['date']}\n"
           f"* Contacts: {'the same from all' if all(r['agrees'] == '1' for r in rows) else '**NOT** the same from all'}\n")
     if len(sys.argv) == 3:
         print(f"![Nanoseconds a tetrahedron, by scene]({sys.argv[2]})\n")
-    print("## Figures to reach\n")
-    goals(comparisons)
-    memory_and_insertion(comparisons)
+    if comparisons:
+        print("## In short\n")
+        in_short(comparisons)
+        most, per_tet, largest, rate = memory_and_insertion(comparisons)
+        print(f"* Memory: at most {number(per_tet)} bytes a tetrahedron beyond the caller's arrays ({most.name}, "
+              f"{most.tets} tets).")
+        print(f"* Insertion: {number(rate / 1e6)} million tetrahedra a second ({largest.name}, {largest.tets} tets).")
     growth(scenes)
     if comparisons:
         print("\n## Milliseconds a step, medians\n")

@@ -93,7 +93,8 @@ def faults(root):
 class Layout(unittest.TestCase):
     def test_repository(self):
         found = faults(ROOT)
-        self.assertEqual(found, [], "\n" + "\n".join(found))
+        if found:
+            self.fail("\n" + "\n".join(found))
 
     def test_folders_stand_in_the_readme_in_order(self):
         readme = text_of("src/README.md")

@@ -48,7 +48,8 @@ class StageNames(unittest.TestCase):
     def test_repository(self):
         found = differences(text_of("src/README.md"), text_of("include/vox/vox.h"),
                             text_of("bench/stages/stages.cpp"), text_of("docs/step.dot"))
-        self.assertEqual(found, [], "\n" + "\n".join(found))
+        if found:
+            self.fail("\n" + "\n".join(found))
 
     README = "## Stages of a step\n\n1. **stream** reads\n2. **query** asks\n\n## Other\n\n1. **body** is\n"
     PROFILE = ("typedef struct vox_profile {\n uint64_t step_ns;\n uint64_t events_ns;\n uint64_t stream_ns; /* a */\n"
