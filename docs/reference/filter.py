@@ -25,7 +25,7 @@ BY_NAME = {
 
 def escaped(text):
     for plain, html in [("\\", "\\\\"), ("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ("@", "\\@"), ("#", "\\#"), ("$", "\\$"),
-                        ("%", "\\%"), ('"', '\\"'), ("*", "&#42;"), ("|", "&#124;"), ("~", "&#126;")]:
+                        ("%", "\\%"), ('"', '\\"'), ("*", "\\*")]:
         text = text.replace(plain, html)
     return re.sub(r"::", "\\::", text)
 
@@ -117,7 +117,7 @@ def fields(text):
 
 def kind_of(kind, name):
     if kind == "enum":
-        return "Flags, combined with &#124;." if name.endswith("_flags") else "One of the values below."
+        return "Flags, combined with | in one number." if name.endswith("_flags") else "One of the values below."
     return f"Settings; fill it with {name}_init." if name.endswith("_desc") else "Its fields are described below."
 
 
