@@ -76,6 +76,13 @@ def text_or_names(where):
     return os.listdir(path) if os.path.isdir(path) else text_of(where)
 
 
+def unknown_names(text, code):
+    """`namespace::name`, or `Class::name`, of which the code has no such name."""
+    for match in re.finditer(r"`(?:\w+::)+(\w+)", text):
+        if not re.search(rf"\b{match[1]}\b", code):
+            yield text.count("\n", 0, match.start()) + 1, match[0][1:]
+
+
 class Links(unittest.TestCase):
     def test_repository(self):
         found = [fault for path in files(".md") for fault in faults_of(path, text_of(path), in_repository, text_or_names)]
@@ -83,6 +90,14 @@ class Links(unittest.TestCase):
         found += faults_of("docs/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
         if found:
             self.fail("\n" + "\n".join(found))
+
+    def test_names_of_code_exist(self):
+        code = "".join(text_of(path) for path in files(".hpp", ".cpp", under="src"))
+        found = [f"{path}:{line}: {name}: src/ has no such name" for path in files(".md")
+                 for line, name in unknown_names(text_of(path), code)]
+        if found:
+            self.fail("\n" + "\n".join(found))
+        self.assertEqual(list(unknown_names("see\n`fast::find_it` and `Grid::step`", "void step();")), [(2, "fast::find_it")])
 
     def test_each_fault_is_noticed(self):
         tree = {"docs/a.md": "# One thing\n## One, two `x`\n", "docs/b.md": "", "src/base/lists.hpp": "",
