@@ -131,8 +131,8 @@ def main():
         file.write(head + begin + text + end + tail)
     with open(page.rsplit("/", 1)[0] + "/regret.md", "w", encoding="utf-8") as file:
         file.write("# What each rule for the cell size loses, scene by scene\n\n"
-                   "Regrets and sizes (in mean edges) as [cell-size.md](cell-size.md) says, written by `bench/cell_size/regret.py`.\n"
-                   "Negative: better than the best uniform size of the sweep, by noise or by several cell sizes.\n\n"
+                   "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](cell-size.md) explains both.\n"
+                   "A negative regret is better than the best uniform size of the sweep, by noise or by several cell sizes.\n\n"
                    + details(ordered))
 
 
