@@ -66,8 +66,13 @@ inline constexpr unsigned all_sides = 0x77;
 
 // ---- boxes of three floats a corner: of tetrahedra in the reference engine, and of trees over doubles ----
 
+struct Box3d {
+    Vec3d min, max;
+};
+
 inline Box3f empty_box3f() noexcept {
-    return {{float_infinity, float_infinity, float_infinity}, {-float_infinity, -float_infinity, -float_infinity}};
+    return {{float_infinity, float_infinity, float_infinity},
+            {-float_infinity, -float_infinity, -float_infinity}};
 }
 
 // The largest float that is not above, the smallest that is not below.
@@ -80,7 +85,8 @@ inline float round_down(double x) noexcept {
 }
 inline float round_up(double x) noexcept { return -round_down(-x); }
 
-inline void extend(Box3f& box, const Box3f& by) noexcept {
+template <class AnyBox>
+void extend(AnyBox& box, const AnyBox& by) noexcept {
     box.min = {std::min(box.min.x, by.min.x), std::min(box.min.y, by.min.y), std::min(box.min.z, by.min.z)};
     box.max = {std::max(box.max.x, by.max.x), std::max(box.max.y, by.max.y), std::max(box.max.z, by.max.z)};
 }
@@ -100,6 +106,17 @@ inline bool is_empty(const Box3f& box) noexcept { return box.min.x > box.max.x; 
 inline void extend(Box3f& box, const Vec3f& p) noexcept {
     box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
     box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
+
+// The squared distance from p to a box, infinite where the box is empty. It is a few roundings too small, so
+// that the computed distance to a point in the box is never less, nor equal.
+template <class AnyBox>
+double squared_distance_bound(const Vec3d& p, const AnyBox& box) noexcept {
+    constexpr double slack = 1 - 0x1p-48;
+    const auto beyond = [](double x, double min, double max) { return std::max({min - x, x - max, 0.0}); };
+    const double x = beyond(p.x, box.min.x, box.max.x), y = beyond(p.y, box.min.y, box.max.y),
+                 z = beyond(p.z, box.min.z, box.max.z);
+    return (x * x + y * y + z * z) * slack;
 }
 
 inline bool contains(const Box3f& box, const Vec3f& p) noexcept {

@@ -1,6 +1,7 @@
 // The closest point of a surface.
 #pragma once
 
+#include "base/boxes.hpp"
 #include "depth/walk.hpp"
 
 #include <algorithm>
@@ -40,9 +41,9 @@ public:
     // Of all triangles of the solid, in time linear in them.
     void build(const Solid& solid);
 
-    // The closest point to p, of points equally far that of the first triangle (Topology::before). `fold` may be null;
-    // triangles with its vertex are left out. False when there is none. Adds the triangles it has looked at
-    // to `visited`.
+    // The closest point to p, of points equally far that of the first triangle (Topology::before). `fold` may
+    // be null; triangles with its vertex are left out. False when there is none. Adds the triangles it has
+    // looked at to `visited`.
     bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
 
     // The same for a vertex at p in `tet`; `self`: of its own mesh, where a point of the fold it has entered
@@ -51,9 +52,6 @@ public:
                          std::uint64_t& visited);
 
 private:
-    struct Box {
-        Vec3d min, max;
-    };
     // All points between two planes. Where a surface is nearly flat and p far away, a box of many edges'
     // length says little about how far it is, but this does.
     struct Slab {
@@ -67,19 +65,19 @@ private:
     static constexpr std::uint32_t leaf_size = 4;
 
     static std::uint32_t leaves_of(std::size_t triangles);
-    Box box_of(std::uint32_t triangle) const;
+    Box3d box_of(std::uint32_t triangle) const;
     void sort_along_curve();
     bool is_beyond_slab(std::size_t node, const Vec3d& p, double distance);
     bool accept(const Vec3d& p, const Fold& fold, const Closest& found) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
-    std::pmr::vector<Box> boxes_;  // of a complete binary tree: the children of i are 2i + 1 and 2i + 2
-    std::pmr::vector<Slab> slabs_; // of the same, made where they are asked for
-    std::uint32_t leaves_ = 0;     // the last boxes, each of leaf_size triangles in order_
-    std::uint32_t last_ = 0;       // found: close to the next one, mostly
-    Vec3d middle_{};               // of all, the origin of slabs
-    double size_ = 0;              // of the box of all
+    std::pmr::vector<Box3d> boxes_; // of a complete binary tree: the children of i are 2i + 1 and 2i + 2
+    std::pmr::vector<Slab> slabs_;  // of the same, made where they are asked for
+    std::uint32_t leaves_ = 0;      // the last boxes, each of leaf_size triangles in order_
+    std::uint32_t last_ = 0;        // found: close to the next one, mostly
+    Vec3d middle_{};                // of all, the origin of slabs
+    double size_ = 0;               // of the box of all
 };
 
 } // namespace vox::depth

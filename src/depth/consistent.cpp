@@ -22,7 +22,7 @@ constexpr double no_distance = 1e-140;
 // way to a point, the depth falls at the rate of the direction there in the paper; here of the mean of the
 // directions at both ends, which is the integral along the way where direction changes evenly, and so makes
 // depths of curved bodies more exact by an order.
-class Mean {
+class NeighbourMean {
 public:
     void add(double weight, const Vec3d& way, double depth, const Vec3d& direction) {
         weights_ += weight;
@@ -50,7 +50,7 @@ private:
 
 class Stages {
 public:
-    Stages(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+    Stages(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
            std::span<std::uint32_t> queue, Normals& normals, Counts& counts)
         : pair_(pair), points_(points), number_(number), queue_(queue), normals_(normals), counts_(counts) {}
 
@@ -59,12 +59,12 @@ public:
         for (std::uint32_t i = 0; i < points_.size(); ++i) number_[points_[i].vertex] = i + 1;
         find_border();
         propagate();
-        name_the_rest();
+        mark_unreached();
         for (const Point& point : points_) number_[point.vertex] = 0;
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return position_of(pair_.positions_a, vertex); }
+    Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
     std::span<const std::uint32_t> neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
@@ -77,12 +77,12 @@ private:
 
     void find_border();
     bool is_coincident(Point& point) const;
-    void follow_edges(Point& point);
+    void trace_edges(Point& point);
     void propagate();
     void take_mean(Point& point) const;
-    void name_the_rest();
+    void mark_unreached();
 
-    const Pair& pair_;
+    const BodyPair& pair_;
     std::span<Point> points_;
     std::span<std::uint32_t> number_; // of each vertex of body a: its place in points_, from 1 on
     std::span<std::uint32_t> queue_;
@@ -98,7 +98,7 @@ void Stages::find_border() {
         bool border = false;
         for (const std::uint32_t q : neighbours(point)) border |= number_[q] == 0;
         if (!border) continue;
-        if (!coincident) follow_edges(point);
+        if (!coincident) trace_edges(point);
         point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
         push(point);
     }
@@ -115,8 +115,7 @@ bool Stages::is_coincident(Point& point) const {
     std::uint64_t exact_tests = 0;
     for (int i = 0; i < 4; ++i) {
         const auto& [x, y, z] = facet_corners[i];
-        if (orientation(position_of(b.positions, tet.v[x]), position_of(b.positions, tet.v[y]),
-                        position_of(b.positions, tet.v[z]), p, exact_tests) != 0)
+        if (orientation(b.at(tet.v[x]), b.at(tet.v[y]), b.at(tet.v[z]), p, exact_tests) != 0)
             support[count++] = tet.v[i];
         else
             on = i;
@@ -131,7 +130,7 @@ bool Stages::is_coincident(Point& point) const {
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
         const Closest closest = closest_point(b, t, p);
-        point.direction = normals_.at(closest.at, closest.at.point - position_of(b.positions, triangle.apex));
+        point.direction = normals_.at(closest.at, closest.at.point - b.at(triangle.apex));
         if (length(point.direction) > 0) break;
     }
     if (!on_surface) return false;
@@ -141,17 +140,16 @@ bool Stages::is_coincident(Point& point) const {
     return true;
 }
 
-void Stages::follow_edges(Point& point) {
+void Stages::trace_edges(Point& point) {
     const Vec3d p = position(point.vertex);
     Vec3d inside = p;
     if (!point.interior) { // from where no facet and edge can be missed
-        const std::uint32_t* v = pair_.b.tets[point.tet].v;
-        const Vec3d middle =
-            0.25 * ((position_of(pair_.b.positions, v[0]) + position_of(pair_.b.positions, v[1])) +
-                    (position_of(pair_.b.positions, v[2]) + position_of(pair_.b.positions, v[3])));
+        const Solid& b = pair_.b;
+        const std::uint32_t* v = b.tets[point.tet].v;
+        const Vec3d middle = 0.25 * ((b.at(v[0]) + b.at(v[1])) + (b.at(v[2]) + b.at(v[3])));
         inside = p + 0x1p-20 * (middle - p);
     }
-    Mean mean;
+    NeighbourMean mean;
     bool lost = false;
     for (const std::uint32_t neighbour : neighbours(point)) {
         if (number_[neighbour] != 0) continue;
@@ -205,14 +203,14 @@ void Stages::propagate() {
 
 void Stages::take_mean(Point& point) const {
     const Vec3d p = position(point.vertex);
-    Mean mean;
+    NeighbourMean mean;
     for (const std::uint32_t neighbour : neighbours(point)) {
         const Point* from = colliding(neighbour);
         if (!from || from->wave >= point.wave || from->wave == Point::unreached) continue;
         const Vec3d way = position(neighbour) - p;
         const double squared = dot(way, way);
         if (!(squared > no_distance)) { // in the same place
-            mean = Mean();
+            mean = NeighbourMean();
             mean.add(1, way, from->depth, from->direction);
             break;
         }
@@ -222,7 +220,7 @@ void Stages::take_mean(Point& point) const {
 }
 
 // Points that no wave reached are CROSSING when they are connected with such a point, else ENCLOSED.
-void Stages::name_the_rest() {
+void Stages::mark_unreached() {
     queued_ = 0;
     for (const Point& point : points_)
         if (point.wave == Point::unusable) push(point);
@@ -238,7 +236,7 @@ void Stages::name_the_rest() {
 
 } // namespace
 
-void find_consistent_depths(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+void find_consistent_depths(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
                             std::span<std::uint32_t> queue, Normals& normals, Counts& counts) {
     Stages(pair, points, number, queue, normals, counts).run();
 }

@@ -10,6 +10,15 @@
 
 namespace vox::depth {
 
+Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
+    const std::uint32_t* v = solid.tets[tet].v;
+    const auto& corner = facet_corners[i];
+    const Vec3d a = solid.at(v[corner[0]]), b = solid.at(v[corner[1]]), c = solid.at(v[corner[2]]);
+    const Vec3d normal = normalised(cross(b - a, c - a));
+    if (!(length(normal) > 0)) return {0, 0, 1};
+    return dot(normal, solid.at(v[i]) - a) > 0 ? -1.0 * normal : normal;
+}
+
 void Normals::begin(const Solid& solid) {
     solid_ = solid;
     reserve(solid.topology->triangles.size());
@@ -24,13 +33,11 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     if (face.age == age_) return face;
     face.age = age_;
     face.has_corners = false;
-    const Triangle& t = solid_.topology->triangles[triangle];
-    const Vec3d a = position_of(solid_.positions, t.v[0]), b = position_of(solid_.positions, t.v[1]),
-                c = position_of(solid_.positions, t.v[2]);
+    const auto [a, b, c] = solid_.corners(triangle);
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
-    const double inside = dot(doubled, position_of(solid_.positions, t.apex) - a);
+    const double inside = dot(doubled, solid_.at(solid_.topology->triangles[triangle].apex) - a);
     face.is_flat = inside == 0;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // |cross| is the same at all corners: sin(angle) * e * f.

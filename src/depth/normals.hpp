@@ -10,6 +10,9 @@
 
 namespace vox::depth {
 
+// The outward unit normal of facet i of a tetrahedron; (0, 0, 1) should it round to nothing.
+Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
+
 class Normals {
 public:
     explicit Normals(std::pmr::memory_resource* memory) : faces_(memory) {}

@@ -26,7 +26,7 @@ struct Point {
 };
 
 // Vertices of body a in tetrahedra of body b.
-struct Pair {
+struct BodyPair {
     const Topology* topology_a;
     Positions positions_a;
     Solid b;
@@ -36,9 +36,6 @@ struct Pair {
 struct Counts {
     std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // of vox_counters
 };
-
-// The outward unit normal of facet i of a tetrahedron; (0, 0, 1) should it round to nothing.
-Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
 
 inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {
     return triangle.v[0] == vertex || triangle.v[1] == vertex || triangle.v[2] == vertex;

@@ -69,15 +69,15 @@ private:
     void make_room(std::size_t contacts, std::size_t worker_count);
     void level_workers();
     void list_points(const Scene& scene, std::span<const vox_contact> contacts);
-    void list_rest(const Scene& scene);
-    void find_consistent(const Scene& scene, const Range& pair, Worker& worker);
-    void find_closest(const Scene& scene, const Range& rest, Worker& worker);
+    void list_unresolved(const Scene& scene);
+    void find_consistent(const Scene& scene, const Range& range, Worker& worker);
+    void find_closest(const Scene& scene, const Range& range, Worker& worker);
 
     std::pmr::vector<Start> starts_;
-    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
-    std::pmr::vector<Range> pairs_;         // in points_
-    std::pmr::vector<Unresolved> rest_;           // body_b after body_b
-    std::pmr::vector<Range> rest_of_;       // one body_b, in rest_
+    std::pmr::vector<depth::Point> points_;      // pair after pair, each in the order of vertices
+    std::pmr::vector<Range> pairs_;              // in points_
+    std::pmr::vector<Unresolved> unresolved_;    // body_b after body_b
+    std::pmr::vector<Range> unresolved_by_body_; // one body_b, in unresolved_
     std::pmr::vector<Worker> workers_;
 };
 

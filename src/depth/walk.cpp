@@ -38,7 +38,7 @@ public:
     bool is_usable() const { return dz_ != 0; } // p and q differ
 
     Corner operator()(std::uint32_t vertex) const {
-        const Vec3d from_p = position_of(positions_, vertex) - origin_;
+        const Vec3d from_p = positions_.exact(vertex) - origin_;
         const double r[3] = {from_p.x, from_p.y, from_p.z};
         return {vertex, r[x_] - shear_x_ * r[z_], r[y_] - shear_y_ * r[z_], r[z_] / dz_};
     }

@@ -1,10 +1,10 @@
 // Where a segment that begins inside a mesh leaves it.
 #pragma once
 
+#include "base/scene.hpp"
 #include "mesh/topology.hpp"
 
-#include "base/scene.hpp"
-
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -15,6 +15,13 @@ struct Solid {
     const Topology* topology;
     std::span<const Tet> tets;
     Positions positions;
+
+    Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
+    // The corners of a triangle of the surface.
+    std::array<Vec3d, 3> corners(std::uint32_t triangle) const noexcept {
+        const std::uint32_t* v = topology->triangles[triangle].v;
+        return {at(v[0]), at(v[1]), at(v[2])};
+    }
 };
 
 // A point of a triangle of a surface.

@@ -6,7 +6,6 @@
 
 namespace vox {
 
-
 namespace {
 
 // How far along from a to b, in [0, 1].

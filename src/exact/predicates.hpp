@@ -11,7 +11,7 @@
 // over, are off by less than 2^-940 together, for which the bound has a summand of 2^-900.
 #pragma once
 
-#include "base/scene.hpp"
+#include "base/vectors.hpp"
 
 #include <array>
 #include <cmath>
@@ -35,11 +35,6 @@ struct BoundedVolume {
 // exact_orientation() of points whose volume is not certain, and its count, unless a look at it is enough.
 int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                           const Vec3d& d, std::uint64_t& exact_tests);
-
-// p - origin, each coordinate rounded once.
-inline Vec3d difference(const Vec3d& p, const Vec3d& origin) {
-    return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-}
 
 // The minor ux*vy - vx*uy and, for the error bound, the same with absolute values.
 struct Minor {
@@ -67,7 +62,7 @@ inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Mi
 // counter-clockwise normal points to. `exact_tests` counts the calls that the filter could not decide.
 inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                        std::uint64_t& exact_tests) {
-    const Vec3d u = difference(b, a), v = difference(c, a), w = difference(d, a);
+    const Vec3d u = b - a, v = c - a, w = d - a;
     const BoundedVolume det = determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
     if (det.certain()) return det.volume > 0 ? 1 : -1;
     return uncertain_orientation(det, a, b, c, d, exact_tests);
@@ -84,7 +79,7 @@ enum class Containment : std::uint8_t {
 // they are the barycentric coordinates of p.
 inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& a, const Vec3d& b,
                                                    const Vec3d& c, const Vec3d& d) {
-    const Vec3d u = difference(a, p), v = difference(b, p), w = difference(c, p), x = difference(d, p);
+    const Vec3d u = a - p, v = b - p, w = c - p, x = d - p;
     const Minor uv = minor(u, v), uw = minor(u, w), ux = minor(u, x);
     const Minor vw = minor(v, w), vx = minor(v, x), wx = minor(w, x);
     std::array<BoundedVolume, 4> volumes = {

@@ -5,8 +5,6 @@
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>

@@ -3,6 +3,7 @@
 // sort of few tiles per call, and follows bodies that deform.
 #include "query/queries.hpp"
 
+#include "base/bits.hpp"
 #include "base/error.hpp"
 #include "query/box_tree.hpp"
 
@@ -19,15 +20,6 @@ void reserve(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(count + count / 8);
 }
 
-// 21 bits spread out to every third one.
-std::uint64_t spread(std::uint64_t x) noexcept {
-    x = (x | x << 32) & 0x1f00000000ffffu;
-    x = (x | x << 16) & 0x1f0000ff0000ffu;
-    x = (x | x << 8) & 0x100f00f00f00f00fu;
-    x = (x | x << 4) & 0x10c30c30c30c30c3u;
-    return (x | x << 2) & 0x1249249249249249u;
-}
-
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
@@ -39,7 +31,7 @@ void Queries::require_prepared() const {
         throw Error(VOX_ERROR_INVALID_STATE, "the grid is not prepared: call vox_grid_prepare_queries first");
 }
 
-void Queries::forget() noexcept {
+void Queries::invalidate() noexcept {
     prepared_ = false;
     meshes_.clear();
     vertices_.clear();
@@ -69,7 +61,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
     reserve(tree_, nodes);
     reserve(surface_tree_, nodes);
 
-    forget();
+    invalidate();
     for (const QueryBody& body : bodies) {
         add(body, static_cast<std::uint32_t>(meshes_.size()));
         meshes_.push_back({body.body.mesh_id, body.body.filter.category});
@@ -103,8 +95,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
                     extend(box, {at, at});
                 }
                 const std::uint32_t across = from.topology->across[index][c];
-                if (across != Topology::nothing && (across & Topology::surface_bit))
-                    t.facets |= 1u << c;
+                if (across != Topology::nothing && (across & Topology::surface_bit)) t.facets |= 1u << c;
             }
             tetrahedra_.push_back(t);
             boxes_.push_back(box);
@@ -125,9 +116,9 @@ void Queries::sort_leaves() noexcept {
     places_.clear();
     for (const Leaf& leaf : leaves_) {
         const Box3f& b = leaf.box;
-        const std::uint64_t code = spread(part(b.min.x, b.max.x, all.min.x, all.max.x)) |
-                                   spread(part(b.min.y, b.max.y, all.min.y, all.max.y)) << 1 |
-                                   spread(part(b.min.z, b.max.z, all.min.z, all.max.z)) << 2;
+        const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
+                                               part(b.min.y, b.max.y, all.min.y, all.max.y),
+                                               part(b.min.z, b.max.z, all.min.z, all.max.z));
         // The upper bits of the place, and the index: no two are equal.
         places_.push_back((code >> 31) << 32 | unsorted_.size());
         unsorted_.push_back(leaf);

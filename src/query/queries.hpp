@@ -30,7 +30,7 @@ public:
     // Copies the bodies, whose positions are finite. Throws what the memory throws, and leaves all as it was
     // then.
     void prepare(std::span<const QueryBody> bodies);
-    void forget() noexcept;
+    void invalidate() noexcept;
     // Throws Error(INVALID_STATE) when it is not.
     void require_prepared() const;
 
@@ -86,6 +86,9 @@ private:
     void find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& asked,
                       std::pmr::vector<PointHit>& found) const;
     const Vec3d& corner(const Tetrahedron& t, std::size_t i) const noexcept { return vertices_[t.corner[i]]; }
+    template <class Bound, class Visit>
+    void visit_facets(std::uint64_t mask, const double& most, const Bound& bound,
+                      Visit&& visit) const noexcept;
     void find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,
                         vox_ray_hit& hit) const noexcept;
     void find_first_facet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,

@@ -17,7 +17,6 @@
 
 namespace vox {
 
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -100,11 +99,11 @@ private:
 
 // The corners of facet i of a tetrahedron in ascending order, so that both sides of a facet compute the same;
 // `place` is where each of them stands in facet_corners.
-struct Facet {
+struct OrderedFacet {
     std::uint32_t vertex[3];
     std::size_t place[3] = {0, 1, 2};
 
-    Facet(const std::uint32_t* corner, std::size_t i) noexcept {
+    OrderedFacet(const std::uint32_t* corner, std::size_t i) noexcept {
         for (std::size_t c = 0; c < 3; ++c) vertex[c] = corner[facet_corners[i][c]];
         const auto order = [this](std::size_t x, std::size_t y) {
             if (vertex[x] <= vertex[y]) return;
@@ -119,44 +118,42 @@ struct Facet {
 
 } // namespace
 
-vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept {
-    double most = radius * radius;
-    SeenPoint best{};
-    std::tuple<std::uint32_t, std::uint32_t, std::size_t> best_key; // mesh, tet, facet
-    const Tetrahedron* best_tet = nullptr;
-    const auto bound = [&](const Box3f& box) noexcept {
-        if (box.min.x > box.max.x) return infinity;
-        const auto beyond = [](double x, float lo, float hi) {
-            return std::max({double{lo} - x, x - double{hi}, 0.0});
-        };
-        const Vec3d d{beyond(p.x, box.min.x, box.max.x), beyond(p.y, box.min.y, box.max.y),
-                      beyond(p.z, box.min.z, box.max.z)};
-        return dot(d, d) * (1 - slack);
-    };
+// Calls visit(mesh, tetrahedron, facet) for each facet of a surface whose tetrahedron's bound is no more than
+// `most`, as visit_nearest_first() does.
+template <class Bound, class Visit>
+void Queries::visit_facets(std::uint64_t mask, const double& most, const Bound& bound,
+                           Visit&& visit) const noexcept {
     visit_nearest_first(surface_tree_, most, bound, [&](std::size_t l) {
         const Leaf& leaf = leaves_[l];
         if (!wants(leaf, mask)) return;
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
             const Tetrahedron& t = tetrahedra_[i];
             if (t.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
-            for (std::size_t facet = 0; facet < 4; ++facet) {
-                if (!(t.facets >> facet & 1)) continue;
-                const SeenPoint found =
-                    closest_seen_from(p, corner(t, facet_corners[facet][0]),
-                                      corner(t, facet_corners[facet][1]), corner(t, facet_corners[facet][2]));
-                const double squared = found.at.squared_distance;
-                const std::tuple key(leaf.mesh, t.index, facet);
-                if (squared < most || (squared == most && (!best_tet || key < best_key))) {
-                    most = squared;
-                    best = found;
-                    best_key = key;
-                    best_tet = &t;
-                }
-            }
+            for (std::size_t facet = 0; facet < 4; ++facet)
+                if (t.facets >> facet & 1) visit(leaf.mesh, t, facet);
         }
     });
+}
+
+vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept {
+    double most = radius * radius;
+    SeenPoint best{};
+    std::tuple<std::uint32_t, std::uint32_t, std::size_t> best_key; // mesh, tet, facet
+    bool any = false;
+    const auto bound = [&p](const Box3f& box) noexcept { return squared_distance_bound(p, box); };
+    visit_facets(mask, most, bound, [&](std::uint32_t mesh, const Tetrahedron& t, std::size_t facet) {
+        const std::uint8_t* c = facet_corners[facet];
+        const SeenPoint found = closest_seen_from(p, corner(t, c[0]), corner(t, c[1]), corner(t, c[2]));
+        const double squared = found.at.squared_distance;
+        const std::tuple key(mesh, t.index, facet);
+        if (!(squared < most || (squared == most && (!any || key < best_key)))) return;
+        most = squared;
+        best = found;
+        best_key = key;
+        any = true;
+    });
     vox_surface_hit hit{};
-    if (!best_tet) return hit;
+    if (!any) return hit;
     const auto [mesh, tet, facet] = best_key;
     hit.mesh = meshes_[mesh].id;
     hit.tet = tet;
@@ -195,7 +192,7 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t m
             const bool holds = where == Containment::interior || where == Containment::boundary;
             double t = holds ? 0 : infinity;
             for (std::size_t facet = 0; facet < 4 && t > 0; ++facet) {
-                const Facet f(tet.corner, facet);
+                const OrderedFacet f(tet.corner, facet);
                 t = std::min(t, find_crossing(from, to, vertices_[f.vertex[0]], vertices_[f.vertex[1]],
                                               vertices_[f.vertex[2]])
                                     .t);
@@ -222,32 +219,21 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, std::uint64_t
     double most = 1;
     std::tuple<std::uint32_t, std::uint32_t, std::size_t> best; // mesh, tet, facet
     bool any = false;
-    visit_nearest_first(surface_tree_, most, bound, [&](std::size_t l) {
-        const Leaf& leaf = leaves_[l];
-        if (!wants(leaf, mask)) return;
-        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-            const Tetrahedron& tet = tetrahedra_[i];
-            if (tet.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
-            for (std::size_t facet = 0; facet < 4; ++facet) {
-                if (!(tet.facets >> facet & 1)) continue;
-                const Facet f(tet.corner, facet);
-                const Vec3d &a = vertices_[f.vertex[0]], &b = vertices_[f.vertex[1]],
-                            &c = vertices_[f.vertex[2]];
-                const Crossing crossing = find_crossing(from, to, a, b, c);
-                const std::tuple key(leaf.mesh, tet.index, facet);
-                if (!(crossing.t < most || (crossing.t == most && (!any || key < best)))) continue;
-                most = crossing.t;
-                best = key;
-                any = true;
-                for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
-                std::uint64_t exact_tests = 0;
-                const int inside =
-                    orientation(a, b, c, corner(tet, facet), exact_tests); // 0: no volume, no inside
-                const bool enters =
-                    crossing.to_side != 0 ? crossing.to_side == inside : crossing.from_side == -inside;
-                hit.surface_side = inside == 0 ? VOX_SIDE_NONE : enters ? VOX_SIDE_ENTERS : VOX_SIDE_LEAVES;
-            }
-        }
+    visit_facets(mask, most, bound, [&](std::uint32_t mesh, const Tetrahedron& tet, std::size_t facet) {
+        const OrderedFacet f(tet.corner, facet);
+        const Vec3d &a = vertices_[f.vertex[0]], &b = vertices_[f.vertex[1]], &c = vertices_[f.vertex[2]];
+        const Crossing crossing = find_crossing(from, to, a, b, c);
+        const std::tuple key(mesh, tet.index, facet);
+        if (!(crossing.t < most || (crossing.t == most && (!any || key < best)))) return;
+        most = crossing.t;
+        best = key;
+        any = true;
+        for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
+        std::uint64_t exact_tests = 0;
+        const int inside = orientation(a, b, c, corner(tet, facet), exact_tests); // 0: no volume, no inside
+        const bool enters =
+            crossing.to_side != 0 ? crossing.to_side == inside : crossing.from_side == -inside;
+        hit.surface_side = inside == 0 ? VOX_SIDE_NONE : enters ? VOX_SIDE_ENTERS : VOX_SIDE_LEAVES;
     });
     if (!any) return;
     const auto [mesh, tet, facet] = best;

@@ -42,7 +42,7 @@ ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
     : particles_(memory), exact_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
-                       std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
+                             std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
     counters.exact_tests = counters.filtered = counters.skipped_degenerate = 0;
@@ -130,8 +130,8 @@ inline Vec3d ReferenceEngine::position(std::size_t particle) const {
     return exact_.empty() ? Vec3d(particles_[particle].position) : exact_[particle];
 }
 
-// Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an empty
-// box.
+// Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an
+// empty box.
 void ReferenceEngine::compute_boxes(Step& step) {
     std::size_t count = 0;
     for (const Body& body : step.bodies) count += body.tets.size();
@@ -158,7 +158,8 @@ void ReferenceEngine::compute_boxes(Step& step) {
 }
 
 // The box of cells of dense storage; its lattice counts from the box's corner.
-Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address) {
+Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double cell_size,
+                                       DenseAddress& address) {
     Vec3d min = settings.world_min, max = settings.world_max;
     const bool automatic = min.x == 0 && min.y == 0 && min.z == 0 && max.x == 0 && max.y == 0 && max.z == 0;
     if (automatic && !particles_.empty()) {
@@ -231,7 +232,7 @@ bool ReferenceEngine::filter_particles(std::span<const Body> bodies, std::uint32
 
 template <class Address>
 void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
-                            const Lattice& lattice, const Address& address) {
+                                  const Lattice& lattice, const Address& address) {
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* particles = particles_.data();
     const std::uint32_t first_own = first_[body];
