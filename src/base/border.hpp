@@ -25,9 +25,4 @@ vox_result border(Function&& function) noexcept {
     }
 }
 
-// Throws INVALID_ARGUMENT naming the parameter when `pointer` is null.
-inline void require(const void* pointer, const char* name) {
-    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
-}
-
 } // namespace vox

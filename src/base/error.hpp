@@ -36,4 +36,9 @@ format(const char* pattern, ...) {
     return text;
 }
 
+// Throws INVALID_ARGUMENT naming the parameter when `pointer` is null.
+inline void require(const void* pointer, const char* name) {
+    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
+}
+
 } // namespace vox

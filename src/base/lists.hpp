@@ -41,7 +41,7 @@ public:
     template <class CornersOf>
     void list_by_vertex(std::uint32_t items, std::uint32_t vertex_count, CornersOf&& corners_of) {
         rows_.assign(vertex_count, Row{});
-        left_behind_ = 0;
+        abandoned_ = 0;
         for (std::uint32_t i = 0; i < items; ++i)
             for (const std::uint32_t v : corners_of(i)) ++rows_[v].room;
         std::uint64_t sum = 0;
@@ -71,11 +71,11 @@ private:
     };
 
     void make_room(std::size_t list, std::uint32_t count);
-    void move_together(std::size_t list, std::uint32_t room);
+    void compact(std::size_t list, std::uint32_t room);
 
     std::pmr::vector<Row> rows_;
     std::pmr::vector<std::uint32_t> items_;
-    std::size_t left_behind_ = 0; // of items_, not in the room of any list
+    std::size_t abandoned_ = 0; // of items_, not in the room of any list
 };
 
 } // namespace vox

@@ -14,9 +14,9 @@ public:
     Scratch() noexcept = default; // the room is left as it is
 
 private:
-    bool is_in_room(const void* memory) const noexcept {
+    bool is_in_buffer(const void* memory) const noexcept {
         const auto at = reinterpret_cast<std::uintptr_t>(memory),
-                   begin = reinterpret_cast<std::uintptr_t>(room_);
+                   begin = reinterpret_cast<std::uintptr_t>(buffer_);
         return at >= begin && at < begin + bytes;
     }
     void* do_allocate(std::size_t size, std::size_t alignment) override {
@@ -24,18 +24,18 @@ private:
         if (alignment > alignof(std::max_align_t) || first > bytes || size > bytes - first)
             return std::pmr::new_delete_resource()->allocate(size, alignment);
         used_ = first + size;
-        return room_ + first;
+        return buffer_ + first;
     }
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
         auto* place = static_cast<std::byte*>(memory);
-        if (!is_in_room(memory))
+        if (!is_in_buffer(memory))
             std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-        else if (place + size == room_ + used_)
+        else if (place + size == buffer_ + used_)
             used_ -= size;
     }
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
-    alignas(std::max_align_t) std::byte room_[bytes];
+    alignas(std::max_align_t) std::byte buffer_[bytes];
     std::size_t used_ = 0;
 };
 
