@@ -20,10 +20,10 @@ public:
 
     bool operator[](std::size_t i) const noexcept { return has_bit(words_, i); }
     std::size_t count() const noexcept { return count_; }
-    // Empty, or as long as reserve() made it.
+    // Empty until reserve() gives it a length.
     std::span<const std::uint64_t> words() const noexcept { return words_; }
 
-    // Room for numbers below `end`: adding them cannot fail.
+    // Makes room for numbers below `end`, so that adding them cannot fail.
     void reserve(std::size_t end) {
         if ((end + 63) / 64 > words_.size()) words_.resize((end + 63) / 64, 0);
     }

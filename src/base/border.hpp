@@ -1,5 +1,5 @@
-// The C border: every public function that can fail is `return border([&] { ... });`. Nothing that is thrown
-// inside gets out; it becomes a result code and the text of vox_last_error().
+// The C border. Every public function that can fail is `return border([&] { ... });`, which turns whatever is
+// thrown inside into a result code and the text of vox_last_error().
 #pragma once
 
 #include "base/error.hpp"

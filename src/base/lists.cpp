@@ -4,7 +4,7 @@
 
 namespace vox {
 
-// Room for `count` items of a list, which may move.
+// Makes room for `count` items in a list, which may move it.
 void IndexLists::make_room(std::size_t list, std::uint32_t count) {
     Row& row = rows_[list];
     if (count <= row.room) return;
@@ -19,7 +19,7 @@ void IndexLists::make_room(std::size_t list, std::uint32_t count) {
     row.room = room;
 }
 
-// All lists one after the other, each with the room that it has, but this one with so much.
+// Moves all lists together. Each keeps its room, except that `list` gets the given one.
 void IndexLists::compact(std::size_t list, std::uint32_t room) {
     std::size_t size = room;
     for (std::size_t i = 0; i < rows_.size(); ++i)

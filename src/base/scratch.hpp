@@ -1,5 +1,5 @@
-// Memory for the time of one call: from a room at hand, then from the heap. Of the room only what was taken
-// last comes back before the end.
+// Memory for one call. It comes from a buffer in the object, and from the heap when that is full. Space in
+// the buffer can be used again only when the last allocation in it is released first.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace vox {
 template <std::size_t bytes>
 class Scratch final : public std::pmr::memory_resource {
 public:
-    Scratch() noexcept = default; // the room is left as it is
+    Scratch() noexcept = default; // leaves the buffer uninitialised
 
 private:
     bool is_in_buffer(const void* memory) const noexcept {

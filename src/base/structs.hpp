@@ -1,5 +1,5 @@
-// Growable structs: the first field is uint32_t struct_size, and only the bytes it covers are read or
-// written.
+// Structs of the caller that may grow from version to version. Their first field is uint32_t struct_size, and
+// only the bytes it covers are read or written.
 #pragma once
 
 #include "base/error.hpp"
@@ -33,17 +33,17 @@ void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name
     std::memcpy(out, &defaults, std::min<std::size_t>(struct_size, sizeof(T)));
 }
 
-// The caller's struct over `defaults`: fields it does not cover keep their default.
+// Returns the caller's struct. Fields that its struct_size does not cover have their default.
 template <class T>
 T read_struct(const T* in, T defaults, const char* name) {
     std::memcpy(&defaults, in, std::min<std::size_t>(checked_struct_size(in, name), sizeof(T)));
     return defaults;
 }
 
-// Throws when `out` cannot be written; call before any work whose result goes there.
+// Throws when `out` cannot be written. Call it before any work whose result goes there.
 inline void check_out_struct(const void* out, const char* name) { (void)checked_struct_size(out, name); }
 
-// Writes `value` to the caller's struct, as far as its struct_size reaches; struct_size itself stays.
+// Writes `value` to the caller's struct, as far as its struct_size reaches, which itself stays.
 template <class T>
 void write_struct(T* out, T value, const char* name) {
     value.struct_size = checked_struct_size(out, name);

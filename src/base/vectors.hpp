@@ -17,7 +17,7 @@ inline Vec3d cross(const Vec3d& a, const Vec3d& b) noexcept {
 }
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
-// Of length 1 to rounding; zero where `a` is, or so short that its square loses digits.
+// `a` scaled to length 1, to rounding. Zero when `a` is zero, or so short that its square loses digits.
 inline Vec3d normalised(const Vec3d& a) noexcept {
     const double squared = dot(a, a);
     if (!(squared > 1e-290)) return {0, 0, 0};
