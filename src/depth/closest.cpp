@@ -1,6 +1,6 @@
-// A tree of boxes over the triangles in the order of the cells of a grid along a Z-shaped curve (Morton 1966;
-// Lauterbach et al., "Fast BVH construction on GPUs", Computer Graphics Forum 28, 2009), searched nearest box
-// first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
+// A tree of boxes over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH
+// construction on GPUs", Computer Graphics Forum 28, 2009), and searched nearest box first (Roussopoulos,
+// Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
 #include "depth/closest.hpp"
 
 #include "base/bits.hpp"
@@ -19,18 +19,18 @@ namespace vox::depth {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int axis_bits = 10; // cells of the curve's grid an axis
+constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
 constexpr int digit_bits = 10;
 constexpr Box3d empty_box3d{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-// Of [min, max], which may be empty.
+// The cell of x on an axis from min to max, which may be equal.
 std::uint32_t cell_of(double x, double min, double max) {
     constexpr double cells = 1 << axis_bits;
     const double cell = max > min ? (x - min) / (max - min) * cells : 0;
     return static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1));
 }
 
-// Whether the plane of a triangle, and so the triangle, is farther from p than that.
+// Whether the plane of a triangle, and so the triangle, is farther from p than the root of `squared`.
 bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
     constexpr double rounding = 1 + 0x1p-40;
     const auto [a, b, c] = solid.corners(triangle);
@@ -111,12 +111,12 @@ void SurfaceTree::build(const Solid& solid) {
     size_ = length(boxes_[0].max - boxes_[0].min);
 }
 
-// Whether all triangles of a node are farther from p than `distance`, told by its slab.
+// Whether the slab of a node shows that all its triangles are farther from p than `distance`.
 bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distance) {
-    // Only of few triangles: with many, a slab is as thick as their box, and takes long to make.
+    // Only for nodes with few triangles. With many, a slab is as thick as their box, and takes long to make.
     constexpr std::size_t most_leaves = 16;
     if (most_leaves * (node + 1) < leaves_) return false;
-    std::size_t first = node, leaves = 1; // of the node
+    std::size_t first = node, leaves = 1; // of the node's subtree
     for (; first < leaves_ - 1; leaves *= 2) first = 2 * first + 1;
     first = (first - (leaves_ - 1)) * leaf_size;
     const std::size_t last = std::min(first + leaves * leaf_size, order_.size());
@@ -127,7 +127,7 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
         for (std::size_t i = first; i < last; ++i) {
             const auto [a, b, c] = solid_.corners(order_[i].triangle);
             const Vec3d area = cross(b - a, c - a);
-            areas = dot(areas, area) < 0 ? areas - area : areas + area; // however they are wound
+            areas = dot(areas, area) < 0 ? areas - area : areas + area; // whatever their winding
         }
         slab.normal = normalised(areas);
         slab.low = infinity;
@@ -148,7 +148,7 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
 bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
     if (has_corner(solid_.topology->triangles[found.at.triangle], fold.vertex)) return false;
     if (!fold.only_straight || found.squared == 0) return true;
-    // To a point as far again, so that rounding does not end the walk too early.
+    // The walk goes twice as far, so that rounding does not end it too early.
     SurfacePoint out;
     std::uint64_t tets = 0;
     if (!walk_out(solid_, fold.tet, p, p + 2.0 * found.way, out, tets)) return false;
@@ -160,7 +160,7 @@ bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found)
 
 bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) {
     struct Node {
-        double squared; // how far its box is, at least
+        double squared; // a bound of the squared distance to the box
         std::size_t box;
     };
     bool found = false;

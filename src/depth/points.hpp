@@ -1,4 +1,4 @@
-// What the parts of the depth stage hand on: the colliding vertices of one pair of bodies.
+// The colliding vertices of a pair of bodies, which the parts of the depth stage hand on.
 #pragma once
 
 #include "depth/walk.hpp"
@@ -10,17 +10,17 @@
 
 namespace vox::depth {
 
-// A colliding vertex of one body, and what becomes of it.
+// A colliding vertex of one body, and what is found for it.
 struct Point {
     static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
 
-    std::size_t hit;   // the first of the pair's with this vertex
-    std::size_t place; // in the answer
+    std::size_t hit;   // the first hit of the pair with this vertex
+    std::size_t place; // index of its penetration
     std::uint32_t vertex;
     std::uint32_t tet;              // of the hit
-    std::uint32_t wave = unreached; // in which depth and direction were found
+    std::uint32_t wave = unreached; // the one in which depth and direction were found
     vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
-    bool interior; // to `tet` for sure; else it may be on its boundary
+    bool interior; // certainly in the interior of `tet`; else it may be on its boundary
     double depth = 0;
     Vec3d direction{0, 0, 0};
 };
@@ -34,7 +34,7 @@ struct BodyPair {
 };
 
 struct Counts {
-    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // of vox_counters
+    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // as in vox_counters
 };
 
 inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {

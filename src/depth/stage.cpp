@@ -31,7 +31,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const Scene scene{bodies, topologies, hits};
     make_room(hits.size(), workers ? workers->count() : 1);
     list_points(scene, contacts);
-    // Points that are worth a task of their own.
+    // The number of points that is worth a task.
     constexpr std::size_t least = 512;
     const auto for_each = [&](std::span<const Range> ranges, std::size_t points, auto&& function) {
         const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
@@ -73,7 +73,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     }
 }
 
-// Points, pairs and the rest are never more than contacts.
+// There are never more points, pairs or unresolved points than contacts.
 void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
@@ -107,7 +107,7 @@ void DepthStage::Worker::reserve(std::size_t points, std::size_t vertices) {
     if (queue.size() < points) queue.resize(points);
 }
 
-// Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
+// Hits are sorted by body_a, vertex and body_b; the points are sorted by body_a, body_b and vertex.
 void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
     points_.clear();
     pairs_.clear();
@@ -183,7 +183,7 @@ void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& wo
         point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
         if (length(point.direction) > 0) continue;
         point.depth = 0;
-        if (found) { // on the surface, of a part of b that overlaps the one with the hit
+        if (found) { // on the surface of a part of b that overlaps the part with the hit
             point.state = VOX_PENETRATION_COINCIDENT;
             worker.normals.begin(solid);
             const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);

@@ -3,8 +3,7 @@
 //
 // The determinant is computed in double with the error bound A of ORIENT3D (Shewchuk, "Adaptive Precision
 // Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18,
-// 1997, Sect. 4.3). Where the bound does not decide, integers of as many digits as it takes do
-// (predicates.cpp).
+// 1997, Sect. 4.3). Where the bound does not decide, exact integers do (predicates.cpp).
 //
 // The bound assumes that no operation overflows or underflows. None overflows, since differences are below
 // 2^129 and products of three below 2^387. Sums and differences do not underflow. A product that underflows

@@ -1,6 +1,6 @@
-// A bounding volume hierarchy over the tiles of all meshes: sorted along a Morton curve (G. M. Morton, A
-// computer oriented geodetic data base, 1966), halved by count, boxes from the leaves up. The order costs one
-// sort of few tiles per call, and follows bodies that deform.
+// A bounding volume hierarchy over the tiles of all meshes. The tiles are sorted along a Morton curve
+// (morton_code) and halved by count; boxes are made from the leaves up. Sorting is quick, as there are few
+// tiles, and is done in every call, so that the order suits bodies that deform.
 #include "query/queries.hpp"
 
 #include "base/bits.hpp"
@@ -50,7 +50,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
         leaves += body.tiles->tiles.size();
     }
     const std::size_t nodes = 2 * std::bit_ceil(std::max<std::size_t>(leaves, 1));
-    // Room for all first: nothing can fail after that.
+    // Reserve everything first, so that nothing after it can fail.
     reserve(meshes_, bodies.size());
     reserve(vertices_, vertices);
     reserve(tetrahedra_, tets);
@@ -76,10 +76,10 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
 void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
     const Body& body = from.body;
     const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    const bool rounded = body.positions.rounded(); // else all are floats
+    const bool rounded = body.positions.rounded(); // otherwise all are floats
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
     for (const Tile& tile : from.tiles->tiles) {
-        if (tile.tet_count == 0) continue; // all of them are off
+        if (tile.tet_count == 0) continue; // all its tetrahedra are off
         Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box3f()};
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t index = from.tiles->tets[tile.first_tet + i];
@@ -108,7 +108,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
 void Queries::sort_leaves() noexcept {
     Box3f all = empty_box3f();
     for (const Leaf& leaf : leaves_) extend(all, leaf.box);
-    const auto part = [](float lo, float hi, float min, float max) { // of the way along one axis, in 21 bits
+    const auto part = [](float lo, float hi, float min, float max) { // 21 bits of the place along one axis
         const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
         return side > 0 ? static_cast<std::uint64_t>((centre - double{min}) / side * 0x1fffff) : 0u;
     };
@@ -119,7 +119,7 @@ void Queries::sort_leaves() noexcept {
         const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
                                                part(b.min.y, b.max.y, all.min.y, all.max.y),
                                                part(b.min.z, b.max.z, all.min.z, all.max.z));
-        // The upper bits of the place, and the index: no two are equal.
+        // The upper bits are of the place, the lower ones the index, so no two are equal.
         places_.push_back((code >> 31) << 32 | unsorted_.size());
         unsorted_.push_back(leaf);
     }

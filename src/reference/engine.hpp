@@ -22,8 +22,7 @@ struct ReferenceSettings {
     vox_hash hash = VOX_HASH_MIXED;
     std::uint64_t hash_table_size = 0;
     Vec3d world_min{}, world_max{}; // dense storage: both zero means the box of all positions
-    // If there are any, they replace the cell size. Ascending; each has a grid of its own, one after the
-    // other.
+    // If not empty, these replace the cell size. They ascend, and each has a grid of its own.
     std::span<const CellLevel> levels{};
 };
 
@@ -41,7 +40,7 @@ public:
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
-    // How much the buckets of the cells hold.
+    // Bytes held by the buckets of the cells.
     std::size_t cell_bytes() const noexcept { return cells_.bucket_bytes(); }
 
 private:
