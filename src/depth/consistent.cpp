@@ -13,7 +13,7 @@ namespace vox::depth {
 
 namespace {
 
-// If the mean of unit vectors is shorter than this, they rather point to opposite sides than to one.
+// If the mean of unit vectors is shorter than this, they point to opposite sides rather than to one.
 constexpr double least_mean = 0.25;
 // A squared distance below this counts as zero. The inverse of any other can be squared without overflow.
 constexpr double no_distance = 1e-140;
@@ -91,7 +91,7 @@ private:
     Counts& counts_;
 };
 
-// The first wave are the points with an edge that leads out.
+// The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
     for (Point& point : points_) {
         const bool coincident = !point.interior && is_coincident(point);
@@ -104,8 +104,8 @@ void Stages::find_border() {
     }
 }
 
-// For a point that may be on the boundary of its tetrahedron. It is on the surface when the corners whose
-// weights are not zero are corners of one triangle of the surface; sets its state and direction then.
+// Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
+// whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
 bool Stages::is_coincident(Point& point) const {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[point.tet];

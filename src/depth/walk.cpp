@@ -1,9 +1,9 @@
 // The straight walk (Devillers, Pion, Teillaud, "Walking in a triangulation", Int. J. of Foundations of
 // Computer Science 13, 2002). Vertices are sheared so that the segment becomes the z axis, and the walk
 // passes the facets whose projections contain the origin (Woop, Benthin, Wald, "Watertight ray/triangle
-// intersection", Journal of Computer Graphics Techniques 2, 2013). On which side of an edge the origin is is
-// computed in the same way from all facets around the edge, so the walk never slips between two. The winding
-// of tetrahedra plays no part, so the walk goes through inverted and flat ones, too.
+// intersection", Journal of Computer Graphics Techniques 2, 2013). The side of an edge on which the origin
+// is found is computed in the same way for all facets around the edge, so the walk never slips between two of
+// them. The winding of tetrahedra plays no part, so the walk goes through inverted and flat ones, too.
 #include "depth/walk.hpp"
 
 #include "base/vectors.hpp"

@@ -1,4 +1,4 @@
-// The search of a tree of boxes that visits the nearest first. The boxes are in single precision, rounded
+// The search of a tree of boxes, nearest first. The boxes are in single precision, rounded
 // outwards, so that they contain the doubles that they bound.
 #pragma once
 
