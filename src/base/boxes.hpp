@@ -67,10 +67,6 @@ inline constexpr unsigned all_sides = 0x77;
 
 // ---- boxes of three numbers a corner ----------------------------------------------------------------
 
-struct Box3d {
-    Vec3d min, max;
-};
-
 inline Box3f empty_box3f() noexcept {
     return {{float_infinity, float_infinity, float_infinity},
             {-float_infinity, -float_infinity, -float_infinity}};
@@ -109,7 +105,7 @@ inline void extend(Box3f& box, const Vec3f& p) noexcept {
     box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
 }
 
-// A bound of the squared distance from p to a box, infinite for an empty box. It is a few roundings too
+// A lower bound of the squared distance from p to a box, infinite for an empty box. It is a few roundings too
 // small, so that the distance computed to a point in the box is always greater.
 template <class AnyBox>
 double squared_distance_bound(const Vec3d& p, const AnyBox& box) noexcept {

@@ -12,6 +12,10 @@
 
 namespace vox::depth {
 
+struct Box3d {
+    Vec3d min, max;
+};
+
 struct Closest {
     SurfacePoint at;
     Vec3d way;      // to it, from the point of the query

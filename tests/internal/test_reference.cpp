@@ -398,8 +398,7 @@ START_TEST(counters_of_a_scene_counted_by_hand) {
         // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2) and (-5,-5,-5) hold one each.
         ck_assert_uint_eq(c.cells, 6);
         ck_assert_uint_eq(c.fullest_cell, 3);
-        // 27 voxels are more than the 6 occupied ones, so only those of these that are in the box are
-        // visited.
+        // 27 voxels are more than the 6 occupied ones, so the occupied ones in the box are visited instead.
         ck_assert_uint_eq(c.visited_cells, 5);
         ck_assert_uint_eq(c.visited_entries, 7);
         ck_assert_uint_eq(c.candidates, 2);
