@@ -33,7 +33,8 @@ std::uint32_t cell_of(double x, double min, double max) {
 // Whether the plane of a triangle, and so the triangle, is farther from p than the root of `squared`.
 bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
     constexpr double rounding = 1 + 0x1p-40;
-    const auto [a, b, c] = solid.corners(triangle);
+    const std::uint32_t* v = solid.topology->triangles[triangle].v;
+    const Vec3d a = solid.at(v[0]), b = solid.at(v[1]), c = solid.at(v[2]);
     const Vec3d normal = cross(b - a, c - a);
     const double height = dot(normal, p - a);
     return height * height > rounding * squared * dot(normal, normal);
@@ -42,17 +43,17 @@ bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p,
 } // namespace
 
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
-    const auto [a, b, c] = solid.corners(triangle);
+    const std::uint32_t* v = solid.topology->triangles[triangle].v;
+    const Vec3d a = solid.at(v[0]), b = solid.at(v[1]), c = solid.at(v[2]);
     const auto [at, way] = closest_seen_from(p, a, b, c);
     return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
 Box3d SurfaceTree::box_of(std::uint32_t triangle) const {
-    const auto [a, b, c] = solid_.corners(triangle);
-    Box3d box{a, a};
-    extend(box, {b, b});
-    extend(box, {c, c});
-    return box;
+    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
+    const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
 }
 
 void SurfaceTree::sort_along_curve() {
@@ -63,10 +64,10 @@ void SurfaceTree::sort_along_curve() {
     scratch_.resize(count);
     for (std::uint32_t t = 0; t < count; ++t) {
         const Box3d box = box_of(t);
-        const std::uint64_t code = morton_code(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x),
-                                               cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y),
-                                               cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z));
-        order_[t] = {static_cast<std::uint32_t>(code), t};
+        order_[t] = {morton_code(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x),
+                                 cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y),
+                                 cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z)),
+                     t};
     }
     std::array<std::uint32_t, 1 << digit_bits> place;
     for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
@@ -125,7 +126,8 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
         slab.is_made = true;
         Vec3d areas{0, 0, 0};
         for (std::size_t i = first; i < last; ++i) {
-            const auto [a, b, c] = solid_.corners(order_[i].triangle);
+            const std::uint32_t* v = solid_.topology->triangles[order_[i].triangle].v;
+            const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
             const Vec3d area = cross(b - a, c - a);
             areas = dot(areas, area) < 0 ? areas - area : areas + area; // whatever their winding
         }
@@ -133,8 +135,8 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
         slab.low = infinity;
         slab.high = -infinity;
         for (std::size_t i = first; i < last; ++i)
-            for (const Vec3d& corner : solid_.corners(order_[i].triangle)) {
-                const double height = dot(slab.normal, corner - middle_);
+            for (const std::uint32_t v : solid_.topology->triangles[order_[i].triangle].v) {
+                const double height = dot(slab.normal, solid_.at(v) - middle_);
                 slab.low = std::min(slab.low, height);
                 slab.high = std::max(slab.high, height);
             }

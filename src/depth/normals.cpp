@@ -33,11 +33,12 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     if (face.age == age_) return face;
     face.age = age_;
     face.has_corners = false;
-    const auto [a, b, c] = solid_.corners(triangle);
+    const Triangle& t = solid_.topology->triangles[triangle];
+    const Vec3d a = solid_.at(t.v[0]), b = solid_.at(t.v[1]), c = solid_.at(t.v[2]);
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
-    const double inside = dot(doubled, solid_.at(solid_.topology->triangles[triangle].apex) - a);
+    const double inside = dot(doubled, solid_.at(t.apex) - a);
     face.is_flat = inside == 0;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.

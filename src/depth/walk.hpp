@@ -4,7 +4,6 @@
 #include "base/scene.hpp"
 #include "mesh/topology.hpp"
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -17,11 +16,6 @@ struct Solid {
     Positions positions;
 
     Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
-    // The corners of a triangle of the surface.
-    std::array<Vec3d, 3> corners(std::uint32_t triangle) const noexcept {
-        const std::uint32_t* v = topology->triangles[triangle].v;
-        return {at(v[0]), at(v[1]), at(v[2])};
-    }
 };
 
 // A point of a triangle of a surface.
