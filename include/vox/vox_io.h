@@ -53,7 +53,7 @@ typedef struct vox_io_source {
     size_t size;
 } vox_io_source;
 
-/* A mesh in memory, owned by vox_io. Immutable. */
+/* A mesh in memory. Immutable. */
 typedef struct vox_io_mesh vox_io_mesh;
 
 /* Reads the file at `path` (for TetGen either file of the pair; the other must be beside it). desc null:

@@ -1,4 +1,4 @@
-// The C border of loading and diagnosis: validate, forward, catch.
+// The C border of loading and diagnosis.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "io/formats/file_bytes.hpp"
@@ -30,7 +30,7 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     return desc;
 }
 
-// The format of a file: the one asked for, else told by content, else by the name.
+// The requested format or, for AUTO, the one that the content or else the name indicates.
 vox_io_format format_of(const File& file, vox_io_format wanted) {
     if (wanted != VOX_IO_FORMAT_AUTO) return wanted;
     const vox_io_format by_content = format_of_content(file.bytes);
@@ -43,7 +43,7 @@ File without_byte_order_mark(File file) {
     return file;
 }
 
-// Any format but TetGen, which needs two files.
+// Reads any format except TetGen, which needs two files.
 MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_index) {
     const File file = without_byte_order_mark(given);
     switch (which) {

@@ -1,4 +1,4 @@
-// The C border of surface to tetrahedra and of the ready-made bodies: validate, catch, forward.
+// The C border of filling surfaces with tetrahedra, and of the ready-made bodies.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "io/solids/bodies.hpp"
@@ -35,7 +35,7 @@ void require_length(double length, const char* name) {
                     format("%s is %g, expected a finite number above 0", name, length));
 }
 
-// Lengths whose squares, cubes and quotients stay finite and normal.
+// The range keeps squares, cubes and quotients of lengths finite and normal.
 void require_lengths(std::initializer_list<std::pair<double, const char*>> lengths, double cell) {
     require_length(cell, "cell");
     for (const auto& [length, name] : lengths) {

@@ -1,4 +1,4 @@
-// The C border of writing: validate, forward, catch.
+// The C border of writing.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "io/formats/readers.hpp"
@@ -71,8 +71,8 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
     throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), std::strerror(error)));
 }
 
-// Writes to a file beside `path` and moves it there at the end; what is no regular file (a pipe, a terminal)
-// is written directly.
+// Writes to a file beside `path` and moves it there at the end. If `path` is not a regular file (a pipe, a
+// terminal), it is written directly.
 void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const std::string& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);

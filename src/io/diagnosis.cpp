@@ -1,5 +1,5 @@
-// Facets, edges and tets are compared within buckets of equal lowest vertex, filled by counting: linear time,
-// 32 bytes a tet for the time of the call.
+// Facets, edges and tets are sorted into buckets of equal lowest vertex by counting, and compared within a
+// bucket. This takes linear time, and 32 bytes a tet during the call.
 #include "io/diagnosis.hpp"
 
 #include "base/error.hpp"
@@ -60,7 +60,7 @@ void count_facets(const MeshData& data, vox_io_report& report) {
     const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < data.tets.size(); t += 4) {
             const auto v = sorted_corners(&data.tets[t]);
-            if (repeats(v)) continue; // no facets to speak of
+            if (repeats(v)) continue; // it has no proper facets
             put(v[0], pack(v[1], v[2]));
             put(v[0], pack(v[1], v[3]));
             put(v[0], pack(v[2], v[3]));
@@ -92,7 +92,7 @@ void count_duplicate_tets(const MeshData& data, vox_io_report& report) {
 }
 
 void count_edges(const MeshData& data, vox_io_report& report) {
-    // The higher vertex, and in the lowest bit the direction.
+    // An item is the higher vertex, with the direction in the lowest bit.
     const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
             const Index* v = &data.triangles[t];
@@ -129,7 +129,7 @@ void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     for (std::uint64_t v = 0; v < report.vertices; ++v) {
         const double* p = &data.positions[3 * v];
         std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) // + 0.0 turns -0 into 0
+        for (int k = 0; k < 3; ++k) // adding 0.0 turns -0 into 0
             hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(p[k] + 0.0));
         for (std::uint64_t slot = hash & mask;; slot = (slot + 1) & mask) {
             if (table[slot] == empty) {
@@ -145,7 +145,8 @@ void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     }
 }
 
-// Components by union-find over the vertices of each element, with path halving; unused vertices; bounds.
+// Counts components (by union-find over the vertices of each element, with path halving) and unused vertices,
+// and finds the bounds.
 void count_components(const MeshData& data, vox_io_report& report) {
     std::vector<Index> parent(report.vertices);
     std::vector<bool> used(report.vertices, false);
@@ -197,7 +198,8 @@ void measure_tets(const MeshData& data, vox_io_report& report) {
         report.degenerate_tets += sign == 0;
         if (sign == 0) continue;
 
-        // Halved, so that differences stay finite; scaled where products would overflow or underflow.
+        // Coordinates are halved so that differences stay finite, and the differences are scaled if their
+        // products would overflow or underflow.
         double e[3][3], largest = 0;
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) {
@@ -226,7 +228,7 @@ void measure_tets(const MeshData& data, vox_io_report& report) {
 
 void measure_surface(const MeshData& data, vox_io_report& report) {
     if (report.open_edges || report.non_manifold_facets || report.misoriented_edges) return;
-    const double* origin = report.bounds_min; // near the surface, so that little cancels
+    const double* origin = report.bounds_min; // near the surface, to avoid cancellation
     for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
         double e[3][3];
         for (std::size_t i = 0; i < 3; ++i)
@@ -234,7 +236,7 @@ void measure_surface(const MeshData& data, vox_io_report& report) {
                 e[i][k] = data.positions[3 * static_cast<std::size_t>(data.triangles[t + i]) + k] - origin[k];
         report.volume += determinant(e[0], e[1], e[2]) / 6;
     }
-    if (!std::isfinite(report.volume)) report.volume = 0; // beyond the range of doubles
+    if (!std::isfinite(report.volume)) report.volume = 0; // it exceeds the range of doubles
 }
 
 std::string counted(std::uint64_t number, const char* singular, const char* plural) {
@@ -311,7 +313,7 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
         if (r.volume < 0) say("the surface is inside out");
     }
 
-    // The core works in single precision.
+    // Positions are often rounded to single precision for the core.
     double farthest = 0, extent = 0;
     for (int k = 0; k < 3; ++k) {
         farthest = std::max({farthest, std::fabs(r.bounds_min[k]), std::fabs(r.bounds_max[k])});

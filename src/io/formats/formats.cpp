@@ -1,4 +1,4 @@
-// Telling formats apart, and what all readers share.
+// Recognises formats, and holds what all readers share.
 #include "io/formats/readers.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace vox::io {
 namespace {
 
-// `bytes` from its first character that is neither byte order mark, blank, line end nor in a comment line.
+// `bytes` without the byte order mark, white space and comment lines at the beginning.
 std::string_view first_text(std::string_view bytes, char comment) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const File file{"", bytes};

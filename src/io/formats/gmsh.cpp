@@ -12,7 +12,7 @@ struct ElementType {
     const char* name;
 };
 
-// The element types of the manual; nodes 0 where it names none.
+// An element type of the manual; `nodes` is 0 for a number that is not in it.
 const ElementType& element_type(std::int64_t type) {
     static const ElementType unknown = {0, Cell::other, ""};
     static const ElementType types[32] = {unknown,
@@ -60,7 +60,7 @@ public:
 
     MeshData read() {
         data_.format = VOX_IO_FORMAT_GMSH;
-        std::size_t elements_at = 0; // of an $Elements section that stands before the nodes
+        std::size_t elements_at = 0; // where an $Elements section begins that precedes the nodes
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
             std::string_view name = in_.peek();
             if (!name.starts_with('$')) in_.expected("a section ($...)");
@@ -275,7 +275,7 @@ private:
             for (std::uint64_t done = 0; done < count;) done += binary_elements(count - done);
     }
 
-    // Versions 1 and 2: number, type, tags, nodes.
+    // In versions 1 and 2 an element is its number, type, tags and nodes.
     void text_element() {
         in_.skip_space();
         in_.integer<std::int64_t>("an element number");
@@ -307,7 +307,8 @@ private:
         in_.line_end();
     }
 
-    // A block of version 2: type, number of elements, number of tags; then number, tags, nodes of each.
+    // A block of version 2 begins with the type, the number of elements and the number of tags; then come
+    // number, tags and nodes of each element.
     std::uint64_t binary_elements(std::uint64_t most) {
         const std::size_t start = in_.offset();
         const ElementType& type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
@@ -323,7 +324,7 @@ private:
         return static_cast<std::uint64_t>(count);
     }
 
-    // `count` elements: `before` bytes that are not needed, then the nodes as Integers.
+    // Each of the `count` elements has `before` bytes that are not needed, then its nodes as Integers.
     template <class Integer>
     void binary_block(const ElementType& type, std::uint64_t count, std::size_t before) {
         const std::size_t size = before + type.nodes * sizeof(Integer);
@@ -344,7 +345,7 @@ private:
         }
     }
 
-    // Versions 4: blocks of one type; number and nodes of each element.
+    // In versions 4.x a block holds elements of one type, each with its number and nodes.
     void read_element_blocks() {
         const std::size_t start = in_.offset();
         const std::uint64_t blocks = block_count();
@@ -391,8 +392,8 @@ private:
 
     // ---- shared ----
 
-    // Versions 4: blocks and things in all; version 4.1 adds the lowest and highest number, which nobody
-    // needs.
+    // A section of versions 4.x begins with the number of blocks and the total number of nodes or elements.
+    // Version 4.1 adds their lowest and highest number, which are not needed.
     std::uint64_t block_count() {
         if (!binary_) in_.skip_space();
         return binary_ ? binary_count("number of blocks", 20) : in_.count("number of blocks", 4, max_count);
@@ -435,7 +436,7 @@ private:
         return type;
     }
 
-    // Where the corners of such elements go, after counting them; null when they are left out.
+    // Counts `count` elements of a type and returns where their corners go, or null if they are left out.
     std::vector<std::uint32_t>* corners_of(const ElementType& type, std::uint64_t count) {
         if (type.cell == Cell::high_tet) data_.second_order_tets += count;
         if (type.cell == Cell::tet || type.cell == Cell::high_tet) return &data_.tets;

@@ -30,7 +30,7 @@ bool NodeNumbers::finish(std::int64_t& out_twice) {
                 return false;
             }
     }
-    numbers_.resize(1); // stays non-empty: the numbers are not consecutive
+    numbers_.resize(1); // not empty, as the numbers are not consecutive
     numbers_.shrink_to_fit();
     return true;
 }

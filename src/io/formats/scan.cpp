@@ -50,7 +50,8 @@ void Scanner::check_count(const char* what, std::uint64_t value, std::size_t byt
                            static_cast<unsigned long long>(value), static_cast<unsigned long long>(limit)));
 }
 
-// The first significant digit, moved by the exponent, stands behind the decimal point.
+// A number out of range is tiny if its first significant digit, shifted by the exponent, is behind the
+// decimal point.
 bool Scanner::is_tiny(std::string_view number) noexcept {
     const std::size_t e = std::min(number.find_first_of("eE"), number.size());
     const std::string_view digits = number.substr(0, e);

@@ -8,13 +8,13 @@ namespace {
 void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
     Scanner in(file, '#');
     in.skip_space();
-    // "0 0 0 0" and a line end less at the end of the file.
+
     const auto count = in.count("number of nodes", 1, max_count);
     const auto dimension = in.integer<std::int64_t>("number of dimensions");
     if (dimension != 3)
         in.fail(format("expected 3 dimensions, found %lld", static_cast<long long>(dimension)));
     in.skip_line();
-    in.check_count("number of nodes", count, 7, max_count, in.offset());
+    in.check_count("number of nodes", count, 7, max_count, in.offset()); // a node is at least "0 0 0 0"
     data.positions.reserve(3 * count);
     for (std::uint64_t i = 0; i < count; ++i) {
         in.skip_space();

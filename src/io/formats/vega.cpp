@@ -72,8 +72,7 @@ MeshData read_vega(const File& file) {
             }
             if (!tets) skipped.add(Cell::volume, "cubes", count);
         }
-        // Up to the next section: nothing, or the lines of a section that is not needed (*MATERIAL, *SET
-        // ...).
+        // Skips the lines of sections that are not needed (*MATERIAL, *SET ...).
         const bool needed = keyword == "*VERTICES" || keyword == "*ELEMENTS";
         for (in.skip_space(); !in.done() && !in.peek().starts_with('*'); in.skip_space()) {
             if (needed) in.expected("a section (*...)");

@@ -1,5 +1,5 @@
-// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware): ASCII, base64 and appended arrays, raw or
-// compressed with zlib, headers of 32 or 64 bits, either byte order. XML by pugixml, inflation by zlib.
+// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware), with ASCII, base64 and appended arrays, raw
+// or compressed with zlib, headers of 32 or 64 bits, and either byte order.
 #include "io/formats/vtk_cells.hpp"
 
 #include <pugixml.hpp>
@@ -10,8 +10,8 @@
 namespace vox::io {
 namespace {
 
-// The bytes that base64 text stands for. Padding may end a group anywhere: VTK writes the header and the data
-// as separate groups. Blanks are skipped; `fail` throws.
+// Decodes base64 text. Padding may end a group anywhere, as VTK encodes the header and the data separately.
+// White space is skipped. `fail` must throw.
 template <class Fail>
 std::string from_base64(std::string_view text, std::size_t most, const Fail& fail) {
     std::string out;
@@ -51,8 +51,8 @@ std::string from_base64(std::string_view text, std::size_t most, const Fail& fai
 
 struct Array {
     VtkNumber type = VtkNumber::none;
-    std::string bytes; // for binary and appended arrays
-    bool text = false; // for ASCII arrays: numbers in `where.child_value()`
+    std::string bytes; // of binary and appended arrays
+    bool text = false; // an ASCII array, with its numbers in `where.child_value()`
     pugi::xml_node where;
 };
 
@@ -108,7 +108,7 @@ private:
         throw Error(result, format("%s: %s", place.c_str(), text.c_str()));
     }
 
-    // Appended data may be raw bytes, which are no XML: it is cut out before the rest is parsed.
+    // Appended data may be raw bytes, which are not XML, so it is cut out before the rest is parsed.
     void parse() {
         std::string_view xml = file_.bytes;
         std::string rest;
@@ -169,7 +169,7 @@ private:
         return header_size_ == 4 ? load<std::uint32_t>(at, swap_) : load<std::uint64_t>(at, swap_);
     }
 
-    // The first `size` bytes that `source` stands for.
+    // The first `size` bytes of `source`, decoded.
     std::string decoded(const pugi::xml_node& array, std::string_view source, bool base64,
                         std::size_t size) const {
         std::string bytes =
@@ -181,7 +181,7 @@ private:
         return bytes;
     }
 
-    // The values of a binary array: behind a header, whole or in compressed blocks.
+    // The values of a binary array, which follow a header, in one piece or in compressed blocks.
     std::string decode(const pugi::xml_node& array, std::string_view source, bool base64,
                        std::uint64_t values, std::size_t value_size) const {
         const std::size_t available = base64 ? source.size() / 4 * 3 + 3 : source.size();
@@ -200,13 +200,14 @@ private:
             return decoded(array, source, base64, header_size_ + size).substr(header_size_);
         }
 
-        // Header: blocks, size of a block, size of the last one (0: as the others), compressed size of each.
+        // The header holds the number of blocks, the size of a block, the size of the last one (0: as the
+        // others), and the compressed size of each.
         const std::string start = decoded(array, source, base64, 3 * header_size_);
         const std::uint64_t blocks = header_word(start, 0);
         if (blocks > available / header_size_) too_many("blocks", blocks);
         const std::uint64_t block_size = header_word(start, 1);
         const std::uint64_t last = header_word(start, 2);
-        // zlib packs no more than 1032 to 1.
+        // zlib compresses to no less than 1/1032 of the size.
         if (values > available * 1032 / value_size) too_many("values", values);
         const std::size_t size = values * value_size;
         const std::size_t header = (3 + blocks) * header_size_;

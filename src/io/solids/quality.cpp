@@ -28,7 +28,7 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
         std::array<Vector3d, 4> p;
         for (std::size_t k = 0; k < 4; ++k) p[k] = corner(mesh, mesh.tets[4 * t + k]);
         quality.volume += (p[1] - p[0]).dot((p[2] - p[0]).cross(p[3] - p[0])) / 6;
-        // Normals of the facets across from each corner, all outward or all inward.
+        // Normals of the facets opposite each corner, all outward or all inward.
         const std::array<Vector3d, 4> normal = {
             (p[2] - p[1]).cross(p[3] - p[1]), (p[3] - p[0]).cross(p[2] - p[0]),
             (p[1] - p[0]).cross(p[3] - p[0]), (p[2] - p[0]).cross(p[1] - p[0])};
@@ -82,7 +82,7 @@ std::vector<std::uint32_t> boundary_facets(const vox_io_mesh_view& mesh) {
     return boundary;
 }
 
-// The largest distance from points on the triangles, no more than `spacing` apart, to the triangles of the
+// The largest distance from sample points on the triangles, at most `spacing` apart, to the triangles of the
 // tree.
 double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* triangles, std::size_t count,
                         double spacing, const TriangleTree& tree) {
@@ -91,7 +91,7 @@ double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* trian
         const Vector3d a = corner(mesh, triangles[3 * t]), b = corner(mesh, triangles[3 * t + 1]),
                        c = corner(mesh, triangles[3 * t + 2]);
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-        // Two parts a side at least; at most a thousand, for surfaces with very large triangles.
+        // At least two parts a side; at most a thousand, to bound the work for very large triangles.
         const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 2.0, 1000.0));
         for (int i = 0; i <= parts; ++i)
             for (int j = 0; i + j <= parts; ++j) {
@@ -113,7 +113,7 @@ vox_io_quality measure_quality(const vox_io_mesh_view& mesh, const vox_io_mesh_v
     quality.boundary_facets = boundary.size() / 3;
     if (!surface || surface->triangle_count == 0) return quality;
     for (std::size_t t = 0; t < surface->triangle_count; ++t) {
-        // Around the first vertex rather than the origin, which may lie far away.
+        // Volumes are summed around the first vertex, as the true origin may be far away.
         const Vector3d origin = corner(*surface, surface->triangles[0]);
         const Vector3d a = corner(*surface, surface->triangles[3 * t]) - origin;
         const Vector3d b = corner(*surface, surface->triangles[3 * t + 1]) - origin;

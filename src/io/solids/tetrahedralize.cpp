@@ -13,8 +13,8 @@
 namespace vox::io {
 namespace {
 
-// A surface is refused when more than this share of the lines ends inside of it, or of the nodes is inside
-// for one axis and outside for another.
+// A surface is refused if more than this share of the lines end inside of it, or more than this share of the
+// nodes are inside for one axis and outside for another.
 constexpr double most_doubtful = 0.01;
 
 struct Box {
@@ -103,11 +103,11 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
                     format("the surface is %g long: no cells can be laid through it", longest));
     const bool to_distance = desc.max_distance > 0 && desc.kind == VOX_IO_SOLID_STUFFED;
     for (std::uint32_t halvings = 0;; ++halvings, cell /= 2) {
-        // How many rounds it takes is not known: each is half of what is left.
+        // The number of rounds is not known, so each counts as half of what is left.
         const double begin = 1 - std::ldexp(1.0, -static_cast<int>(halvings));
         const Progress round = to_distance ? progress.part(begin, (1 + begin) / 2) : progress;
         MeshData mesh = run({surface, desc, box, cell, std::min(desc.coarsen, 16u) + halvings}, round);
-        // Half the cell makes four times the tets at least, where they are at the boundary.
+        // Halving the cells makes at least four times as many tets at the boundary.
         const bool last = 2 * longest / cell > max_cells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
         if (mesh.tets.empty() && (!to_distance || last))
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
