@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-// Every public vox_sim_* function is one member here; all throw, and none changes anything when it does
-// (step: see vox_sim_step).
+// Every public vox_sim_* function is a member here. All of them throw, and change nothing if they do, except
+// step (see vox_sim_step).
 struct vox_sim {
 public:
     explicit vox_sim(const vox_sim_desc& desc); // throws INVALID_ARGUMENT naming the field and its value
@@ -45,6 +45,6 @@ private:
     std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
     std::vector<vox::sim::Contact> contacts_;             // of the last detection
 
-    bool softening_told_ = false;
+    bool softening_logged_ = false;
     vox_sim_counts counts_{};
 };

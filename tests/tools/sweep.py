@@ -219,7 +219,7 @@ class Sweep(unittest.TestCase):
         self.refused(1, "missing.msh", missing)
         surface = self.write("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
         self.refused(1, "0 tets", surface)
-        self.refused(1, "wanted is 0.95", "--ball", 1500, "--share", 0.95)
+        self.refused(1, "expected 0.95", "--ball", 1500, "--share", 0.95)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
-// The C border of vox_sim.h's experiment: validate, catch, forward. And the order and the statistic of its
-// samples.
+// The C border of the experiment, with the order and the statistics of its samples.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "sim/experiment/experiment.hpp"
@@ -79,9 +78,10 @@ TimeFit read_fit(const vox_time_fit* in) {
     if (fit.degree < 2 || fit.degree > max_fit_degree || !(fit.range_min > 0) ||
         !(fit.range_max > fit.range_min) || !std::isfinite(fit.range_max) ||
         !(fit.cell_size >= fit.range_min && fit.cell_size <= fit.range_max))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("fit is none of vox_fit_times: degree %u, range %.9g to %.9g, cell size %.9g",
-                           fit.degree, fit.range_min, fit.range_max, fit.cell_size));
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("fit was not filled by vox_fit_times: degree %u, range %.9g to %.9g, cell size %.9g",
+                   fit.degree, fit.range_min, fit.range_max, fit.cell_size));
     result.degree = fit.degree;
     result.range_min = fit.range_min;
     result.range_max = fit.range_max;

@@ -1,13 +1,13 @@
-// Least squares with polynomials that are orthogonal over the very points measured, by their three-term
+// Least squares with polynomials that are orthogonal over the measured points, by their three-term
 // recurrence: G. E. Forsythe, "Generation and use of orthogonal polynomials for data-fitting with a digital
-// computer", J. SIAM 5, 1957. Their coefficients do not change as the degree grows, so that all degrees are
-// tried in one pass. The degree is the one that predicts best the points it was not given, one left out at a
-// time; that needs no second fit: D. M. Allen, "The relationship between variable selection and data
-// augmentation and a method for prediction", Technometrics 16, 1974.
+// computer", J. SIAM 5, 1957. Their coefficients do not change as the degree grows, so all degrees are tried
+// in one pass. The chosen degree is the one that best predicts points left out of the fit, one at a time.
+// This needs no second fit: D. M. Allen, "The relationship between variable selection and data augmentation
+// and a method for prediction", Technometrics 16, 1974.
 //
-// Both axes are logarithms. The cost is a sum of powers of the cell size, falling ones and rising ones, whose
-// logarithm over the logarithm is a smooth bowl between two straight lines, which polynomials follow well;
-// and the noise of a time is in proportion to it, so that every point weighs the same.
+// Both axes are logarithms. The cost is a sum of falling and rising powers of the cell size. Its logarithm
+// over the logarithm of the cell size is a smooth bowl between two straight lines, which polynomials
+// approximate well. The noise of a time is proportional to it, so all points get the same weight.
 #include "sim/experiment/fit.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
     return sum;
 }
 
-// One orthonormal polynomial: its values at the points, and as a power series.
+// One orthonormal polynomial, as its values at the points and as a power series.
 struct Basis {
     std::vector<double> values;
     double powers[max_fit_degree + 1] = {};
@@ -35,7 +35,8 @@ struct Basis {
     }
 };
 
-// u times `last`, made orthogonal to `last` and to the one `before` it; to all others it is already.
+// u times `last`, made orthogonal to `last` and to the one `before` it; it is already orthogonal to all
+// others.
 Basis next_basis(std::span<const double> u, const Basis& last, const Basis& before) {
     Basis next;
     next.values.resize(u.size());
@@ -81,7 +82,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
     last.scale(1 / std::sqrt(double(count)));
     before.values.assign(count, 0);
 
-    // The residual of a point had the fit not seen it is residual / (1 - leverage).
+    // If the fit had not included a point, its residual would be residual / (1 - leverage).
     std::vector<double> residual(y.begin(), y.end()), leverage(count, 0);
     double series[max_fit_degree + 1] = {};
     double spread = 0; // sum of squares about the mean
@@ -101,7 +102,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
             const double unseen = residual[i] / (1 - leverage[i]);
             squares += unseen * unseen;
         }
-        // A straight line has no minimum inside.
+        // A straight line has no minimum inside the range.
         if (degree >= 2 && (least < 0 || squares < least)) {
             least = squares;
             fit.degree = degree;
@@ -116,7 +117,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
     }
 }
 
-// The least value over [-1, 1]: the best of a scan, then the golden section around it.
+// Where the least value over [-1, 1] is, by a scan and then a golden-section search around its best point.
 double minimiser(const TimeFit& fit) {
     const auto value = [&](double u) { return power_series(fit.coefficients, fit.degree, u); };
     constexpr int steps = 1024;
@@ -139,7 +140,7 @@ double minimiser(const TimeFit& fit) {
     return inside;
 }
 
-// Where the fitted logarithm first passes `limit` on the way from `inside`, where it does not, to `end`.
+// Where the fitted logarithm first exceeds `limit` on the way from `inside`, where it does not, to `end`.
 double crossing(const TimeFit& fit, double limit, double inside, double end) {
     const auto over = [&](double u) { return power_series(fit.coefficients, fit.degree, u) > limit; };
     constexpr int steps = 1024;

@@ -1,4 +1,4 @@
-// A polynomial through measured times, and what is read off it: the best cell size and the zone around it.
+// Fits a polynomial to measured times, and finds the best cell size and the zone around it.
 #pragma once
 
 #include <cstddef>
