@@ -11,8 +11,8 @@ namespace tool {
 
 namespace {
 
-// Rounds to nearest. A double beyond float's range must not be converted; whatever rounds to a finite float
-// lies below this bound, the middle between the largest float and the power of two after it.
+// A double beyond the range of float must not be converted. Everything that rounds to a finite float is below
+// this bound, which is midway between the largest float and the next power of two.
 constexpr double float_range = 0x1.ffffffp127;
 
 void place(Body& body, const Placement& placement) {

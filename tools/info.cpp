@@ -1,4 +1,4 @@
-// vox info: what is in a mesh file.
+// vox info: shows what is in a mesh file.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -109,7 +109,7 @@ void run(const Options& options) {
 
 void add_info(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "What is in a mesh file");
+    CLI::App* command = app.add_subcommand("info", "Show what is in a mesh file");
     command->add_option("MESH", options->files, "Mesh files")->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

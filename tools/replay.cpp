@@ -1,4 +1,4 @@
-// vox replay: steps the grid of a snapshot, for bug reports.
+// vox replay: runs steps of the grid in a snapshot, for bug reports.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
@@ -61,10 +61,10 @@ void run(const Options& options) {
 
 void add_replay(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("replay", "Steps the grid of a snapshot");
-    command->add_option("FILE", options->file, "Snapshot, as collide --save writes it")->required();
-    command->add_option("--steps", options->steps, "Steps to take")->check(CLI::Range(1u, 1000000u));
-    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: the snapshot's");
+    CLI::App* command = app.add_subcommand("replay", "Run steps of the grid in a snapshot");
+    command->add_option("FILE", options->file, "Snapshot written by collide --save")->required();
+    command->add_option("--steps", options->steps, "Number of steps to run")->check(CLI::Range(1u, 1000000u));
+    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
     command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
         ->check(CLI::Range(0u, VOX_MAX_WORKERS));
     command->add_flag("--json", options->json, "Print one JSON object");

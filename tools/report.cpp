@@ -26,7 +26,7 @@ const char* model_name(vox_cost_model model) {
     return "unknown";
 }
 
-// A rule that does not apply has cell size 0 in the library.
+// The library gives cell size 0 for a rule that does not apply.
 Json rule(double cell_size) { return cell_size > 0 ? number(cell_size) : Json(nullptr); }
 
 Json rules(const vox_cell_size_rules& rules) {

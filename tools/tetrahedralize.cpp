@@ -1,4 +1,4 @@
-// vox tetrahedralize: a closed surface in, a file of tetrahedra out.
+// vox tetrahedralize: fills a closed surface with tetrahedra and writes them to a file.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -83,18 +83,19 @@ void add_tetrahedralize(CLI::App& app) {
     vox_io_tetrahedralize_desc& desc = options->desc;
     CLI::App* command = app.add_subcommand("tetrahedralize", "Fill a closed surface with tetrahedra");
     command->add_option("SURFACE", options->surface, "Surface file")->required();
-    command->add_option("-o,--output", options->out, "File to write: .msh or .vtu")->required();
+    command->add_option("-o,--output", options->out, "File to write, .msh or .vtu")->required();
     command
         ->add_option("--cell", desc.cell,
                      "Edge of a lattice cube; 0: a fiftieth of the surface's longest side")
         ->check(not_negative());
-    add_choice(*command, "--kind", desc.kind, kinds, "Follow the surface, or keep whole cubes around it");
+    add_choice(*command, "--kind", desc.kind, kinds,
+               "stuffed: follow the surface; cubes: keep whole cubes around it");
     command
         ->add_option("--max-distance", desc.max_distance,
-                     "Refine until the Hausdorff distance is at most this; 0: do not")
+                     "Refine until the Hausdorff distance is at most this; 0: do not refine")
         ->check(not_negative());
-    command->add_option("--coarsen", desc.coarsen, "Times that cells inside may be merged");
-    command->add_option("--max-tets", desc.max_tets, "Fail above that many tetrahedra");
+    command->add_option("--coarsen", desc.coarsen, "How many times cells inside may be merged");
+    command->add_option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
     command->add_flag("--binary", options->binary, "Write binary instead of text");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
