@@ -15,9 +15,11 @@ struct MeshDeleter {
     void operator()(vox_io_mesh* mesh) const noexcept { vox_io_mesh_destroy(mesh); }
 };
 
+using Mesh = std::unique_ptr<vox_io_mesh, MeshDeleter>;
+
 struct Body {
     std::string name; // the path of the file, or the name of a body made by the tool
-    std::unique_ptr<vox_io_mesh, MeshDeleter> mesh;
+    Mesh mesh;
     vox_io_mesh_view view{};      // arrays of `mesh`
     std::vector<float> positions; // 3 * view.vertex_count
     std::vector<double> exact;    // if not empty, the positions before rounding, which are used instead
@@ -37,6 +39,9 @@ struct Fill {
     bool surfaces = false;
     double cell = 0;
 };
+
+// Reads a mesh file. Throws Failure with the reader's error text.
+Mesh load_mesh(const std::string& path);
 
 // Throws Failure with the reader's error text, or if a placed coordinate is beyond the range of float.
 Body load_body(const std::string& path, const Placement& placement = {}, const Fill& fill = {});

@@ -73,9 +73,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
         std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
                     static_cast<unsigned long long>(view.count - shown));
     print_penetrations(options, grid, ids);
-    double cell_size = 0;
-    check(vox_grid_cell_size(grid, &cell_size));
-    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size);
+    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf(
         "step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f, depth %.3f (%s)\n",
         milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
@@ -125,10 +123,8 @@ void add_collide(CLI::App& app) {
     add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");
     command->add_option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
         ->check(not_negative());
-    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
-    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
-    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
-        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    add_cells(*command, options->grid);
+    add_threads(*command, options->grid);
     command->add_option("--repeat", options->repeat, "Number of steps to time, after one to warm up")
         ->check(CLI::Range(1u, 1000000u));
     command->add_option("--limit", options->limit, "Most contacts to print as text");

@@ -27,9 +27,7 @@ struct Info {
 Info read_info(const std::string& file) {
     Info info;
     info.file = file;
-    vox_io_mesh* loaded = nullptr;
-    check(vox_io_load(file.c_str(), nullptr, &loaded));
-    const std::unique_ptr<vox_io_mesh, MeshDeleter> mesh(loaded);
+    const Mesh mesh = load_mesh(file);
     vox_io_mesh_view view{};
     check(vox_io_mesh_get(mesh.get(), &view));
     info.shape = measure_shape(view);

@@ -68,6 +68,20 @@ inline CLI::Validator positive() {
 inline CLI::Validator not_negative() {
     return number_check([](double value) { return value >= 0; }, "a number of at least 0");
 }
+inline CLI::Validator fraction() {
+    return number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1");
+}
+
+inline void add_threads(CLI::App& app, vox_grid_desc& grid) {
+    app.add_option("--threads", grid.worker_count, "Threads of a step; 0: one per core")
+        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+}
+
+// How the reference engine stores cells.
+inline void add_cells(CLI::App& app, vox_grid_desc& grid) {
+    add_choice(app, "--storage", grid.storage, storages, "How cells are stored");
+    add_choice(app, "--hash", grid.hash, hashes, "Hash of a cell, for hashed storage");
+}
 
 // Adds the options of commands that need tetrahedra but may get surfaces.
 inline void add_fill(CLI::App& app, Fill& fill) {

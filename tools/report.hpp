@@ -41,6 +41,7 @@ Json body_list(const std::vector<Body>& bodies);
 std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh);
 
 std::string hash_of(const vox_grid* grid);
+std::string hexadecimal(std::uint64_t value); // sixteen digits
 
 // Prints one line on standard output.
 void print(const Json& json);

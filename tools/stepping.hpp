@@ -23,6 +23,8 @@ Grid make_grid(const vox_grid_desc& desc, std::span<const Body> bodies, bool sel
                std::vector<vox_mesh>& ids);
 
 vox_profile profile_of(const vox_grid* grid);
+vox_counters counters_of(const vox_grid* grid);
+double cell_size_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
 vox_penetration_view penetrations_of(const vox_grid* grid);
 

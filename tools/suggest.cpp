@@ -128,8 +128,7 @@ void add_suggest(CLI::App& app) {
     add_choice(*command, "--model", desc.model, models, "Cost model to minimise");
     command
         ->add_option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
-        ->check(
-            number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1"));
+        ->check(fraction());
     command->add_option("--ratio", desc.cost_ratio, "Cost of a particle test divided by that of a cell visit")
         ->check(positive());
     add_choice(*command, "--size-reading", desc.size_reading, size_readings,

@@ -284,12 +284,6 @@ Json fit_json(const vox_time_fit& fit) {
             {"bracketed", fit.bracketed != 0}};
 }
 
-std::string hexadecimal(std::uint64_t value) {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-    return text;
-}
-
 void print_json(const Sweep& sweep) {
     const vox_experiment_facts& facts = sweep.facts;
     const Evaluation& found = sweep.found;
@@ -446,18 +440,15 @@ void add_sweep(CLI::App& app) {
         ->type_name("FLOAT")
         ->check(finite());
     command->add_option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
-        ->check(
-            number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1"));
+        ->check(fraction());
     command->add_flag("--as-placed", options->as_placed, "Do not rotate the bodies");
     command->add_option("--frames", options->experiment.frames, "Number of detections in a sample")
         ->check(CLI::Range(1u, 1000u));
     command->add_option("--time-step", options->experiment.time_step, "Duration of a frame")
         ->check(positive());
     add_choice(*command, "--engine", options->grid.engine, engine_choices, "Algorithm");
-    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
-    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
-    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
-        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    add_cells(*command, options->grid);
+    add_threads(*command, options->grid);
     command
         ->add_option("--world", options->world,
                      "Edge of the cubic world, for the cells per axis; 0: longest side")

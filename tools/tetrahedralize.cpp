@@ -21,7 +21,7 @@ struct Options {
 
 const Choices<vox_io_solid_kind> kinds = {{"stuffed", VOX_IO_SOLID_STUFFED}, {"cubes", VOX_IO_SOLID_CUBES}};
 
-std::unique_ptr<vox_io_mesh, MeshDeleter> fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
+Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
     Progress progress;
     desc.progress = [](double fraction, void* user) -> std::int32_t {
         static_cast<Progress*>(user)->show("filled " + std::to_string(static_cast<int>(100 * fraction)) +
@@ -31,7 +31,7 @@ std::unique_ptr<vox_io_mesh, MeshDeleter> fill(const vox_io_mesh* surface, vox_i
     desc.progress_user = &progress;
     vox_io_mesh* filled = nullptr;
     check(vox_io_tetrahedralize(surface, &desc, &filled));
-    return std::unique_ptr<vox_io_mesh, MeshDeleter>(filled);
+    return Mesh(filled);
 }
 
 void write(const vox_io_mesh* mesh, const Options& options) {
@@ -53,10 +53,8 @@ void print_text(const Options& options, const vox_io_quality& quality) {
 }
 
 void run(const Options& options) {
-    vox_io_mesh* loaded = nullptr;
-    check(vox_io_load(options.surface.c_str(), nullptr, &loaded));
-    const std::unique_ptr<vox_io_mesh, MeshDeleter> surface(loaded);
-    const auto mesh = fill(surface.get(), options.desc);
+    const Mesh surface = load_mesh(options.surface);
+    const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);
     vox_io_quality quality{};
     quality.struct_size = sizeof quality;
