@@ -20,6 +20,8 @@ struct MeshData {
     std::vector<std::string> notes; // lines for the warnings, from the reader
 };
 
+vox_io_mesh_view view_of(const MeshData& data); // borrows the arrays of `data`
+
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices
 // are below the number of vertices. This is the only way to make a vox_io_mesh.
 vox_io_mesh* make_mesh(MeshData data);

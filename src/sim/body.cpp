@@ -1,6 +1,7 @@
 #include "sim/body.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 
 #include <Eigen/Geometry>
 
@@ -18,16 +19,14 @@ constexpr double farthest = 1e15; // largest coordinate; the sixth power of it i
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
 
-unsigned long long number(std::uint64_t count) { return count; }
-
 void check_vectors(const double* values, std::uint64_t count, const char* name) {
     for (std::uint64_t i = 0; i < 3 * count; ++i) {
         if (!std::isfinite(values[i]))
             throw Error(VOX_ERROR_NON_FINITE, format("%s of vertex %llu are not finite: coordinate %c is %g",
-                                                     name, number(i / 3), "xyz"[i % 3], values[i]));
+                                                     name, llu(i / 3), "xyz"[i % 3], values[i]));
         if (std::abs(values[i]) > farthest)
             refuse(format("%s of vertex %llu: coordinate %c is %g, expected at most %g in size", name,
-                          number(i / 3), "xyz"[i % 3], values[i], farthest));
+                          llu(i / 3), "xyz"[i % 3], values[i], farthest));
     }
 }
 
@@ -44,16 +43,15 @@ void check_desc(const vox_sim_body_desc& desc) {
     if (!desc.positions) refuse("body positions are null");
     if (!desc.tets || desc.tet_count == 0)
         refuse(format("body tets are %s, tet_count is %llu: a body needs at least one tet",
-                      desc.tets ? "given" : "null", number(desc.tet_count)));
+                      desc.tets ? "given" : "null", llu(desc.tet_count)));
     if (desc.vertex_count > VOX_MAX_VERTICES || desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT,
                     format("the body has %llu vertices and %llu tets, the limits are %u and %u",
-                           number(desc.vertex_count), number(desc.tet_count), VOX_MAX_VERTICES,
-                           VOX_MAX_TETS));
+                           llu(desc.vertex_count), llu(desc.tet_count), VOX_MAX_VERTICES, VOX_MAX_TETS));
     for (std::uint64_t i = 0; i < 4 * desc.tet_count; ++i)
         if (desc.tets[i] >= desc.vertex_count)
-            throw Error(VOX_ERROR_INVALID_MESH, format("tet %llu names vertex %u of %llu", number(i / 4),
-                                                       desc.tets[i], number(desc.vertex_count)));
+            throw Error(VOX_ERROR_INVALID_MESH, format("tet %llu names vertex %u of %llu", llu(i / 4),
+                                                       desc.tets[i], llu(desc.vertex_count)));
     check_number(desc.density, false, "density");
     check_number(desc.youngs_modulus, true, "youngs_modulus");
     check_number(desc.bulk_modulus, true, "bulk_modulus");
@@ -85,7 +83,7 @@ void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     if (!(total >= 1e-60 && total <= 1e60))
         refuse(
             format("the body has a mass of %g: %llu of its %zu tets have no rest volume, its density is %g",
-                   total, number(body.flat_tets), volumes6.size(), density));
+                   total, llu(body.flat_tets), volumes6.size(), density));
     const double mean = total / static_cast<double>(std::count(used.begin(), used.end(), true));
     for (std::size_t v = 0; v < count; ++v) {
         if (body.masses[v] < mean / 100) {

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "sim/constraints.hpp"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ using namespace vox::sim;
 namespace {
 
 constexpr double shortest_time_step = 1e-12; // with 10000 substeps, their squares are still normal numbers
-
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
 
@@ -41,8 +38,6 @@ Floor floor_of(const vox_sim_desc& desc) {
     if (!floor.normal.isZero(0)) floor.normal.stableNormalize();
     return floor;
 }
-
-unsigned long long number(std::uint64_t count) { return count; }
 
 } // namespace
 
@@ -106,7 +101,7 @@ void vox_sim::set_substeps(double h) {
                   format("body %u: %llu of %zu constraints are too stiff for substeps of %g and were "
                          "softened; further "
                          "warnings suppressed",
-                         body->mesh, number(body->softened), body->edges.size() + body->volumes.size(), h));
+                         body->mesh, llu(body->softened), body->edges.size() + body->volumes.size(), h));
     }
 }
 
@@ -163,9 +158,8 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
             VOX_LOG_WARNING,
             format("body %u: %llu of %llu tets have no rest volume and thus no volume constraint, %llu are "
                    "inverted; %llu of %zu vertices were made heavier",
-                   inserted.mesh, number(inserted.flat_tets), number(desc.tet_count),
-                   number(inserted.inverted_tets), number(inserted.raised_masses),
-                   inserted.positions.size()));
+                   inserted.mesh, llu(inserted.flat_tets), llu(desc.tet_count), llu(inserted.inverted_tets),
+                   llu(inserted.raised_masses), inserted.positions.size()));
     return inserted.mesh;
 }
 

@@ -3,6 +3,7 @@
 
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
+#include "sim/library.hpp"
 
 #include <memory>
 #include <vector>
@@ -24,10 +25,6 @@ public:
     vox_sim_counts counts() const;
 
 private:
-    struct GridDeleter {
-        void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
-    };
-
     void set_substeps(double h);
     void detect();
     void substep(double h);
@@ -41,7 +38,7 @@ private:
     vox::sim::ContactSettings contact_settings_;
     vox::sim::Floor floor_;
 
-    std::unique_ptr<vox_grid, GridDeleter> grid_;
+    vox::sim::GridHandle grid_;
     std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
     std::vector<vox::sim::Contact> contacts_;             // of the last detection
 

@@ -1,5 +1,6 @@
 // Reads surfaces of every format that assimp knows. Node transforms are applied, polygons split into
 // triangles, and the meshes of a scene joined unless a single one is requested.
+#include "io/determinant.hpp"
 #include "io/formats/readers.hpp"
 
 #include <assimp/Importer.hpp>
@@ -77,12 +78,7 @@ public:
             out[i] = m_[i][0] * static_cast<double>(p.x) + m_[i][1] * static_cast<double>(p.y) +
                      m_[i][2] * static_cast<double>(p.z) + m_[i][3];
     }
-    bool mirrors() const {
-        return m_[0][0] * (m_[1][1] * m_[2][2] - m_[1][2] * m_[2][1]) +
-                   m_[0][1] * (m_[1][2] * m_[2][0] - m_[1][0] * m_[2][2]) +
-                   m_[0][2] * (m_[1][0] * m_[2][1] - m_[1][1] * m_[2][0]) <
-               0;
-    }
+    bool mirrors() const { return determinant(m_[0], m_[1], m_[2]) < 0; }
 
 private:
     double m_[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};

@@ -97,7 +97,7 @@ public:
             end_section(version_ == 10 ? "ELM" : "Elements");
         }
         if (!have_elements_) in_.expected("an $Elements section");
-        skipped_.tell(data_);
+        skipped_.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
     }
@@ -126,7 +126,7 @@ private:
             const auto one = in_.binary<std::uint32_t>(false, "the integer 1");
             if (one != 1 && one != 0x01000000u) {
                 in_.seek(start);
-                in_.fail("expected the integer 1, which tells the byte order, found another number");
+                in_.fail("expected the integer 1, which shows the byte order, found another number");
             }
             swap_ = one != 1;
         }
@@ -177,9 +177,7 @@ private:
         } else {
             read_node_blocks();
         }
-        std::int64_t twice;
-        if (!numbers_.finish(twice))
-            in_.fail(format("two nodes have the number %lld", static_cast<long long>(twice)));
+        numbers_.finish(in_);
     }
 
     void text_node() {
@@ -237,9 +235,8 @@ private:
                 in_.fail(format("expected an entity of dimension 0 to 3, found %d", dimension));
             const std::uint64_t count = in_block("nodes in this block", binary_ ? 28 : 8);
             if (data_.positions.size() / 3 + count > total)
-                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu",
-                                static_cast<unsigned long long>(total),
-                                static_cast<unsigned long long>(count), data_.positions.size() / 3));
+                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu", llu(total),
+                                llu(count), data_.positions.size() / 3));
             const std::size_t extra = parametric_ ? 8 * static_cast<std::size_t>(dimension) : 0;
             if (version_ == 40) {
                 for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(extra) : text_node();
@@ -285,12 +282,10 @@ private:
             in_.integer<std::int64_t>("an elementary region");
             const auto nodes = in_.integer<std::int64_t>("a number of nodes");
             if (nodes != type.nodes)
-                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name,
-                                static_cast<long long>(nodes)));
+                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name, lld(nodes)));
         } else {
             const auto tags = in_.integer<std::int64_t>("a number of tags");
-            if (tags < 0)
-                in_.fail(format("expected a number of tags, found %lld", static_cast<long long>(tags)));
+            if (tags < 0) in_.fail(format("expected a number of tags, found %lld", lld(tags)));
             for (std::int64_t i = 0; i < tags; ++i) in_.integer<std::int64_t>("a tag");
         }
         text_nodes(type);
@@ -302,7 +297,7 @@ private:
         if (!corners) return in_.skip_line();
         for (int i = 0; i < type.nodes; ++i) {
             const auto number = in_.integer<std::int64_t>("a node number");
-            if (i < wanted) corners->push_back(vertex_of(number));
+            if (i < wanted) corners->push_back(numbers_.vertex_of(number, in_));
         }
         in_.line_end();
     }
@@ -316,8 +311,8 @@ private:
         const auto tags = in_.binary<std::int32_t>(swap_, "a number of tags");
         if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0) {
             in_.seek(start);
-            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags",
-                            static_cast<unsigned long long>(most), count, tags));
+            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags", llu(most),
+                            count, tags));
         }
         const std::size_t before = 4 * (1 + static_cast<std::size_t>(tags));
         binary_block<std::int32_t>(type, static_cast<std::uint64_t>(count), before);
@@ -329,8 +324,8 @@ private:
     void binary_block(const ElementType& type, std::uint64_t count, std::size_t before) {
         const std::size_t size = before + type.nodes * sizeof(Integer);
         if (count > in_.remaining() / size)
-            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow",
-                            static_cast<unsigned long long>(count), size, in_.remaining()));
+            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow", llu(count),
+                            size, in_.remaining()));
         std::vector<std::uint32_t>* const corners = corners_of(type, count);
         if (!corners) {
             in_.take(count * size, "elements");
@@ -340,8 +335,8 @@ private:
         for (std::uint64_t e = 0; e < count; ++e) {
             const char* const nodes = in_.take(size, "an element") + before;
             for (std::size_t i = 0; i < wanted; ++i)
-                corners->push_back(
-                    vertex_of(static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_))));
+                corners->push_back(numbers_.vertex_of(
+                    static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_)), in_));
         }
     }
 
@@ -364,10 +359,8 @@ private:
             }
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
-                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu",
-                                static_cast<unsigned long long>(total),
-                                static_cast<unsigned long long>(count),
-                                static_cast<unsigned long long>(done)));
+                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu", llu(total),
+                                llu(count), llu(done)));
             done += count;
             if (type->cell == Cell::tet || type->cell == Cell::high_tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
@@ -423,16 +416,14 @@ private:
     [[noreturn]] void wrong_total(const char* what, std::size_t start, std::uint64_t total,
                                   std::uint64_t found) {
         in_.seek(start);
-        in_.fail(format("%llu %s are declared, but the blocks hold %llu",
-                        static_cast<unsigned long long>(total), what,
-                        static_cast<unsigned long long>(found)));
+        in_.fail(format("%llu %s are declared, but the blocks hold %llu", llu(total), what, llu(found)));
     }
 
     const ElementType& checked_type(std::int64_t number) {
         const ElementType& type = element_type(number);
         if (type.nodes == 0)
             in_.fail(format("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
-                            static_cast<long long>(number)));
+                            lld(number)));
         return type;
     }
 
@@ -443,15 +434,6 @@ private:
         if (type.cell == Cell::triangle) return &data_.triangles;
         skipped_.add(type.cell, type.name, count);
         return nullptr;
-    }
-
-    std::uint32_t vertex_of(std::int64_t number) {
-        const std::uint32_t vertex = numbers_.find(number);
-        if (vertex == NodeNumbers::none)
-            in_.fail(format("expected the number of a node, found %lld, which none of the %llu nodes has",
-                            static_cast<long long>(number),
-                            static_cast<unsigned long long>(numbers_.count())));
-        return vertex;
     }
 
     const File& file_;

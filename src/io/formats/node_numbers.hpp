@@ -1,6 +1,8 @@
 // Maps the node numbers of a file to vertex indices. Consecutive numbers, the usual case, need no memory.
 #pragma once
 
+#include "io/formats/scan.hpp"
+
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -9,7 +11,8 @@ namespace vox::io {
 
 class NodeNumbers {
 public:
-    static constexpr std::uint32_t none = 0xffffffffu;
+    // Error texts call the vertices `one` or `many`, as the format does.
+    explicit NodeNumbers(const char* one = "node", const char* many = "nodes") : one_(one), many_(many) {}
 
     // Adds the number of the next vertex, in file order.
     void add(std::int64_t number) {
@@ -25,25 +28,31 @@ public:
         ++count_;
     }
 
-    // Must be called after the last add and before the first find. Returns false if two vertices have the
-    // same number, `out_twice`.
-    bool finish(std::int64_t& out_twice);
+    // Must be called after the last add and before the first vertex_of. `in` fails if two vertices have the
+    // same number.
+    void finish(const Scanner& in);
 
-    // Returns the index of the vertex with that number, or `none`.
-    std::uint32_t find(std::int64_t number) const noexcept {
-        if (!numbers_.empty()) return find_slow(number);
-        return distance(number) < count_ ? static_cast<std::uint32_t>(distance(number)) : none;
+    // Returns the index of the vertex with that number. `in` fails if there is none.
+    std::uint32_t vertex_of(std::int64_t number, const Scanner& in) const {
+        if (numbers_.empty() && distance(number) < count_)
+            return static_cast<std::uint32_t>(distance(number));
+        const std::uint32_t vertex = find_slow(number);
+        if (vertex == none) fail(number, in);
+        return vertex;
     }
 
-    std::uint64_t count() const noexcept { return count_; }
-
 private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
     // number - first_, or a huge value if number < first_.
     std::uint64_t distance(std::int64_t number) const noexcept {
         return static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(first_);
     }
     std::uint32_t find_slow(std::int64_t number) const noexcept;
+    [[noreturn]] void fail(std::int64_t number, const Scanner& in) const;
 
+    const char* one_;
+    const char* many_;
     std::int64_t first_ = 0; // of the numbers added; after finish, the smallest
     std::uint64_t count_ = 0;
     std::vector<std::int64_t> numbers_; // empty while all numbers are consecutive

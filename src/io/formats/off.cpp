@@ -64,8 +64,7 @@ MeshData read_off(const File& file) {
             const auto vertex = in.integer<std::uint64_t>("a vertex number");
             if (vertex >= vertices)
                 in.fail(format("expected a vertex number from 0 to %llu, found %llu",
-                               static_cast<unsigned long long>(std::max<std::uint64_t>(vertices, 1) - 1),
-                               static_cast<unsigned long long>(vertex)));
+                               llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex)));
             const auto corner = static_cast<std::uint32_t>(vertex);
             if (i == 0) first = corner;
             if (i >= 2) data.triangles.insert(data.triangles.end(), {first, last, corner}); // a fan

@@ -34,7 +34,7 @@ vox_io_format format_of_extension(const std::string& extension);
 std::string extension_of(std::string_view name);
 
 // Throws if the file is recognised as something other than a mesh (empty, UTF-16, compressed, a web page).
-void refuse_strangers(const File& file);
+void refuse_other_content(const File& file);
 
 // ---- shared by the readers ----
 
@@ -51,7 +51,7 @@ enum class Cell : std::uint8_t {
 class Skipped {
 public:
     void add(Cell cell, const char* name, std::uint64_t number);
-    void tell(MeshData& data) const;
+    void report(MeshData& data) const;
 
 private:
     struct Kind {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -49,7 +49,7 @@ public:
                            in_.seek(cells_at_);
                            in_.fail(format("cell %zu: %s", cell, text.c_str()));
                        });
-        skipped.tell(data_);
+        skipped.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
     }
@@ -147,9 +147,8 @@ private:
             const VtkNumber point_type = number_type("a number type (vtktypeint64 ...)");
             read_numbers(point_type, second, connectivity_, "points of cells");
             if (!ends_.empty() && ends_.back() != second)
-                in_.fail(format("expected offsets that end with %llu, found %llu",
-                                static_cast<unsigned long long>(second),
-                                static_cast<unsigned long long>(ends_.back())));
+                in_.fail(format("expected offsets that end with %llu, found %llu", llu(second),
+                                llu(ends_.back())));
             return;
         }
         // Earlier versions have `first` cells, each as its number of points and the points, `second` numbers
@@ -163,9 +162,8 @@ private:
             const std::uint64_t points = from < second ? list[from] : 0;
             if (from >= second || points > second - from - 1) {
                 in_.seek(start);
-                in_.fail(format("expected %llu cells in %llu numbers, found only %llu",
-                                static_cast<unsigned long long>(first),
-                                static_cast<unsigned long long>(second), static_cast<unsigned long long>(c)));
+                in_.fail(format("expected %llu cells in %llu numbers, found only %llu", llu(first),
+                                llu(second), llu(c)));
             }
             for (std::uint64_t i = 0; i < points; ++i) list[to++] = list[from + 1 + i]; // drop the counts
             from += 1 + points;
@@ -173,9 +171,8 @@ private:
         }
         if (from != second) {
             in_.seek(start);
-            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu",
-                            static_cast<unsigned long long>(first), static_cast<unsigned long long>(second),
-                            static_cast<unsigned long long>(from)));
+            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu", llu(first),
+                            llu(second), llu(from)));
         }
         list.resize(to);
     }

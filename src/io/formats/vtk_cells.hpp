@@ -25,9 +25,8 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
     for (std::size_t c = 0; c < types.size(); ++c) {
         const std::uint64_t start = c == 0 ? 0 : ends[c - 1];
         if (ends[c] < start || ends[c] > connectivity.size())
-            fail(c,
-                 format("expected offsets that ascend up to %zu, found %llu after %llu", connectivity.size(),
-                        static_cast<unsigned long long>(ends[c]), static_cast<unsigned long long>(start)));
+            fail(c, format("expected offsets that ascend up to %zu, found %llu after %llu",
+                           connectivity.size(), llu(ends[c]), llu(start)));
         const VtkCellType type = vtk_cell_type(types[c]);
         const std::uint64_t points = ends[c] - start;
         if (type.cell == Cell::volume || type.cell == Cell::other) {
@@ -36,9 +35,8 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
         }
         const std::uint64_t corners = type.cell == Cell::triangle ? 3 : 4;
         if (points < type.least_points || (points > type.least_points && type.least_points == corners))
-            fail(c, format("expected %llu points (%s), found %llu",
-                           static_cast<unsigned long long>(type.least_points), type.name,
-                           static_cast<unsigned long long>(points)));
+            fail(c, format("expected %llu points (%s), found %llu", llu(type.least_points), type.name,
+                           llu(points)));
         if (type.cell == Cell::high_tet) ++data.second_order_tets;
         std::vector<std::uint32_t>& out = type.cell == Cell::triangle ? data.triangles : data.tets;
         for (std::uint64_t i = 0; i < corners; ++i) {

@@ -1,6 +1,7 @@
 // Writes Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
 // dimension 2, all tets to entity 1 of dimension 3.
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/formats/writers.hpp"
 
 #include <algorithm>
@@ -97,8 +98,8 @@ void write_msh22(const MeshData& mesh, PointData point_data, bool binary, Output
     const Kind kinds[] = {{mesh.triangles, 3, 2, 2}, {mesh.tets, 4, 4, 3}};
     const std::uint64_t elements = kinds[0].count() + kinds[1].count();
     if (elements > std::numeric_limits<std::int32_t>::max())
-        throw Error(VOX_ERROR_LIMIT, format("%llu elements are more than .msh 2.2 can number",
-                                            static_cast<unsigned long long>(elements)));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("%llu elements are more than .msh 2.2 can number", llu(elements)));
     write_header("2.2", binary, out);
     out << "$Nodes\n" << vertices << '\n';
     for (std::uint64_t v = 0; v < vertices; ++v) {

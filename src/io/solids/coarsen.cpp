@@ -3,6 +3,8 @@
 // quarter pyramids between cells of different size. Their dihedral angles are at least 45 degrees.
 #include "io/solids/coarsen.hpp"
 
+#include "io/determinant.hpp"
+
 #include <utility>
 
 namespace vox::io {
@@ -27,9 +29,7 @@ std::int64_t orientation(const std::array<Node, 4>& t) {
     std::array<std::array<std::int64_t, 3>, 3> e{};
     for (std::size_t i = 0; i < 3; ++i)
         e[i] = {t[i + 1].x - t[0].x, t[i + 1].y - t[0].y, t[i + 1].z - t[0].z};
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    return determinant(e[0], e[1], e[2]);
 }
 
 } // namespace

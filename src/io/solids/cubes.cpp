@@ -3,6 +3,7 @@
 #include "io/solids/cubes.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/solids/five_tets.hpp"
 
 #include <algorithm>
@@ -92,8 +93,7 @@ void check_count(std::uint64_t cubes, std::uint64_t max_tets) {
     if (5 * cubes > max_tets)
         throw Error(VOX_ERROR_LIMIT,
                     format("%llu cubes make %llu tets, at most %llu are allowed: choose larger cells",
-                           static_cast<unsigned long long>(cubes), static_cast<unsigned long long>(5 * cubes),
-                           static_cast<unsigned long long>(max_tets)));
+                           llu(cubes), llu(5 * cubes), llu(max_tets)));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 // The result is the same on every platform, since it uses only + - * / and square roots, in a fixed order.
 #include "io/solids/lattice_ball.hpp"
 
+#include "io/determinant.hpp"
 #include "io/solids/five_tets.hpp"
 
 #include <algorithm>
@@ -85,9 +86,7 @@ double signed_volume(const double* a, const double* b, const double* c, const do
     const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const Point v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     const Point w = {d[0] - a[0], d[1] - a[1], d[2] - a[2]};
-    return (u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-            u[2] * (v[0] * w[1] - v[1] * w[0])) /
-           6;
+    return determinant(u, v, w) / 6;
 }
 
 // Moves all inner vertices at once to the mean of their neighbours, three times. An inner vertex has all of

@@ -1,5 +1,6 @@
 #include "io/solids/quality.hpp"
 
+#include "io/buckets.hpp"
 #include "io/solids/distance.hpp"
 
 #include <Eigen/Dense>
@@ -46,39 +47,23 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
 
 // The facets of exactly one tet, three vertices each.
 std::vector<std::uint32_t> boundary_facets(const vox_io_mesh_view& mesh) {
-    // Facets by their lowest vertex, then sorted among the few that share it.
-    std::vector<std::uint64_t> start(mesh.vertex_count + 1, 0);
-    const auto for_each_facet = [&](auto&& visit) {
+    using Others = std::pair<std::uint32_t, std::uint32_t>;
+    const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < mesh.tet_count; ++t)
             for (std::size_t left_out = 0; left_out < 4; ++left_out) {
                 std::array<std::uint32_t, 3> facet{};
                 for (std::size_t k = 0, n = 0; k < 4; ++k)
                     if (k != left_out) facet[n++] = mesh.tets[4 * t + k];
                 std::sort(facet.begin(), facet.end());
-                visit(facet);
+                put(facet[0], Others{facet[1], facet[2]});
             }
     };
-    for_each_facet([&](const auto& facet) { ++start[facet[0] + std::size_t{1}]; });
-    for (std::size_t v = 0; v < mesh.vertex_count; ++v) start[v + 1] += start[v];
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> others(4 * mesh.tet_count);
-    std::vector<std::uint64_t> next(start.begin(), start.end() - 1);
-    for_each_facet([&](const auto& facet) { others[next[facet[0]]++] = {facet[1], facet[2]}; });
     std::vector<std::uint32_t> boundary;
-    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
-        const auto begin = others.begin() + static_cast<std::ptrdiff_t>(start[v]);
-        const auto end = others.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
-        std::sort(begin, end);
-        for (auto at = begin; at != end;) {
-            auto after = at;
-            while (after != end && *after == *at) ++after;
-            if (after - at == 1) {
-                boundary.push_back(static_cast<std::uint32_t>(v));
-                boundary.push_back(at->first);
-                boundary.push_back(at->second);
-            }
-            at = after;
-        }
-    }
+    for_each_run<Others>(mesh.vertex_count, each,
+                         [&](std::uint32_t lowest, const Others& others, std::ptrdiff_t tets) {
+                             if (tets == 1)
+                                 boundary.insert(boundary.end(), {lowest, others.first, others.second});
+                         });
     return boundary;
 }
 

@@ -8,6 +8,8 @@
 // used here gives better angles.
 #include "io/solids/stencil.hpp"
 
+#include "io/determinant.hpp"
+
 #include <utility>
 
 namespace vox::io {
@@ -133,9 +135,7 @@ int six_volumes(const Tet& tet, bool first_above) {
         const Place b = place(tet[i + 1], first_above);
         for (unsigned k = 0; k < 3; ++k) e[i][k] = b[k] - a[k];
     }
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    return determinant(e[0], e[1], e[2]);
 }
 
 } // namespace

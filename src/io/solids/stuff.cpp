@@ -4,6 +4,7 @@
 #include "io/solids/stuff.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/solids/coarsen.hpp"
 #include "io/solids/stencil.hpp"
 
@@ -221,9 +222,8 @@ private:
 
     void add_tet(const std::array<std::uint32_t, 4>& tet) {
         if (mesh_.tets.size() / 4 >= max_tets_)
-            throw Error(VOX_ERROR_LIMIT,
-                        format("more than %llu tets (max_tets): choose larger cells than %g",
-                               static_cast<unsigned long long>(max_tets_), 2 * body_.frame.half_cell));
+            throw Error(VOX_ERROR_LIMIT, format("more than %llu tets (max_tets): choose larger cells than %g",
+                                                llu(max_tets_), 2 * body_.frame.half_cell));
         mesh_.tets.insert(mesh_.tets.end(), tet.begin(), tet.end());
     }
 
@@ -284,7 +284,7 @@ void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t co
             VOX_ERROR_LIMIT,
             format(
                 "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
-                inside.size(), static_cast<unsigned long long>(max_tets), 2 * frame.half_cell));
+                inside.size(), llu(max_tets), 2 * frame.half_cell));
 }
 
 MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {

@@ -8,10 +8,6 @@
 
 namespace vox::sim {
 
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
-
 // ---- shapes -----------------------------------------------------------------------------------------
 
 Point Bounds::centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2}; }

@@ -1,24 +1,15 @@
 // Places two bodies so that a given share of their tetrahedra is in contact.
 #pragma once
 
-#include <vox/vox.h>
+#include "sim/library.hpp"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace vox::sim {
 
 using Point = std::array<double, 3>;
-
-struct GridDeleter {
-    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
-};
-using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
-
-// Throws the failure of a call of the library.
-void check(vox_result result);
 
 // Positions (3 a vertex) and tets (4 corners each) of a body.
 struct Shape {

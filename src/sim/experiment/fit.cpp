@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace vox::sim {
@@ -63,18 +64,18 @@ double power_series(const double (&coefficients)[max_fit_degree + 1], std::size_
     return sum;
 }
 
-double cell_size_at(const TimeFit& fit, double u) {
+double cell_size_at(const vox_time_fit& fit, double u) {
     if (u == -1) return fit.range_min;
     if (u == 1) return fit.range_max;
     return fit.range_min * std::pow(fit.range_max / fit.range_min, (u + 1) / 2);
 }
 
-double place_of(const TimeFit& fit, double cell_size) {
+double place_of(const vox_time_fit& fit, double cell_size) {
     return 2 * std::log(cell_size / fit.range_min) / std::log(fit.range_max / fit.range_min) - 1;
 }
 
 // The fit of least leave-one-out error; sets degree, coefficients, r_squared and prediction_error.
-void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFit& fit) {
+void fit_polynomial(std::span<const double> u, std::span<const double> y, vox_time_fit& fit) {
     const std::size_t count = u.size();
     Basis last, before;
     last.values.assign(count, 1);
@@ -105,7 +106,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
         // A straight line has no minimum inside the range.
         if (degree >= 2 && (least < 0 || squares < least)) {
             least = squares;
-            fit.degree = degree;
+            fit.degree = static_cast<std::uint32_t>(degree);
             std::copy(std::begin(series), std::end(series), fit.coefficients);
             fit.r_squared = spread > 0 ? 1 - left / spread : 1;
             fit.prediction_error = std::sqrt(squares / double(count));
@@ -118,7 +119,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
 }
 
 // Where the least value over [-1, 1] is, by a scan and then a golden-section search around its best point.
-double minimiser(const TimeFit& fit) {
+double minimiser(const vox_time_fit& fit) {
     const auto value = [&](double u) { return power_series(fit.coefficients, fit.degree, u); };
     constexpr int steps = 1024;
     const auto scan = [](int i) { return double(2 * i - steps) / steps; };
@@ -141,7 +142,7 @@ double minimiser(const TimeFit& fit) {
 }
 
 // Where the fitted logarithm first exceeds `limit` on the way from `inside`, where it does not, to `end`.
-double crossing(const TimeFit& fit, double limit, double inside, double end) {
+double crossing(const vox_time_fit& fit, double limit, double inside, double end) {
     const auto over = [&](double u) { return power_series(fit.coefficients, fit.degree, u) > limit; };
     constexpr int steps = 1024;
     const double start = inside;
@@ -160,12 +161,12 @@ double crossing(const TimeFit& fit, double limit, double inside, double end) {
 
 } // namespace
 
-double TimeFit::at(double size) const {
-    return std::exp(power_series(coefficients, degree, place_of(*this, size)));
+double fitted_time(const vox_time_fit& fit, double cell_size) {
+    return std::exp(power_series(fit.coefficients, fit.degree, place_of(fit, cell_size)));
 }
 
-TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
-    TimeFit fit;
+vox_time_fit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
+    vox_time_fit fit{};
     const auto [smallest, largest] = std::minmax_element(cell_sizes.begin(), cell_sizes.end());
     fit.range_min = *smallest;
     fit.range_max = *largest;
@@ -176,11 +177,11 @@ TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> ti
     const double best = minimiser(fit);
     fit.cell_size = cell_size_at(fit, best);
     fit.time = std::exp(power_series(fit.coefficients, fit.degree, best));
-    fit.bracketed = best > -1 && best < 1;
+    fit.bracketed = best > -1 && best < 1 ? 1 : 0;
     return fit;
 }
 
-FitZone fit_zone(const TimeFit& fit, double limit) {
+FitZone fit_zone(const vox_time_fit& fit, double limit) {
     const double best = std::clamp(place_of(fit, fit.cell_size), -1.0, 1.0);
     const double log_limit = std::max(std::log(limit), power_series(fit.coefficients, fit.degree, best));
     return {std::min(cell_size_at(fit, crossing(fit, log_limit, best, -1)), fit.cell_size),
