@@ -11,8 +11,8 @@ namespace tool {
 
 namespace {
 
-// Rounds to nearest. A double beyond float's range must not be converted; whatever rounds to a finite float
-// lies below this bound, the middle between the largest float and the power of two after it.
+// A double beyond the range of float must not be converted. Everything that rounds to a finite float is below
+// this bound, which is midway between the largest float and the next power of two.
 constexpr double float_range = 0x1.ffffffp127;
 
 void place(Body& body, const Placement& placement) {
@@ -32,6 +32,12 @@ void place(Body& body, const Placement& placement) {
 
 } // namespace
 
+Mesh load_mesh(const std::string& path) {
+    vox_io_mesh* mesh = nullptr;
+    check(vox_io_load(path.c_str(), nullptr, &mesh));
+    return Mesh(mesh);
+}
+
 Body own_body(const std::string& name, vox_io_mesh* mesh) {
     Body body;
     body.name = name;
@@ -44,16 +50,14 @@ Body own_body(const std::string& name, vox_io_mesh* mesh) {
 Body load_body(const std::string& path, const Placement& placement, const Fill& fill) {
     Body body;
     body.name = path;
-    vox_io_mesh* mesh = nullptr;
-    check(vox_io_load(path.c_str(), nullptr, &mesh));
-    body.mesh.reset(mesh);
-    check(vox_io_mesh_get(mesh, &body.view));
+    body.mesh = load_mesh(path);
+    check(vox_io_mesh_get(body.mesh.get(), &body.view));
     if (fill.surfaces && body.view.tet_count == 0) {
         vox_io_tetrahedralize_desc desc;
         check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
         desc.cell = fill.cell;
         vox_io_mesh* filled = nullptr;
-        const vox_result result = vox_io_tetrahedralize(mesh, &desc, &filled);
+        const vox_result result = vox_io_tetrahedralize(body.mesh.get(), &desc, &filled);
         if (result != VOX_OK) check(vox_fail(result, (path + ": " + vox_last_error()).c_str()));
         body.mesh.reset(filled);
         check(vox_io_mesh_get(filled, &body.view));

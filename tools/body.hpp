@@ -1,4 +1,4 @@
-// A mesh file as the commands use it: the file's arrays in double, and positions in float for the grid.
+// A mesh file in the form the commands use: the file's arrays in double, and positions in float for the grid.
 #pragma once
 
 #include <vox/vox_io.h>
@@ -15,15 +15,17 @@ struct MeshDeleter {
     void operator()(vox_io_mesh* mesh) const noexcept { vox_io_mesh_destroy(mesh); }
 };
 
+using Mesh = std::unique_ptr<vox_io_mesh, MeshDeleter>;
+
 struct Body {
-    std::string name; // the path given, or what a made body is called
-    std::unique_ptr<vox_io_mesh, MeshDeleter> mesh;
+    std::string name; // the path of the file, or the name of a body made by the tool
+    Mesh mesh;
     vox_io_mesh_view view{};      // arrays of `mesh`
     std::vector<float> positions; // 3 * view.vertex_count
-    std::vector<double> exact;    // the same before they were rounded, to be used instead; or empty
+    std::vector<double> exact;    // if not empty, the positions before rounding, which are used instead
 };
 
-// Where a body stands: each coordinate is read as double, scaled, then offset, and rounded once to float
+// The placement of a body. Each coordinate is read as double, scaled, then offset, and rounded once to float
 // unless doubles are kept.
 struct Placement {
     double scale = 1;
@@ -31,16 +33,19 @@ struct Placement {
     bool keep_doubles = false;
 };
 
-// What becomes of a surface: its vertices alone take part, or the tetrahedra it is filled with (lattice cells
-// of edge `cell`; 0: the library's default) take its place.
+// How a surface is treated. Either only its vertices take part, or it is filled with tetrahedra (lattice
+// cells of edge `cell`; 0: the library's default).
 struct Fill {
     bool surfaces = false;
     double cell = 0;
 };
 
-// Throws Failure in the reader's words, or when a placed coordinate is beyond the range of float.
+// Reads a mesh file. Throws Failure with the reader's error text.
+Mesh load_mesh(const std::string& path);
+
+// Throws Failure with the reader's error text, or if a placed coordinate is beyond the range of float.
 Body load_body(const std::string& path, const Placement& placement = {}, const Fill& fill = {});
-// Takes over a mesh that was made rather than read.
+// Makes a body of a mesh that was not read from a file, and takes ownership of the mesh.
 Body own_body(const std::string& name, vox_io_mesh* mesh);
 
 // Describes the body to the library; the positions are borrowed from it.

@@ -1,4 +1,4 @@
-// vox collide: the contacts between two mesh files, or within one.
+// vox collide: finds the contacts between two mesh files, or within one.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -70,12 +70,10 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
                     static_cast<double>(weight[2]), static_cast<double>(weight[3]));
     }
     if (shown < view.count)
-        std::printf("  and %llu more (--limit N prints N of them, --json all)\n",
+        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
                     static_cast<unsigned long long>(view.count - shown));
     print_penetrations(options, grid, ids);
-    double cell_size = 0;
-    check(vox_grid_cell_size(grid, &cell_size));
-    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size);
+    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf(
         "step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f, depth %.3f (%s)\n",
         milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
@@ -86,7 +84,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
 
 void run(const Options& options) {
     if (options.b.empty() && !options.self)
-        wrong_usage("collide needs a second mesh, or --self for the self-collision of the first");
+        wrong_usage("collide needs a second mesh, or --self for self-collision of the first");
     std::vector<Body> bodies;
     bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
     if (!options.b.empty()) {
@@ -109,29 +107,28 @@ void run(const Options& options) {
 
 void add_collide(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("collide", "Contacts between two meshes, or within one");
+    CLI::App* command = app.add_subcommand("collide", "Find the contacts between two meshes, or within one");
     command->add_option("A", options->a, "Mesh file")->required();
     CLI::Option* b = command->add_option("B", options->b, "Second mesh file");
-    command->add_flag("--self", options->self, "Also the contacts of a mesh with itself");
+    command->add_flag("--self", options->self, "Also find the contacts of a mesh with itself");
     add_fill(*command, options->fill);
-    command->add_option("--scale", options->scale, "Scales B, before the offset")->check(finite())->needs(b);
-    command->add_option("--offset", options->offset, "Moves B by X Y Z, after the scale")
+    command->add_option("--scale", options->scale, "Scale B by this factor")->check(finite())->needs(b);
+    command->add_option("--offset", options->offset, "Move B by X Y Z after scaling it")
         ->expected(3)
         ->type_name("FLOAT")
         ->check(finite())
         ->needs(b);
-    command->add_flag("--double", options->keep_doubles, "Positions in double, not rounded to float");
+    command->add_flag("--double", options->keep_doubles,
+                      "Keep positions in double instead of rounding to float");
     add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");
     command->add_option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
         ->check(not_negative());
-    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
-    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
-    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
-        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
-    command->add_option("--repeat", options->repeat, "Steps to time, after one to warm up")
+    add_cells(*command, options->grid);
+    add_threads(*command, options->grid);
+    command->add_option("--repeat", options->repeat, "Number of steps to time, after one to warm up")
         ->check(CLI::Range(1u, 1000000u));
-    command->add_option("--limit", options->limit, "Contacts to print as text");
-    command->add_option("--save", options->save, "Snapshot of the grid to write, for vox replay")
+    command->add_option("--limit", options->limit, "Most contacts to print as text");
+    command->add_option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         ->type_name("FILE");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

@@ -1,4 +1,5 @@
-// The commands of vox: each adds itself to the command line and runs when it is the one named there.
+// The commands of vox. Each function adds one to the command line, whose parser runs the one that is named
+// there.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -10,9 +10,9 @@ namespace tool {
 
 namespace {
 
-// In units of the picture.
+// The size and margins of the picture, in its own units.
 constexpr double width = 800, height = 440, left = 60, right = 24, above = 24, below = 56;
-// Costs are drawn from 0 to so many times the minimum.
+// Costs are drawn from 0 to this many times the minimum.
 constexpr double top = 4;
 
 #if defined(__GNUC__)
@@ -51,7 +51,7 @@ private:
     double first_, last_, least_;
 };
 
-// 1, 2, 5, 10, ... that lie on the axis.
+// The numbers 1, 2, 5, 10, ... within the range of the axis.
 std::vector<double> round_sizes(const vox_suggestion& s) {
     std::vector<double> sizes;
     const double from = s.curve[0].cell_size, to = s.curve[s.curve_count - 1].cell_size;
@@ -107,7 +107,7 @@ std::string curve_svg(const vox_suggestion& s) {
         {"resolution", s.rules.resolution, s.rule_costs.resolution},
         {"mean volume", s.rules.mean_volume, s.rule_costs.mean_volume},
         {"median box side", s.rules.median_box_side, s.rule_costs.median_box_side}};
-    double label = above + 16; // one below the other, so that they never cover each other
+    double label = above + 16; // labels are placed one below the other, so that they never overlap
     for (const Rule& rule : rules) {
         if (!axes.shows(rule.cell_size)) continue;
         const double x = axes.x(rule.cell_size), y = axes.y(rule.cost);

@@ -1,4 +1,4 @@
-// A suggestion as a picture: the predicted cost over the cell size, the zone, and what other rules choose.
+// Draws a suggestion: the predicted cost over the cell size, the zone, and the sizes that other rules choose.
 #pragma once
 
 #include <vox/vox.h>

@@ -1,5 +1,5 @@
-// vox demo: two soft balls wobble through each other. Shows the contacts of every frame, and what the cell
-// size is worth.
+// vox demo: two soft balls wobble through each other. Shows the contacts of every frame, and how much time
+// the right cell size saves.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -24,11 +24,11 @@ struct Options {
     bool json = false;
 };
 
-constexpr std::size_t rounds = 5; // steps a frame of each contender: their median is the frame's time
+constexpr std::size_t rounds = 5; // steps of each contender in a frame, whose median is the frame's time
 
-// Where a point of the ball at rest is at `time` in [0, 1]. The ball (side -1 or 1) crosses the scene along x
-// and spins about z, while a wave squashes it along x at constant volume and twists it about x. At time 0 it
-// has its shape at rest.
+// The position at `time` in [0, 1] of a point of the ball at rest. The ball (side -1 or 1) crosses the scene
+// along x and spins about z, while a wave squashes it along x at constant volume and twists it about x. At
+// time 0 it has its shape at rest.
 std::array<double, 3> moved(const double* rest, double side, double time) {
     constexpr double pi = std::numbers::pi;
     const double squash = 1 - 0.3 * std::sin(3 * pi * time), swell = 1 / std::sqrt(squash);
@@ -65,14 +65,14 @@ vox_suggestion suggest_for(const std::vector<Body>& bodies) {
     return suggestion;
 }
 
-// An engine under a rule for the cell size: a grid of its own over the same positions.
+// An engine with a rule for the cell size, which has its own grid over the same positions.
 struct Contender {
     const char* engine;
     const char* rule;
     double cell_size;
     Grid grid;
     std::vector<vox_mesh> ids;
-    std::vector<vox_profile> frames; // the median of each frame's steps
+    std::vector<vox_profile> frames; // median of each frame's steps
 };
 
 Contender make_contender(const std::vector<Body>& balls, vox_engine engine, const char* rule,
@@ -86,7 +86,7 @@ Contender make_contender(const std::vector<Body>& balls, vox_engine engine, cons
     return contender;
 }
 
-// Steps the two rules of one engine in turn, so that whatever else the machine does meets them alike.
+// Steps the two rules of one engine in turn, so that disturbances of the machine affect both equally.
 void measure_frame(std::span<Contender> rules) {
     std::vector<std::vector<vox_profile>> profiles(rules.size());
     for (std::size_t round = 0; round < rounds; ++round)
@@ -101,7 +101,8 @@ void measure_frame(std::span<Contender> rules) {
 void require_same_contacts(const std::vector<Contender>& contenders) {
     for (const Contender& contender : contenders)
         if (hash_of(contender.grid.get()) != hash_of(contenders.front().grid.get()))
-            throw Failure("contacts depend on engine or cell size: a defect of vox, please report it");
+            throw Failure(
+                "contacts depend on engine or cell size, which is a defect of vox; please report it");
 }
 
 double mean_step_ns(const Contender& contender) {
@@ -144,7 +145,7 @@ void print_comparison(const Contender& fast, const Contender& fast_mean_edge, co
     std::printf("\nThe suggestion is the minimum of the paper's cost model. With the mean edge, the paper's\n"
                 "algorithm takes %s time, the fast engine %s. In every frame all four found\n"
                 "the same contacts: they are exact, and depend on neither engine nor cell size.\n"
-                "\nWith files of your own:  vox suggest MESH...   vox collide A B   vox --help\n",
+                "\nWith your own files:  vox suggest MESH...   vox collide A B   vox --help\n",
                 lost(reference_mean_edge, reference).c_str(), lost(fast_mean_edge, fast).c_str());
 }
 
@@ -196,7 +197,7 @@ void run(const Options& options) {
                                       {"cell_size", number(contender.cell_size)},
                                       {"step_ns", std::llround(mean_step_ns(contender))}});
     add_suggestion(json, suggestion);
-    // The keys of collide speak of the frame with the most contacts.
+    // The keys shared with collide describe the frame with the most contacts.
     const auto busiest =
         static_cast<std::uint32_t>(std::max_element(contacts.begin(), contacts.end()) - contacts.begin());
     json["frame"] = busiest;
@@ -211,9 +212,9 @@ void run(const Options& options) {
 void add_demo(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("demo", "Two deforming bodies collide; needs no file");
-    command->add_option("--tets", options->tets, "Tetrahedra of each body, about")
+    command->add_option("--tets", options->tets, "Approximate number of tetrahedra of each body")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
-    command->add_option("--frames", options->frames, "Frames of the motion")->check(CLI::Range(1u, 1000000u));
+    command->add_option("--frames", options->frames, "Number of frames")->check(CLI::Range(1u, 1000000u));
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
 }

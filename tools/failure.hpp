@@ -1,5 +1,5 @@
-// How a command fails. Bad input ends in exit code 1 with the library's own words; wrong usage ends in exit
-// code 2 and travels as one of CLI11's parse errors.
+// How a command fails. Bad input gives exit code 1 with the library's error text. Wrong usage gives exit code
+// 2 and is thrown as one of CLI11's parse errors.
 #pragma once
 
 #include <vox/vox.h>

@@ -1,4 +1,4 @@
-// vox info: what is in a mesh file.
+// vox info: shows what is in a mesh file.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -27,9 +27,7 @@ struct Info {
 Info read_info(const std::string& file) {
     Info info;
     info.file = file;
-    vox_io_mesh* loaded = nullptr;
-    check(vox_io_load(file.c_str(), nullptr, &loaded));
-    const std::unique_ptr<vox_io_mesh, MeshDeleter> mesh(loaded);
+    const Mesh mesh = load_mesh(file);
     vox_io_mesh_view view{};
     check(vox_io_mesh_get(mesh.get(), &view));
     info.shape = measure_shape(view);
@@ -109,7 +107,7 @@ void run(const Options& options) {
 
 void add_info(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "What is in a mesh file");
+    CLI::App* command = app.add_subcommand("info", "Show what is in a mesh file");
     command->add_option("MESH", options->files, "Mesh files")->required();
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

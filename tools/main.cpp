@@ -1,4 +1,4 @@
-// vox: the command line. Exit codes: 0 success, 1 bad input, 2 wrong usage.
+// The command line tool vox. Its exit codes are 0 for success, 1 for bad input and 2 for wrong usage.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "report.hpp"
@@ -13,7 +13,7 @@
 namespace {
 
 int fail(const char* words) {
-    std::fflush(stdout); // what came before the failure stays before it
+    std::fflush(stdout); // keeps earlier output before the error text
     std::fprintf(stderr, "vox: %s\n", words);
     return 1;
 }
@@ -25,7 +25,8 @@ int wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
     return 2;
 }
 
-// The arguments as CLI11 wants them: last first, and -.5 as -0.5, since it takes the former for an option.
+// The arguments as CLI11 needs them: in reverse order, and with -.5 as -0.5, because it takes -.5 for an
+// option.
 std::vector<std::string> arguments_of(int argc, char** argv) {
     std::vector<std::string> arguments(std::make_reverse_iterator(argv + argc),
                                        std::make_reverse_iterator(argv + std::min(argc, 1)));
@@ -48,7 +49,7 @@ int run(int argc, char** argv) {
     tool::add_sweep(app);
     tool::add_tetrahedralize(app);
     try {
-        app.parse(arguments_of(argc, argv)); // runs the command, too
+        app.parse(arguments_of(argc, argv)); // also runs the command
         tool::finish_output();
         return 0;
     } catch (const CLI::Success& request) { // --help, --version

@@ -1,4 +1,5 @@
-// Kinds of option values that CLI11 has no check for. All refuse with exit code 2.
+// Checks of option values that CLI11 does not have, and options shared by commands. A bad value gives exit
+// code 2.
 #pragma once
 
 #include "body.hpp"
@@ -15,7 +16,7 @@
 
 namespace tool {
 
-// Names a user may give and what they stand for; the first is the default.
+// The names a user may give, with their values; the first is the default.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
@@ -44,7 +45,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& flag, Value& value, co
     return app.add_option_function<std::string>(flag, choose, description)->type_name(names);
 }
 
-// Finite numbers in an open or half-open range; `words` says which, e.g. "a number above 0".
+// Accepts finite numbers for which `accept` is true; `words` describes them, e.g. "a number above 0".
 template <class Accept>
 CLI::Validator number_check(Accept accept, const std::string& words) {
     return CLI::Validator(
@@ -65,14 +66,28 @@ inline CLI::Validator positive() {
     return number_check([](double value) { return value > 0; }, "a number above 0");
 }
 inline CLI::Validator not_negative() {
-    return number_check([](double value) { return value >= 0; }, "0 or a number above");
+    return number_check([](double value) { return value >= 0; }, "a number of at least 0");
+}
+inline CLI::Validator fraction() {
+    return number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1");
 }
 
-// The options of commands that take surfaces where tetrahedra are needed.
+inline void add_threads(CLI::App& app, vox_grid_desc& grid) {
+    app.add_option("--threads", grid.worker_count, "Threads of a step; 0: one per core")
+        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+}
+
+// How the reference engine stores cells.
+inline void add_cells(CLI::App& app, vox_grid_desc& grid) {
+    add_choice(app, "--storage", grid.storage, storages, "How cells are stored");
+    add_choice(app, "--hash", grid.hash, hashes, "Hash of a cell, for hashed storage");
+}
+
+// Adds the options of commands that need tetrahedra but may get surfaces.
 inline void add_fill(CLI::App& app, Fill& fill) {
     CLI::Option* flag = app.add_flag("--fill", fill.surfaces, "Fill surfaces with tetrahedra first");
     app.add_option("--fill-cell", fill.cell,
-                   "Edge of a lattice cell for it; 0: a fiftieth of the longest side")
+                   "Edge of a lattice cell for --fill; 0: a fiftieth of the longest side")
         ->check(not_negative())
         ->needs(flag);
 }

@@ -1,4 +1,4 @@
-// vox replay: steps the grid of a snapshot, for bug reports.
+// vox replay: runs steps of the grid in a snapshot, for bug reports.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
@@ -25,13 +25,6 @@ std::uint64_t epoch_of(const vox_grid* grid) {
     return epoch;
 }
 
-vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    check(vox_grid_counters(grid, &counters));
-    return counters;
-}
-
 void run(const Options& options) {
     const Grid grid = load_snapshot(options.file, options.grid);
     const std::uint64_t epoch = epoch_of(grid.get());
@@ -48,12 +41,11 @@ void run(const Options& options) {
     std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", options.file.c_str(),
                 counters.meshes, static_cast<unsigned long long>(counters.vertices),
                 static_cast<unsigned long long>(counters.tets), static_cast<unsigned long long>(epoch));
-    double cell_size = 0;
-    check(vox_grid_cell_size(grid.get(), &cell_size));
+
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
                 static_cast<unsigned long long>(counters.contacts),
-                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid.get()).c_str(), cell_size,
-                options.steps, options.steps == 1 ? "step" : "steps",
+                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid.get()).c_str(),
+                cell_size_of(grid.get()), options.steps, options.steps == 1 ? "step" : "steps",
                 static_cast<double>(profile.step_ns) * 1e-6);
 }
 
@@ -61,12 +53,11 @@ void run(const Options& options) {
 
 void add_replay(CLI::App& app) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("replay", "Steps the grid of a snapshot");
-    command->add_option("FILE", options->file, "Snapshot, as collide --save writes it")->required();
-    command->add_option("--steps", options->steps, "Steps to take")->check(CLI::Range(1u, 1000000u));
-    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: the snapshot's");
-    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
-        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    CLI::App* command = app.add_subcommand("replay", "Run steps of the grid in a snapshot");
+    command->add_option("FILE", options->file, "Snapshot written by collide --save")->required();
+    command->add_option("--steps", options->steps, "Number of steps to run")->check(CLI::Range(1u, 1000000u));
+    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
+    add_threads(*command, options->grid);
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });
 }

@@ -26,7 +26,7 @@ const char* model_name(vox_cost_model model) {
     return "unknown";
 }
 
-// A rule that does not apply has cell size 0 in the library.
+// The library gives cell size 0 for a rule that does not apply.
 Json rule(double cell_size) { return cell_size > 0 ? number(cell_size) : Json(nullptr); }
 
 Json rules(const vox_cell_size_rules& rules) {
@@ -53,10 +53,7 @@ Json stats(const vox_geometry_stats& stats) {
             {"bounds", bounds(stats.bounds_min, stats.bounds_max)}};
 }
 
-Json counters(const vox_grid* grid) {
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    check(vox_grid_counters(grid, &counters));
+Json counters_json(const vox_counters& counters) {
     return {{"meshes", counters.meshes},
             {"vertices", counters.vertices},
             {"tets", counters.tets},
@@ -178,13 +175,11 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
 
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
     json["hash"] = hash_of(grid);
-    double cell_size = 0;
-    check(vox_grid_cell_size(grid, &cell_size));
-    json["cell_size"] = number(cell_size);
+    json["cell_size"] = number(cell_size_of(grid));
     json["profile"] = {{"step_ns", profile.step_ns},         {"bin_ns", profile.bin_ns},
                        {"broad_ns", profile.broad_ns},       {"narrow_ns", profile.narrow_ns},
                        {"contacts_ns", profile.contacts_ns}, {"depth_ns", profile.depth_ns}};
-    json["counters"] = counters(grid);
+    json["counters"] = counters_json(counters_of(grid));
 }
 
 Json body_list(const std::vector<Body>& bodies) {
@@ -202,8 +197,12 @@ std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh) {
 std::string hash_of(const vox_grid* grid) {
     std::uint64_t hash = 0;
     check(vox_grid_hash(grid, &hash));
+    return hexadecimal(hash);
+}
+
+std::string hexadecimal(std::uint64_t value) {
     char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
     return text;
 }
 

@@ -1,4 +1,4 @@
-// What the commands say in JSON. A number that does not exist, or that is infinite, is null.
+// The JSON output of the commands. A number that does not exist or is not finite is null.
 #pragma once
 
 #include "body.hpp"
@@ -23,28 +23,30 @@ Json bounds(const double (&min)[3], const double (&max)[3]);
 // Adds the keys of `vox suggest`.
 void add_suggestion(Json& json, const vox_suggestion& suggestion);
 
-// Adds the keys of `vox collide`, of a grid that has stepped. In contacts, a mesh is its place in `ids`.
+// Adds the keys of `vox collide` for a grid that has run a step. In contacts, a mesh is given by its index in
+// `ids`.
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
-// surface, propagated, enclosed, crossing or coincident.
+// Returns "surface", "propagated", "enclosed", "crossing" or "coincident".
 const char* state_name(vox_penetration_state state);
 
-// Adds what a step gives besides its contacts: hash, cell_size, profile, counters.
+// Adds the results of a step other than contacts: hash, cell_size, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
 
-// {file, vertices, tets} of each body, in the order of the numbers that contacts use.
+// A list of {file, vertices, tets} for each body, in the order that contacts refer to.
 Json body_list(const std::vector<Body>& bodies);
 
-// The place in `ids` of a mesh that is there.
+// The index of `mesh` in `ids`, which must contain it.
 std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh);
 
 std::string hash_of(const vox_grid* grid);
+std::string hexadecimal(std::uint64_t value); // sixteen digits
 
-// One line on standard output.
+// Prints one line on standard output.
 void print(const Json& json);
 
-// Throws Failure when standard output did not take everything.
+// Throws Failure if not everything could be written to standard output.
 void finish_output();
 
 } // namespace tool

@@ -30,6 +30,19 @@ vox_profile profile_of(const vox_grid* grid) {
     return profile;
 }
 
+vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters{};
+    counters.struct_size = sizeof counters;
+    check(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
+double cell_size_of(const vox_grid* grid) {
+    double cell_size = 0;
+    check(vox_grid_cell_size(grid, &cell_size));
+    return cell_size;
+}
+
 vox_contact_view contacts_of(const vox_grid* grid) {
     vox_contact_view view{};
     check(vox_grid_contacts(grid, &view));

@@ -1,4 +1,4 @@
-// A grid with bodies in it, and the time of its steps.
+// Makes grids with bodies in them, reads their results, and measures steps.
 #pragma once
 
 #include "body.hpp"
@@ -23,6 +23,8 @@ Grid make_grid(const vox_grid_desc& desc, std::span<const Body> bodies, bool sel
                std::vector<vox_mesh>& ids);
 
 vox_profile profile_of(const vox_grid* grid);
+vox_counters counters_of(const vox_grid* grid);
+double cell_size_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
 vox_penetration_view penetrations_of(const vox_grid* grid);
 
@@ -40,13 +42,13 @@ inline vox_penetration penetration_at(const vox_penetration_view& view, std::uin
     return penetration;
 }
 
-// The median of each time by itself. At least one profile.
+// The median of each time, taken separately. There must be at least one profile.
 vox_profile median(std::span<const vox_profile> profiles);
 
-// A step to be timed: it looks at all meshes, although none moved since the one before.
+// Runs a step for timing, which processes all meshes even if none has moved since the last step.
 void step_anew(vox_grid* grid, std::span<const vox_mesh> ids);
 
-// One step to warm up, then the median of `repeat` more.
+// Runs one step to warm up, then returns the median of `repeat` more.
 vox_profile measure_steps(vox_grid* grid, std::span<const vox_mesh> ids, std::uint32_t repeat);
 
 } // namespace tool

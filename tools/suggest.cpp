@@ -1,4 +1,4 @@
-// vox suggest: the cell size for a set of meshes, and why.
+// vox suggest: finds the best cell size for a set of meshes and explains it.
 #include "body.hpp"
 #include "commands.hpp"
 #include "curve_svg.hpp"
@@ -20,7 +20,7 @@ struct Options {
     Fill fill;
     std::vector<std::string> files;
     vox_suggest_desc desc = vox_default_suggest_desc();
-    std::string svg; // a file to write; empty: none
+    std::string svg; // path of the picture to write; empty: none
     bool self = false, calibrate = false, json = false;
 };
 
@@ -41,7 +41,7 @@ void print_rule(const char* name, double cell_size, double cost, const vox_sugge
                 loss, source);
 }
 
-// Every term's part of the cost, largest first.
+// Prints every term's share of the cost, largest first.
 void print_terms(const vox_suggestion& found) {
     std::vector<vox_cost_share> terms(found.terms, found.terms + found.term_count);
     std::sort(terms.begin(), terms.end(),
@@ -55,9 +55,9 @@ void print_terms(const vox_suggestion& found) {
 
 void print_levels(const vox_suggestion& found) {
     if (found.level_count < 2) return;
-    std::printf("\nTetrahedra of such unlike sizes want %u cell sizes (", found.level_count);
+    std::printf("\nThe tetrahedra differ so much in size that %u cell sizes are best (", found.level_count);
     for (std::uint32_t i = 0; i < found.level_count; ++i) std::printf(i ? ", %.4g" : "%.4g", found.levels[i]);
-    std::printf("): one alone costs %.0f %% more.\n", 100 * found.uniform_loss);
+    std::printf("); a single one costs %.0f %% more.\n", 100 * found.uniform_loss);
 }
 
 void print_text(const vox_suggestion& found, std::size_t mesh_count) {
@@ -122,33 +122,32 @@ void run(const Options& options) {
 void add_suggest(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     vox_suggest_desc& desc = options->desc;
-    CLI::App* command = app.add_subcommand("suggest", "The best cell size for meshes, and why");
+    CLI::App* command = app.add_subcommand("suggest", "Find the best cell size for meshes and explain it");
     command->add_option("MESH", options->files, "Mesh files with tetrahedra")->required();
     add_fill(*command, options->fill);
     add_choice(*command, "--model", desc.model, models, "Cost model to minimise");
     command
         ->add_option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
-        ->check(
-            number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1"));
-    command->add_option("--ratio", desc.cost_ratio, "Cost of a particle test over that of a cell visit")
+        ->check(fraction());
+    command->add_option("--ratio", desc.cost_ratio, "Cost of a particle test divided by that of a cell visit")
         ->check(positive());
     add_choice(*command, "--size-reading", desc.size_reading, size_readings,
-               "What the size of a tetrahedron is in the cost model");
+               "How the cost model measures the size of a tetrahedron");
     add_choice(*command, "--area-reading", desc.area_reading, area_readings,
-               "What the area of a facet is in the cost model");
+               "How the cost model measures the area of a facet");
     command
         ->add_option("--world", desc.world_edge,
                      "Edge of the cubic world, for the cells per axis; 0: longest side of the bounds")
         ->check(not_negative());
-    command->add_option("--zone-loss", desc.zone_loss, "Loss of predicted cost that ends the zone")
+    command->add_option("--zone-loss", desc.zone_loss, "Relative loss of predicted cost that ends the zone")
         ->check(not_negative());
     command->add_option("--factor", desc.mean_edge_factor, "Factor of the rule 'mean edge, multiple'")
         ->check(positive());
     command->add_option("--resolution", desc.resolution, "Cell size of the rule 'resolution'; 0: none")
         ->check(not_negative());
-    command->add_flag("--self", options->self, "The bodies collide with themselves, too");
+    command->add_flag("--self", options->self, "The bodies also collide with themselves");
     command->add_flag("--calibrate", options->calibrate,
-                      "Measure what work costs on this machine first, for the models of the engines");
+                      "First measure on this machine the costs that the engines' models use");
     command->add_option("--svg", options->svg, "Write the cost curve as a picture to this file");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

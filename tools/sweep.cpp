@@ -1,4 +1,5 @@
-// vox sweep: the paper's experiment (Sect. 5), time of detection against cell size on two bodies in contact.
+// vox sweep: the paper's experiment (Sect. 5), which measures the time of detection against the cell size for
+// two bodies in contact.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 struct Options {
     std::string a, b;
-    std::uint64_t ball = 0; // in place of files
+    std::uint64_t ball = 0; // tetrahedra of the balls that replace the files; 0: files
     Fill fill;
     vox_experiment_desc experiment = vox_default_experiment_desc();
     std::vector<double> axis = {1, 0, 0};
@@ -45,7 +46,7 @@ struct ExperimentDeleter {
 };
 using Experiment = std::unique_ptr<vox_experiment, ExperimentDeleter>;
 
-// One of the paper's spheres.
+// Makes one of the paper's spheres.
 Body make_ball(std::uint64_t tets) {
     vox_io_mesh* mesh = nullptr;
     check(vox_io_make_lattice_ball(tets, 1, &mesh));
@@ -77,14 +78,14 @@ Experiment make_experiment(const Options& options, const Body& a, const Body& b)
 // ---- cell sizes and samples -------------------------------------------------------------------------
 
 struct Size {
-    std::string rule; // that gives it; "" for one of the range
+    std::string rule; // the rule that it comes from; "" for a size of the range
     double cell_size;
     std::optional<double> time;          // in nanoseconds
-    std::vector<double> rounds;          // mean over the frames, of each round
-    const SweepSample* sample = nullptr; // of the first round: what was counted
+    std::vector<double> rounds;          // mean over the frames in each round
+    const SweepSample* sample = nullptr; // the first round's sample, for its counts
 };
 
-// From small to large, evenly in the logarithm, with the rules' own sizes at the end.
+// The sizes of the range in ascending order, evenly spaced in the logarithm, and then those of the rules.
 std::vector<Size> choose_sizes(const Options& options, const vox_suggestion& suggestion, double world) {
     std::array<double, 2> range = {0.5 * suggestion.rules.mean_edge, 4 * suggestion.rules.mean_edge};
     if (!options.cell_sizes.empty()) range = {options.cell_sizes[0], options.cell_sizes[1]};
@@ -108,8 +109,8 @@ std::vector<Size> choose_sizes(const Options& options, const vox_suggestion& sug
     return sizes;
 }
 
-// A rule that is far off would take the time of all others together, and its regret says enough without
-// digits.
+// A size far from the optimum could take as much time as all others together, and its exact regret does not
+// matter.
 bool worth_measuring(const Size& size, const vox_suggestion& suggestion) {
     constexpr double far = 6;
     return size.rule.empty() ||
@@ -166,7 +167,7 @@ void collect(const Options& options, const SweepLog& log, std::vector<Size>& siz
         std::vector<std::uint64_t> times;
         for (std::uint32_t round = 0; round < options.rounds; ++round) {
             const SweepSample* sample = log.find(size.cell_size, round);
-            if (!sample) break; // not worth measuring
+            if (!sample) break; // it was not worth measuring
             if (round == 0) size.sample = sample;
             double mean = 0;
             for (const std::uint64_t ns : sample->frame_ns) mean += double(ns) / double(frames);
@@ -185,14 +186,14 @@ void collect(const Options& options, const SweepLog& log, std::vector<Size>& siz
 // ---- evaluation -------------------------------------------------------------------------------------
 
 struct Zone {
-    double limit; // time
+    double limit; // a time
     double min, max;
 };
 
 struct Evaluation {
     vox_time_fit fit{};
     Zone one_millisecond{}, five_percent{};
-    double least_time = HUGE_VAL; // of all that were measured
+    double least_time = HUGE_VAL; // least of all measured times
 };
 
 Evaluation evaluate(const std::vector<Size>& sizes, double range_min, double range_max) {
@@ -283,12 +284,6 @@ Json fit_json(const vox_time_fit& fit) {
             {"bracketed", fit.bracketed != 0}};
 }
 
-std::string hexadecimal(std::uint64_t value) {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-    return text;
-}
-
 void print_json(const Sweep& sweep) {
     const vox_experiment_facts& facts = sweep.facts;
     const Evaluation& found = sweep.found;
@@ -351,8 +346,9 @@ void print_text(const Sweep& sweep) {
             std::printf("  %12.6g %8.3f %8.2f %11.4f  %s%s%s\n", size.cell_size, size.cell_size / mean_edge,
                         sweep.world / size.cell_size, *size.time * 1e-6, bar(*size.time / most, 24).c_str(),
                         size.rule.empty() ? "" : " ", size.rule.c_str());
-    std::printf("\nFit: polynomial of degree %u in the logarithms, predicts a time left out to %.1f %%.\n",
-                found.fit.degree, 100 * found.fit.prediction_error);
+    std::printf(
+        "\nThe fit, a polynomial of degree %u in the logarithms, predicts a time left out to %.1f %%.\n",
+        found.fit.degree, 100 * found.fit.prediction_error);
     std::printf("Best cell size %.6g, %.2f mean edges, n = %.2f: %.4f ms%s.\n", found.fit.cell_size,
                 found.fit.cell_size / mean_edge, sweep.world / found.fit.cell_size, found.fit.time * 1e-6,
                 found.fit.bracketed ? "" : " (at the end of the range: measure a wider one)");
@@ -429,32 +425,30 @@ void run(const Options& options) {
 void add_sweep(CLI::App& app) {
     const auto options = std::make_shared<Options>();
     options->grid.engine = VOX_ENGINE_REFERENCE;
-    CLI::App* command =
-        app.add_subcommand("sweep", "Time of detection against cell size: the paper's experiment");
+    CLI::App* command = app.add_subcommand(
+        "sweep", "Measure the time of detection against cell size (the paper's experiment)");
     command->add_option("A", options->a, "Mesh file");
-    command->add_option("B", options->b, "Second mesh file; without it, A again");
+    command->add_option("B", options->b, "Second mesh file; default: A again");
     command
         ->add_option("--ball", options->ball,
-                     "In place of files: balls of radius 1, of about TETS tetrahedra")
+                     "Instead of files, use balls of radius 1 with about TETS tetrahedra")
         ->type_name("TETS")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{VOX_MAX_TETS / 4}));
     add_fill(*command, options->fill);
-    command->add_option("--axis", options->axis, "B comes along X Y Z")
+    command->add_option("--axis", options->axis, "Direction X Y Z from A to B")
         ->expected(3)
         ->type_name("FLOAT")
         ->check(finite());
     command->add_option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
-        ->check(
-            number_check([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1"));
-    command->add_flag("--as-placed", options->as_placed, "Do not turn the bodies");
-    command->add_option("--frames", options->experiment.frames, "Detections in a sample")
+        ->check(fraction());
+    command->add_flag("--as-placed", options->as_placed, "Do not rotate the bodies");
+    command->add_option("--frames", options->experiment.frames, "Number of detections in a sample")
         ->check(CLI::Range(1u, 1000u));
-    command->add_option("--time-step", options->experiment.time_step, "Time of a frame")->check(positive());
+    command->add_option("--time-step", options->experiment.time_step, "Duration of a frame")
+        ->check(positive());
     add_choice(*command, "--engine", options->grid.engine, engine_choices, "Algorithm");
-    add_choice(*command, "--storage", options->grid.storage, storages, "How cells are stored");
-    add_choice(*command, "--hash", options->grid.hash, hashes, "Hash of a cell, for hashed storage");
-    command->add_option("--threads", options->grid.worker_count, "Threads of a step; 0: one per core")
-        ->check(CLI::Range(0u, VOX_MAX_WORKERS));
+    add_cells(*command, options->grid);
+    add_threads(*command, options->grid);
     command
         ->add_option("--world", options->world,
                      "Edge of the cubic world, for the cells per axis; 0: longest side")
@@ -462,15 +456,16 @@ void add_sweep(CLI::App& app) {
     CLI::Option* sizes =
         command->add_option("--cell-sizes", options->cell_sizes, "Range of cell sizes, MIN MAX");
     CLI::Option* cells = command->add_option("--cells-per-axis", options->cells_per_axis,
-                                             "The same in cells per axis, MIN MAX");
+                                             "Range of cell sizes given in cells per axis, MIN MAX");
     for (CLI::Option* range : {sizes, cells}) range->expected(2)->type_name("FLOAT")->check(positive());
     sizes->excludes(cells);
-    command->add_option("--count", options->count, "Cell sizes in the range")->check(CLI::Range(5u, 10000u));
-    command->add_option("--rounds", options->rounds, "Samples of each cell size")
+    command->add_option("--count", options->count, "Number of cell sizes in the range")
+        ->check(CLI::Range(5u, 10000u));
+    command->add_option("--rounds", options->rounds, "Number of samples of each cell size")
         ->check(CLI::Range(1u, 10000u));
-    command->add_option("--seed", options->seed, "Of the order of the samples");
-    CLI::Option* csv = command->add_option("--csv", options->csv, "Write each sample to a file");
-    command->add_option("--resume", options->resume, "The same, but go on with the file where it exists")
+    command->add_option("--seed", options->seed, "Seed for the order of the samples");
+    CLI::Option* csv = command->add_option("--csv", options->csv, "Write each sample to this file");
+    command->add_option("--resume", options->resume, "As --csv, but continue the file if it exists")
         ->excludes(csv);
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

@@ -53,7 +53,7 @@ SweepLog::SweepLog(const std::string& path, const std::string& experiment, std::
     std::string text;
     if (resume && std::filesystem::exists(path)) {
         if (!std::filesystem::is_regular_file(path))
-            throw Failure(path + ": cannot be written: it is no file");
+            throw Failure(path + ": cannot be written: it is not a file");
         std::ifstream in(path, std::ios::binary);
         text.assign(std::istreambuf_iterator<char>(in), {});
         const std::size_t whole =
@@ -79,12 +79,13 @@ void SweepLog::read(const std::string& text, std::size_t frames) {
         const std::vector<std::string> fields = split(lines[i], ',');
         SweepSample sample;
         if (fields.size() != columns || !parse_sample(fields, sample))
-            throw Failure(where + " is no sample of a sweep");
+            throw Failure(where + " is not a sample of a sweep");
         if (fields[0] != experiment_)
-            throw Failure(where + " is of another experiment, " + fields[0] + "; this one is " + experiment_);
+            throw Failure(where + " belongs to another experiment, " + fields[0] + "; this one is " +
+                          experiment_);
         if (sample.frame_ns.size() != frames)
             throw Failure(where + " has " + std::to_string(sample.frame_ns.size()) +
-                          " frames, this experiment " + std::to_string(frames));
+                          " frames, this experiment has " + std::to_string(frames));
         samples_.push_back(std::move(sample));
     }
 }
@@ -112,7 +113,7 @@ void SweepLog::add(const SweepSample& sample) {
     write(line);
 }
 
-// At once, so that nothing measured is lost.
+// Flushes every line, so that no sample is lost.
 void SweepLog::write(const std::string& line) {
     if (std::fputs((line + '\n').c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0)
         throw Failure(path_ + ": cannot be written: " + std::strerror(errno));

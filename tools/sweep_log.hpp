@@ -1,5 +1,5 @@
-// The samples of a sweep as a CSV file that grows by a line a sample, so that a run that was cut off can go
-// on.
+// The samples of a sweep as a CSV file, to which every sample adds a line, so that an interrupted run can
+// continue.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace tool {
 
 struct SweepSample {
-    std::string name; // the rule that the cell size is from; "" for one of the range
+    std::string name; // the rule that the cell size comes from; "" for a size of the range
     double cell_size = 0;
     std::uint64_t round = 0;
     std::vector<std::uint64_t> frame_ns;
@@ -20,15 +20,16 @@ struct SweepSample {
 
 class SweepLog {
 public:
-    // Samples stay in memory alone.
+    // Keeps samples in memory only.
     SweepLog() = default;
-    // `experiment` names what is measured; samples of another one are refused. resume: goes on with the file
-    // where there is one (a line that was cut off is dropped); else it is made anew. Throws Failure.
+    // `experiment` identifies what is measured; samples of another experiment are refused. With `resume`, an
+    // existing file is continued, and an incomplete last line dropped; otherwise a new file is written.
+    // Throws Failure.
     SweepLog(const std::string& path, const std::string& experiment, std::size_t frames, bool resume);
 
-    // The samples so far, those that were in the file included.
+    // All samples, including those that were in the file.
     const std::vector<SweepSample>& samples() const { return samples_; }
-    // Null when there is none of this cell size and round.
+    // Returns null if there is no sample of this cell size and round.
     const SweepSample* find(double cell_size, std::uint64_t round) const;
     void add(const SweepSample& sample);
 

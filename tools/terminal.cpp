@@ -51,7 +51,7 @@ void Progress::show(const std::string& where) {
 }
 
 bool locale_is_utf8() {
-    // The first of these that is set and not empty decides, as POSIX has it.
+    // The first of these that is set and not empty decides, as POSIX specifies.
     for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
         const char* value = std::getenv(variable);
         if (!value || !*value) continue;
@@ -78,7 +78,7 @@ std::string cost_curve(const vox_suggestion& suggestion) {
     const int columns = static_cast<int>(suggestion.curve_count);
     if (columns < 2) return {};
     const bool utf8 = locale_is_utf8();
-    // The interesting part is near the minimum: the chart's floor is 0 and its top three times the minimum.
+    // The chart goes from 0 to three times the minimum, because the interesting part is near the minimum.
     constexpr int height = 8;
     constexpr double top = 3;
     const char* indent = "       ";
@@ -105,7 +105,7 @@ std::string cost_curve(const vox_suggestion& suggestion) {
         text += line + '\n';
     }
 
-    // The curve is even in the logarithm of the cell size, so a cell size has its column.
+    // The samples are evenly spaced in the logarithm of the cell size, which gives the column of a cell size.
     const double first = std::log(suggestion.curve[0].cell_size);
     const double last = std::log(suggestion.curve[columns - 1].cell_size);
     const auto column_of = [&](double cell_size) {

@@ -1,4 +1,4 @@
-// What a command shows a person: progress on standard error, bars and curves in characters.
+// Output for people: progress on standard error, and bars and curves made of characters.
 #pragma once
 
 #include <vox/vox.h>
@@ -8,8 +8,8 @@
 
 namespace tool {
 
-// A line on standard error that overwrites itself, "vox: step 3 of 100". Silent when that is no terminal, and
-// for the first half second, so that short work shows nothing. Wiped when it ends.
+// A line on standard error that overwrites itself, e.g. "vox: step 3 of 100". It is shown only on a terminal,
+// and only after half a second, so that short work shows nothing. The destructor erases it.
 class Progress {
 public:
     Progress();

@@ -1,4 +1,4 @@
-// vox tetrahedralize: a closed surface in, a file of tetrahedra out.
+// vox tetrahedralize: fills a closed surface with tetrahedra and writes them to a file.
 #include "body.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -21,7 +21,7 @@ struct Options {
 
 const Choices<vox_io_solid_kind> kinds = {{"stuffed", VOX_IO_SOLID_STUFFED}, {"cubes", VOX_IO_SOLID_CUBES}};
 
-std::unique_ptr<vox_io_mesh, MeshDeleter> fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
+Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
     Progress progress;
     desc.progress = [](double fraction, void* user) -> std::int32_t {
         static_cast<Progress*>(user)->show("filled " + std::to_string(static_cast<int>(100 * fraction)) +
@@ -31,7 +31,7 @@ std::unique_ptr<vox_io_mesh, MeshDeleter> fill(const vox_io_mesh* surface, vox_i
     desc.progress_user = &progress;
     vox_io_mesh* filled = nullptr;
     check(vox_io_tetrahedralize(surface, &desc, &filled));
-    return std::unique_ptr<vox_io_mesh, MeshDeleter>(filled);
+    return Mesh(filled);
 }
 
 void write(const vox_io_mesh* mesh, const Options& options) {
@@ -53,10 +53,8 @@ void print_text(const Options& options, const vox_io_quality& quality) {
 }
 
 void run(const Options& options) {
-    vox_io_mesh* loaded = nullptr;
-    check(vox_io_load(options.surface.c_str(), nullptr, &loaded));
-    const std::unique_ptr<vox_io_mesh, MeshDeleter> surface(loaded);
-    const auto mesh = fill(surface.get(), options.desc);
+    const Mesh surface = load_mesh(options.surface);
+    const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);
     vox_io_quality quality{};
     quality.struct_size = sizeof quality;
@@ -83,18 +81,19 @@ void add_tetrahedralize(CLI::App& app) {
     vox_io_tetrahedralize_desc& desc = options->desc;
     CLI::App* command = app.add_subcommand("tetrahedralize", "Fill a closed surface with tetrahedra");
     command->add_option("SURFACE", options->surface, "Surface file")->required();
-    command->add_option("-o,--output", options->out, "File to write: .msh or .vtu")->required();
+    command->add_option("-o,--output", options->out, "File to write, .msh or .vtu")->required();
     command
         ->add_option("--cell", desc.cell,
                      "Edge of a lattice cube; 0: a fiftieth of the surface's longest side")
         ->check(not_negative());
-    add_choice(*command, "--kind", desc.kind, kinds, "Follow the surface, or keep whole cubes around it");
+    add_choice(*command, "--kind", desc.kind, kinds,
+               "stuffed: follow the surface; cubes: keep whole cubes around it");
     command
         ->add_option("--max-distance", desc.max_distance,
-                     "Refine until the Hausdorff distance is at most this; 0: do not")
+                     "Refine until the Hausdorff distance is at most this; 0: do not refine")
         ->check(not_negative());
-    command->add_option("--coarsen", desc.coarsen, "Times that cells inside may be merged");
-    command->add_option("--max-tets", desc.max_tets, "Fail above that many tetrahedra");
+    command->add_option("--coarsen", desc.coarsen, "How many times cells inside may be merged");
+    command->add_option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
     command->add_flag("--binary", options->binary, "Write binary instead of text");
     command->add_flag("--json", options->json, "Print one JSON object");
     command->callback([options] { run(*options); });

@@ -1,5 +1,6 @@
-// The C border of loading and diagnosis: validate, forward, catch.
+// The C border of loading and diagnosis.
 #include "base/border.hpp"
+#include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "io/formats/file_bytes.hpp"
 #include "io/formats/readers.hpp"
@@ -22,15 +23,15 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return default_load_desc();
     const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
     if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_SURFACE)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("vox_io_load_desc.format is %d, no format", static_cast<int>(desc.format)));
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("vox_io_load_desc.format is %d, which is not a format",
+                                                       static_cast<int>(desc.format)));
     if (desc.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
     return desc;
 }
 
-// The format of a file: the one asked for, else told by content, else by the name.
+// The requested format or, for AUTO, the one that the content or else the name indicates.
 vox_io_format format_of(const File& file, vox_io_format wanted) {
     if (wanted != VOX_IO_FORMAT_AUTO) return wanted;
     const vox_io_format by_content = format_of_content(file.bytes);
@@ -43,7 +44,7 @@ File without_byte_order_mark(File file) {
     return file;
 }
 
-// Any format but TetGen, which needs two files.
+// Reads any format except TetGen, which needs two files.
 MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_index) {
     const File file = without_byte_order_mark(given);
     switch (which) {
@@ -69,7 +70,7 @@ MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_ind
     default:
         throw Error(
             VOX_ERROR_UNSUPPORTED,
-            format("%s: expected a mesh, found neither content nor an extension that is known "
+            format("%s: expected a mesh, found neither known content nor a known extension "
                    "(.msh .node .ele .mesh .veg .vtk .vtu, and surfaces as .obj .ply .stl .off .gltf)",
                    given.name.c_str()));
     }
@@ -78,7 +79,7 @@ MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_ind
 MeshData load(const std::string& path, const vox_io_load_desc& desc) {
     const FileBytes bytes(path);
     const File& file = bytes.file();
-    refuse_strangers(file);
+    refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
     if (which == VOX_IO_FORMAT_SURFACE && !is_off(without_byte_order_mark(file)))
         return read_surface_at(path, desc.mesh_index);
@@ -92,7 +93,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
     const std::string other_path =
         path.substr(0, path.size() - extension.size()) + (is_node ? "ele" : "node");
     const FileBytes other(other_path);
-    refuse_strangers(other.file());
+    refuse_other_content(other.file());
     return read_tetgen(without_byte_order_mark(is_node ? file : other.file()),
                        without_byte_order_mark(is_node ? other.file() : file));
 }
@@ -109,7 +110,7 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("source_count is %zu, not 1 or 2", count));
     require(sources, "sources");
     const File first = file_of(sources[0], 0);
-    refuse_strangers(first);
+    refuse_other_content(first);
     if (count == 1) {
         const vox_io_format which = format_of(first, desc.format);
         if (which == VOX_IO_FORMAT_TETGEN)
@@ -120,7 +121,7 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
     if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, "source_count is 2, which only TetGen meshes need");
     const File second = file_of(sources[1], 1);
-    refuse_strangers(second);
+    refuse_other_content(second);
     const bool swapped = extension_of(first.name) == "ele" || extension_of(second.name) == "node";
     return read_tetgen(without_byte_order_mark(swapped ? second : first),
                        without_byte_order_mark(swapped ? first : second));
@@ -130,9 +131,8 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     const auto check_array = [](const void* data, std::uint64_t count, std::uint64_t limit,
                                 const char* name) {
         if (count > limit)
-            throw Error(VOX_ERROR_LIMIT, format("%s: %llu are more than the limit of %llu", name,
-                                                static_cast<unsigned long long>(count),
-                                                static_cast<unsigned long long>(limit)));
+            throw Error(VOX_ERROR_LIMIT,
+                        format("%s: %llu are more than the limit of %llu", name, llu(count), llu(limit)));
         if (count > 0) require(data, name);
     };
     check_array(arrays.positions, arrays.vertex_count, VOX_MAX_VERTICES, "arrays->positions");
@@ -140,16 +140,15 @@ MeshData checked(const vox_io_mesh_view& arrays) {
     check_array(arrays.triangles, arrays.triangle_count, VOX_MAX_TETS, "arrays->triangles");
     for (std::uint64_t i = 0; i < 3 * arrays.vertex_count; ++i)
         if (!std::isfinite(arrays.positions[i]))
-            throw Error(VOX_ERROR_NON_FINITE, format("vertex %llu has a coordinate that is not finite",
-                                                     static_cast<unsigned long long>(i / 3)));
+            throw Error(VOX_ERROR_NON_FINITE,
+                        format("vertex %llu has a coordinate that is not finite", llu(i / 3)));
     const auto check_indices = [&](const std::uint32_t* indices, std::uint64_t count, unsigned corners,
                                    const char* name) {
         for (std::uint64_t i = 0; i < corners * count; ++i)
             if (indices[i] >= arrays.vertex_count)
                 throw Error(VOX_ERROR_INVALID_MESH,
-                            format("%s %llu names vertex %u of %llu", name,
-                                   static_cast<unsigned long long>(i / corners), indices[i],
-                                   static_cast<unsigned long long>(arrays.vertex_count)));
+                            format("%s %llu names vertex %u of %llu", name, llu(i / corners), indices[i],
+                                   llu(arrays.vertex_count)));
     };
     check_indices(arrays.tets, arrays.tet_count, 4, "tet");
     check_indices(arrays.triangles, arrays.triangle_count, 3, "triangle");
@@ -194,9 +193,7 @@ vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) 
     return border([&] {
         require(mesh, "mesh");
         require(out_view, "out_view");
-        const MeshData& data = mesh->data;
-        *out_view = {data.positions.data(), data.positions.size() / 3, data.tets.data(),
-                     data.tets.size() / 4,  data.triangles.data(),     data.triangles.size() / 3};
+        *out_view = view_of(mesh->data);
     });
 }
 

@@ -1,6 +1,8 @@
-// The C border of surface to tetrahedra and of the ready-made bodies: validate, catch, forward.
+// The C border of filling surfaces with tetrahedra, and of the ready-made bodies.
 #include "base/border.hpp"
+#include "base/llu.hpp"
 #include "base/structs.hpp"
+#include "io/mesh.hpp"
 #include "io/solids/bodies.hpp"
 #include "io/solids/cubes.hpp"
 #include "io/solids/lattice_ball.hpp"
@@ -22,28 +24,28 @@ vox_io_tetrahedralize_desc default_tetrahedralize_desc() {
     return desc;
 }
 
-vox_io_mesh_view view_of(const vox_io_mesh* mesh) {
-    vox_io_mesh_view view{};
-    if (vox_io_mesh_get(mesh, &view) != VOX_OK)
-        throw Error(VOX_ERROR_INTERNAL, "the arrays of a mesh cannot be had");
-    return view;
-}
-
 void require_length(double length, const char* name) {
     if (!std::isfinite(length) || length <= 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%s is %g, expected a finite number above 0", name, length));
 }
 
-// Lengths whose squares, cubes and quotients stay finite and normal.
-void require_lengths(std::initializer_list<std::pair<double, const char*>> lengths, double cell) {
-    require_length(cell, "cell");
-    for (const auto& [length, name] : lengths) {
-        require_length(length, name);
-        if (length > 1e100 || length < 1e-100)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%s is %g, expected 1e-100 to 1e100", name, length));
-    }
+// Checks the lengths of a body, so that their squares, cubes and quotients are finite and normal, and makes
+// it.
+template <class Make>
+vox_result make_body(vox_io_mesh** out_mesh, std::initializer_list<std::pair<double, const char*>> lengths,
+                     double cell, const Make& make) {
+    return border([&] {
+        require(out_mesh, "out_mesh");
+        require_length(cell, "cell");
+        for (const auto& [length, name] : lengths) {
+            require_length(length, name);
+            if (length > 1e100 || length < 1e-100)
+                throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                            format("%s is %g, expected 1e-100 to 1e100", name, length));
+        }
+        *out_mesh = make_mesh(make());
+    });
 }
 
 } // namespace
@@ -70,18 +72,16 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
                         format("desc.max_distance is %g, expected a finite number above 0, or 0",
                                wanted.max_distance));
         if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("desc.max_tets is %llu, expected 1 to %u",
-                               static_cast<unsigned long long>(wanted.max_tets), VOX_MAX_TETS));
+            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.max_tets is %llu, expected 1 to %u",
+                                                           llu(wanted.max_tets), VOX_MAX_TETS));
         if (wanted.reserved != 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc.reserved is %u, expected 0", wanted.reserved));
-        const vox_io_mesh_view view = view_of(surface);
+        const vox_io_mesh_view view = view_of(surface->data);
         if (view.triangle_count == 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("the surface has no triangles (%llu vertices, %llu tets)",
-                               static_cast<unsigned long long>(view.vertex_count),
-                               static_cast<unsigned long long>(view.tet_count)));
+                               llu(view.vertex_count), llu(view.tet_count)));
         *out_mesh = make_mesh(tetrahedralize(view, wanted));
     });
 }
@@ -91,9 +91,9 @@ vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* su
     return border([&] {
         require(mesh, "mesh");
         check_out_struct(out_quality, "out_quality");
-        const vox_io_mesh_view view = view_of(mesh);
-        const vox_io_mesh_view surface_view = surface ? view_of(surface) : vox_io_mesh_view{};
-        write_struct(out_quality, measure_quality(view, surface ? &surface_view : nullptr), "out_quality");
+        const vox_io_mesh_view surface_view = surface ? view_of(surface->data) : vox_io_mesh_view{};
+        write_struct(out_quality, measure_quality(view_of(mesh->data), surface ? &surface_view : nullptr),
+                     "out_quality");
     });
 }
 
@@ -102,52 +102,37 @@ vox_result vox_io_make_lattice_ball(std::uint64_t tet_count, double radius, vox_
         require(out_mesh, "out_mesh");
         if (tet_count == 0 || tet_count > VOX_MAX_TETS / 4)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("tet_count is %llu, expected 1 to %u",
-                               static_cast<unsigned long long>(tet_count), VOX_MAX_TETS / 4));
+                        format("tet_count is %llu, expected 1 to %u", llu(tet_count), VOX_MAX_TETS / 4));
         require_length(radius, "radius");
         *out_mesh = make_mesh(make_lattice_ball(tet_count, radius));
     });
 }
 
 vox_result vox_io_make_ball(double radius, double cell, vox_io_mesh** out_mesh) {
-    return border([&] {
-        require(out_mesh, "out_mesh");
-        require_lengths({{radius, "radius"}}, cell);
-        *out_mesh = make_mesh(make_ball(radius, cell));
-    });
+    return make_body(out_mesh, {{radius, "radius"}}, cell, [&] { return make_ball(radius, cell); });
 }
 
 vox_result vox_io_make_torus(double radius, double tube_radius, double cell, vox_io_mesh** out_mesh) {
-    return border([&] {
-        require(out_mesh, "out_mesh");
-        require_lengths({{radius, "radius"}, {tube_radius, "tube_radius"}}, cell);
+    return make_body(out_mesh, {{radius, "radius"}, {tube_radius, "tube_radius"}}, cell, [&] {
         if (tube_radius >= radius)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("tube_radius is %g, expected less than radius, %g", tube_radius, radius));
-        *out_mesh = make_mesh(make_torus(radius, tube_radius, cell));
+        return make_torus(radius, tube_radius, cell);
     });
 }
 
 vox_result vox_io_make_capsule(double radius, double length, double cell, vox_io_mesh** out_mesh) {
-    return border([&] {
-        require(out_mesh, "out_mesh");
-        require_lengths({{radius, "radius"}, {length, "length"}}, cell);
-        *out_mesh = make_mesh(make_capsule(radius, length, cell));
-    });
+    return make_body(out_mesh, {{radius, "radius"}, {length, "length"}}, cell,
+                     [&] { return make_capsule(radius, length, cell); });
 }
 
 vox_result vox_io_make_cylinder(double radius, double length, double cell, vox_io_mesh** out_mesh) {
-    return border([&] {
-        require(out_mesh, "out_mesh");
-        require_lengths({{radius, "radius"}, {length, "length"}}, cell);
-        *out_mesh = make_mesh(make_cylinder(radius, length, cell));
-    });
+    return make_body(out_mesh, {{radius, "radius"}, {length, "length"}}, cell,
+                     [&] { return make_cylinder(radius, length, cell); });
 }
 
 vox_result vox_io_make_box(double size_x, double size_y, double size_z, double cell, vox_io_mesh** out_mesh) {
-    return border([&] {
-        require(out_mesh, "out_mesh");
-        require_lengths({{size_x, "size_x"}, {size_y, "size_y"}, {size_z, "size_z"}}, cell);
+    return make_body(out_mesh, {{size_x, "size_x"}, {size_y, "size_y"}, {size_z, "size_z"}}, cell, [&] {
         const std::array<double, 3> size = {size_x, size_y, size_z};
         std::array<std::int32_t, 3> cells{};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -158,6 +143,6 @@ vox_result vox_io_make_box(double size_x, double size_y, double size_z, double c
                                    cell, count, static_cast<int>('x' + k)));
             cells[k] = static_cast<std::int32_t>(count);
         }
-        *out_mesh = make_mesh(make_box(size, cells));
+        return make_box(size, cells);
     });
 }

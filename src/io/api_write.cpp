@@ -1,5 +1,6 @@
-// The C border of writing: validate, forward, catch.
+// The C border of writing.
 #include "base/border.hpp"
+#include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/writers.hpp"
@@ -25,13 +26,14 @@ vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) 
         in ? read_struct(in, default_write_desc(), "vox_io_write_desc") : default_write_desc();
     const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
     if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
-        refuse(format("vox_io_write_desc.format is %d, no format", static_cast<int>(desc.format)));
+        refuse(
+            format("vox_io_write_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
     if (desc.binary > 1) refuse(format("vox_io_write_desc.binary is %u, neither 0 nor 1", desc.binary));
     if (desc.reserved != 0) refuse(format("vox_io_write_desc.reserved is %u, not 0", desc.reserved));
     if (desc.point_data_count > 0) require(desc.point_data, "vox_io_write_desc.point_data");
     for (std::uint64_t i = 0; i < desc.point_data_count; ++i) {
         const vox_io_point_data& data = desc.point_data[i];
-        const auto index = static_cast<unsigned long long>(i);
+        const auto index = llu(i);
         require(data.name, format("point_data[%llu].name", index).c_str());
         if (!*data.name) refuse(format("point_data[%llu].name is empty", index));
         for (const char* c = data.name; *c; ++c)
@@ -47,8 +49,7 @@ vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) 
             if (!std::isfinite(data.values[v]))
                 throw Error(VOX_ERROR_NON_FINITE,
                             format("point_data[%llu] (%s) is not finite at vertex %llu", index,
-                                   printable(data.name).c_str(),
-                                   static_cast<unsigned long long>(v / data.components)));
+                                   printable(data.name).c_str(), llu(v / data.components)));
     }
     return desc;
 }
@@ -71,8 +72,8 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
     throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), std::strerror(error)));
 }
 
-// Writes to a file beside `path` and moves it there at the end; what is no regular file (a pipe, a terminal)
-// is written directly.
+// Writes to a file beside `path` and moves it there at the end. If `path` is not a regular file (a pipe, a
+// terminal), it is written directly.
 void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const std::string& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);

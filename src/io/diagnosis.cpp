@@ -1,8 +1,11 @@
-// Facets, edges and tets are compared within buckets of equal lowest vertex, filled by counting: linear time,
-// 32 bytes a tet for the time of the call.
+// Facets, edges and tets are sorted into buckets of equal lowest vertex by counting, and compared within a
+// bucket. This takes linear time, and 32 bytes a tet during the call.
 #include "io/diagnosis.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
+#include "io/buckets.hpp"
+#include "io/determinant.hpp"
 #include "io/volume_sign.hpp"
 
 #include <algorithm>
@@ -15,36 +18,6 @@ namespace vox::io {
 namespace {
 
 using Index = std::uint32_t;
-
-// Calls visit(first, last) for the sorted items of each bucket. `each` calls its argument with (bucket, item)
-// for every item there is, the same ones each time.
-template <class Item, class Each, class Visit>
-void sort_in_buckets(std::uint64_t bucket_count, const Each& each, const Visit& visit) {
-    std::vector<std::uint64_t> ends(bucket_count + 1, 0);
-    each([&](Index bucket, const Item&) { ++ends[bucket + 1]; });
-    for (std::uint64_t b = 0; b < bucket_count; ++b) ends[b + 1] += ends[b];
-    std::vector<Item> items(ends[bucket_count]);
-    each([&](Index bucket, const Item& item) { items[ends[bucket]++] = item; });
-    // ends[b] has moved from the start of bucket b to its end.
-    std::uint64_t start = 0;
-    for (std::uint64_t b = 0; b < bucket_count; ++b) {
-        Item* const first = items.data() + start;
-        Item* const last = items.data() + ends[b];
-        std::sort(first, last);
-        visit(first, last);
-        start = ends[b];
-    }
-}
-
-// Calls visit(length) for each run of equal items.
-template <class Item, class Visit>
-void for_each_run(const Item* first, const Item* last, const Visit& visit) {
-    for (const Item* run = first; run != last;) {
-        const Item* const start = run;
-        while (run != last && *run == *start) ++run;
-        visit(run - start);
-    }
-}
 
 std::uint64_t pack(Index high, Index low) { return static_cast<std::uint64_t>(high) << 32 | low; }
 
@@ -60,20 +33,17 @@ void count_facets(const MeshData& data, vox_io_report& report) {
     const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < data.tets.size(); t += 4) {
             const auto v = sorted_corners(&data.tets[t]);
-            if (repeats(v)) continue; // no facets to speak of
+            if (repeats(v)) continue; // it has no proper facets
             put(v[0], pack(v[1], v[2]));
             put(v[0], pack(v[1], v[3]));
             put(v[0], pack(v[2], v[3]));
             put(v[1], pack(v[2], v[3]));
         }
     };
-    sort_in_buckets<std::uint64_t>(report.vertices, each,
-                                   [&](const std::uint64_t* first, const std::uint64_t* last) {
-                                       for_each_run(first, last, [&](std::ptrdiff_t tets) {
-                                           report.boundary_facets += tets == 1;
-                                           report.non_manifold_facets += tets > 2;
-                                       });
-                                   });
+    for_each_run<std::uint64_t>(report.vertices, each, [&](Index, std::uint64_t, std::ptrdiff_t tets) {
+        report.boundary_facets += tets == 1;
+        report.non_manifold_facets += tets > 2;
+    });
 }
 
 void count_duplicate_tets(const MeshData& data, vox_io_report& report) {
@@ -84,15 +54,13 @@ void count_duplicate_tets(const MeshData& data, vox_io_report& report) {
             put(v[0], Others{v[1], v[2], v[3]});
         }
     };
-    sort_in_buckets<Others>(report.vertices, each, [&](const Others* first, const Others* last) {
-        for_each_run(first, last, [&](std::ptrdiff_t copies) {
-            report.duplicate_tets += static_cast<std::uint64_t>(copies - 1);
-        });
+    for_each_run<Others>(report.vertices, each, [&](Index, const Others&, std::ptrdiff_t copies) {
+        report.duplicate_tets += static_cast<std::uint64_t>(copies - 1);
     });
 }
 
 void count_edges(const MeshData& data, vox_io_report& report) {
-    // The higher vertex, and in the lowest bit the direction.
+    // An item is the higher vertex, with the direction in the lowest bit.
     const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
             const Index* v = &data.triangles[t];
@@ -104,7 +72,7 @@ void count_edges(const MeshData& data, vox_io_report& report) {
         }
     };
     sort_in_buckets<std::uint64_t>(
-        report.vertices, each, [&](const std::uint64_t* first, const std::uint64_t* last) {
+        report.vertices, each, [&](Index, const std::uint64_t* first, const std::uint64_t* last) {
             while (first != last) {
                 const std::uint64_t* run = first;
                 while (run != last && *run >> 1 == *first >> 1) ++run;
@@ -129,7 +97,7 @@ void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     for (std::uint64_t v = 0; v < report.vertices; ++v) {
         const double* p = &data.positions[3 * v];
         std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) // + 0.0 turns -0 into 0
+        for (int k = 0; k < 3; ++k) // adding 0.0 turns -0 into 0
             hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(p[k] + 0.0));
         for (std::uint64_t slot = hash & mask;; slot = (slot + 1) & mask) {
             if (table[slot] == empty) {
@@ -145,7 +113,8 @@ void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     }
 }
 
-// Components by union-find over the vertices of each element, with path halving; unused vertices; bounds.
+// Counts components (by union-find over the vertices of each element, with path halving) and unused vertices,
+// and finds the bounds.
 void count_components(const MeshData& data, vox_io_report& report) {
     std::vector<Index> parent(report.vertices);
     std::vector<bool> used(report.vertices, false);
@@ -182,11 +151,6 @@ void count_components(const MeshData& data, vox_io_report& report) {
     }
 }
 
-double determinant(const double u[3], const double v[3], const double w[3]) {
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
 void measure_tets(const MeshData& data, vox_io_report& report) {
     for (std::size_t t = 0; t < data.tets.size(); t += 4) {
         const double* p[4];
@@ -197,7 +161,8 @@ void measure_tets(const MeshData& data, vox_io_report& report) {
         report.degenerate_tets += sign == 0;
         if (sign == 0) continue;
 
-        // Halved, so that differences stay finite; scaled where products would overflow or underflow.
+        // Coordinates are halved so that differences stay finite, and the differences are scaled if their
+        // products would overflow or underflow.
         double e[3][3], largest = 0;
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) {
@@ -226,7 +191,7 @@ void measure_tets(const MeshData& data, vox_io_report& report) {
 
 void measure_surface(const MeshData& data, vox_io_report& report) {
     if (report.open_edges || report.non_manifold_facets || report.misoriented_edges) return;
-    const double* origin = report.bounds_min; // near the surface, so that little cancels
+    const double* origin = report.bounds_min; // near the surface, to avoid cancellation
     for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
         double e[3][3];
         for (std::size_t i = 0; i < 3; ++i)
@@ -234,11 +199,11 @@ void measure_surface(const MeshData& data, vox_io_report& report) {
                 e[i][k] = data.positions[3 * static_cast<std::size_t>(data.triangles[t + i]) + k] - origin[k];
         report.volume += determinant(e[0], e[1], e[2]) / 6;
     }
-    if (!std::isfinite(report.volume)) report.volume = 0; // beyond the range of doubles
+    if (!std::isfinite(report.volume)) report.volume = 0; // it exceeds the range of doubles
 }
 
 std::string counted(std::uint64_t number, const char* singular, const char* plural) {
-    return format("%llu %s", static_cast<unsigned long long>(number), number == 1 ? singular : plural);
+    return format("%llu %s", llu(number), number == 1 ? singular : plural);
 }
 
 } // namespace
@@ -279,8 +244,8 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
     };
     for (const std::string& note : data.notes) say(note);
 
-    say_if(r.second_order_tets, "tet has more than four nodes: its corners were taken",
-           "tets have more than four nodes: their corners were taken");
+    say_if(r.second_order_tets, "tet has more than four nodes; only its corners were used",
+           "tets have more than four nodes; only their corners were used");
     if (r.inverted_tets > 0 && r.inverted_tets == r.tets)
         say("all tets are inverted (left-handed)");
     else
@@ -311,7 +276,7 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
         if (r.volume < 0) say("the surface is inside out");
     }
 
-    // The core works in single precision.
+    // Positions are often rounded to single precision for the core.
     double farthest = 0, extent = 0;
     for (int k = 0; k < 3; ++k) {
         farthest = std::max({farthest, std::fabs(r.bounds_min[k]), std::fabs(r.bounds_max[k])});
@@ -324,7 +289,7 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
         say(format("the whole mesh is %g wide, too small for single precision", extent));
     else if (extent < 1e-3 * farthest)
         say(format(
-            "the mesh is %g wide but lies %g from the origin: little is left of it in single precision",
+            "the mesh is %g wide but lies %g from the origin, so single precision keeps few of its digits",
             extent, farthest));
     if (r.tets > 0 && r.degenerate_tets < r.tets && (std::isinf(r.volume) || r.volume < DBL_MIN))
         say("the volume does not fit a double");

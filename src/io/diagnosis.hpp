@@ -1,4 +1,4 @@
-// What is odd about a mesh: the numbers of vox_io_report, and the same in words.
+// Finds what is odd about a mesh, as the numbers of vox_io_report and as text.
 #pragma once
 
 #include "io/mesh_data.hpp"
@@ -7,7 +7,7 @@ namespace vox::io {
 
 vox_io_report diagnose(const MeshData& data);
 
-// One line each for everything in the report that a user should know; "" when there is nothing.
+// One line for everything in the report that a user should know; "" if there is nothing.
 std::string warnings_of(const MeshData& data, const vox_io_report& report);
 
 } // namespace vox::io

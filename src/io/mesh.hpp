@@ -1,4 +1,4 @@
-// The public mesh object: what was read, and what is to be said about it.
+// The public mesh object: the data with its report and warnings.
 #pragma once
 
 #include "io/mesh_data.hpp"

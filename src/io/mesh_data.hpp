@@ -1,4 +1,4 @@
-// What every reader and mesher produces: plain arrays, numbered as in the file.
+// The plain arrays that every reader and mesher produces, numbered as in the file.
 #pragma once
 
 #include <vox/vox_io.h>
@@ -17,11 +17,13 @@ struct MeshData {
     std::uint64_t skipped_elements = 0;
     std::uint64_t second_order_tets = 0;
     double unit_in_metres = 0;      // 0: unknown
-    std::vector<std::string> notes; // what a reader found odd, one line each
+    std::vector<std::string> notes; // lines for the warnings, from the reader
 };
 
-// Wraps data as the public object: computes the report and the warnings. The one way to make a vox_io_mesh.
-// Positions must be finite and indices below the number of vertices.
+vox_io_mesh_view view_of(const MeshData& data); // borrows the arrays of `data`
+
+// Makes the public object, with report and warnings, from data whose positions are finite and whose indices
+// are below the number of vertices. This is the only way to make a vox_io_mesh.
 vox_io_mesh* make_mesh(MeshData data);
 
 } // namespace vox::io

@@ -1,6 +1,6 @@
 // Filter: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
-// Predicates", Discrete & Computational Geometry 18, 1997, bound A of orient3d. Where it cannot tell, the
-// determinant is computed in whole numbers: every double is an integer times a power of two, and a common
+// Predicates", Discrete & Computational Geometry 18, 1997, bound A of orient3d. If the filter cannot decide,
+// the determinant is computed in integers: every double is an integer times a power of two, and a common
 // power of two does not change the sign.
 #include "io/volume_sign.hpp"
 
@@ -30,7 +30,7 @@ struct Integer {
         return *this;
     }
 
-    // value * 2^-exponent, which must be whole.
+    // Stores value * 2^-exponent, which must be an integer.
     Integer(double value, int exponent) : negative(value < 0) {
         if (value == 0) return;
         int e;
@@ -38,7 +38,7 @@ struct Integer {
         int shift = e - 53 - exponent; // mantissa * 2^shift
         std::uint64_t m = mantissa;
         if (shift < 0) {
-            m >>= -shift; // only zeros are lost
+            m >>= -shift; // the bits shifted out are zero
             shift = 0;
         }
         const int word = shift / 32, bit = shift % 32;
@@ -64,7 +64,6 @@ int compare_magnitudes(const Integer& a, const Integer& b) {
     return 0;
 }
 
-// a + b, or a - b
 Integer sum(const Integer& a, const Integer& b, bool subtract) {
     const bool b_negative = b.negative != subtract;
     const bool a_larger = compare_magnitudes(a, b) >= 0;
@@ -104,7 +103,7 @@ Integer product(const Integer& a, const Integer& b) {
     return out;
 }
 
-// Exponent of the lowest bit that is set in value, which is not zero.
+// Exponent of the lowest bit that is set in `value`, which must not be zero.
 int lowest_bit(double value) {
     int e;
     auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::fabs(value), &e), 53));
@@ -151,7 +150,7 @@ int volume_sign(const double* a, const double* b, const double* c, const double*
         det += u[k] * (p - q);
         permanent += std::fabs(u[k]) * (std::fabs(p) + std::fabs(q));
     }
-    // The bound holds where nothing overflows and what underflows is far below it.
+    // The bound holds if nothing overflows and all underflow is far below it.
     constexpr double epsilon = std::numeric_limits<double>::epsilon() / 2;
     constexpr double bound = (7 + 56 * epsilon) * epsilon;
     if (largest < 1e100 && permanent > 1e-150 && std::fabs(det) > bound * permanent) return det > 0 ? 1 : -1;

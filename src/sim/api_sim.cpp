@@ -1,4 +1,4 @@
-// The C border of vox_sim.h: read the caller's structs, forward to the simulation, nothing else.
+// The C border of the simulation.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "sim/sim.hpp"

@@ -1,6 +1,7 @@
 #include "sim/body.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 
 #include <Eigen/Geometry>
 
@@ -14,20 +15,18 @@ namespace vox::sim {
 
 namespace {
 
-constexpr double farthest = 1e15; // of a coordinate: its cube, and that cube's square, stay finite
+constexpr double farthest = 1e15; // largest coordinate; the sixth power of it is finite
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
-
-unsigned long long number(std::uint64_t count) { return count; }
 
 void check_vectors(const double* values, std::uint64_t count, const char* name) {
     for (std::uint64_t i = 0; i < 3 * count; ++i) {
         if (!std::isfinite(values[i]))
             throw Error(VOX_ERROR_NON_FINITE, format("%s of vertex %llu are not finite: coordinate %c is %g",
-                                                     name, number(i / 3), "xyz"[i % 3], values[i]));
+                                                     name, llu(i / 3), "xyz"[i % 3], values[i]));
         if (std::abs(values[i]) > farthest)
             refuse(format("%s of vertex %llu: coordinate %c is %g, expected at most %g in size", name,
-                          number(i / 3), "xyz"[i % 3], values[i], farthest));
+                          llu(i / 3), "xyz"[i % 3], values[i], farthest));
     }
 }
 
@@ -44,16 +43,15 @@ void check_desc(const vox_sim_body_desc& desc) {
     if (!desc.positions) refuse("body positions are null");
     if (!desc.tets || desc.tet_count == 0)
         refuse(format("body tets are %s, tet_count is %llu: a body needs at least one tet",
-                      desc.tets ? "given" : "null", number(desc.tet_count)));
+                      desc.tets ? "given" : "null", llu(desc.tet_count)));
     if (desc.vertex_count > VOX_MAX_VERTICES || desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT,
                     format("the body has %llu vertices and %llu tets, the limits are %u and %u",
-                           number(desc.vertex_count), number(desc.tet_count), VOX_MAX_VERTICES,
-                           VOX_MAX_TETS));
+                           llu(desc.vertex_count), llu(desc.tet_count), VOX_MAX_VERTICES, VOX_MAX_TETS));
     for (std::uint64_t i = 0; i < 4 * desc.tet_count; ++i)
         if (desc.tets[i] >= desc.vertex_count)
-            throw Error(VOX_ERROR_INVALID_MESH, format("tet %llu names vertex %u of %llu", number(i / 4),
-                                                       desc.tets[i], number(desc.vertex_count)));
+            throw Error(VOX_ERROR_INVALID_MESH, format("tet %llu names vertex %u of %llu", llu(i / 4),
+                                                       desc.tets[i], llu(desc.vertex_count)));
     check_number(desc.density, false, "density");
     check_number(desc.youngs_modulus, true, "youngs_modulus");
     check_number(desc.bulk_modulus, true, "bulk_modulus");
@@ -67,8 +65,8 @@ Vec3 vector_at(const double* values, std::size_t i) {
     return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
 }
 
-// A quarter of each tet's mass to each of its corners. Particles that much lighter than the others would only
-// stall the solver, so none gets less than a hundredth of the mean; those of no tet get the mean.
+// Gives a quarter of each tet's mass to each of its corners. Much lighter particles would stall the solver,
+// so none gets less than a hundredth of the mean. Particles of no tet get the mean.
 void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     const std::size_t count = body.positions.size();
     std::vector<bool> used(count, false);
@@ -85,7 +83,7 @@ void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     if (!(total >= 1e-60 && total <= 1e60))
         refuse(
             format("the body has a mass of %g: %llu of its %zu tets have no rest volume, its density is %g",
-                   total, number(body.flat_tets), volumes6.size(), density));
+                   total, llu(body.flat_tets), volumes6.size(), density));
     const double mean = total / static_cast<double>(std::count(used.begin(), used.end(), true));
     for (std::size_t v = 0; v < count; ++v) {
         if (body.masses[v] < mean / 100) {
@@ -97,10 +95,10 @@ void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     for (std::size_t v = 0; v < count; ++v) body.inverse_masses[v] = body.fixed ? 0 : 1 / body.masses[v];
 }
 
-// One constraint an edge. Springs of stiffness 6 E V / l^2, V being the volume that belongs to the edge (a
-// sixth of each tet around it), resist a uniform stretch of directions that are distributed evenly as an
-// isotropic material of Young's modulus E and Poisson's ratio 1/4 does: its C1111 is 6 E times the mean of
-// cos^4, 1/5.
+// Makes one constraint for each edge. Let V be the volume that belongs to an edge (a sixth of each tet around
+// it). If the directions of the edges are evenly distributed, springs of stiffness 6 E V / l^2 resist a
+// uniform stretch like an isotropic material of Young's modulus E and Poisson's ratio 1/4, whose C1111 is 6 E
+// times the mean of cos^4, which is 1/5.
 void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> volumes6, double modulus) {
     struct Side {
         std::uint32_t a, b;
@@ -116,7 +114,7 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
                     sides.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j]),
                                      std::abs(volumes6[t]) / 36});
     }
-    // Stable: the sums below must not depend on the sort.
+    // The sort is stable so that the order of the sums below is always the same.
     std::stable_sort(sides.begin(), sides.end(),
                      [](const Side& s, const Side& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
     std::size_t count = 0;
@@ -134,7 +132,7 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
     if (count == 0) return;
     body.mean_edge = total_length / static_cast<double>(count);
     if (modulus == 0) return;
-    // Edges of flat tets alone, and edges of no length, are springs too.
+    // Edges whose tets are all flat, and edges of zero length, need a finite compliance too.
     const double least_volume = total_volume / static_cast<double>(count) / 100;
     body.edges.reserve(count);
     for (const Side& side : sides) {
@@ -145,8 +143,8 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
     }
 }
 
-// One constraint a tet that has a volume at rest; its energy is K V0 / 2 times the square of the relative
-// change.
+// Makes one constraint for each tet that has a volume at rest. Its energy is K V0 / 2 times the square of the
+// relative change.
 void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double> volumes6, double modulus) {
     if (modulus == 0) return;
     body.volumes.reserve(volumes6.size());
@@ -165,13 +163,13 @@ void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double
     }
 }
 
-// Sorts constraints by greedy colours: those of one colour share no particle, so that the processor need not
-// wait for one before it begins the next. What 64 colours leave over comes last. `particles` gives a
-// constraint's particles.
+// Sorts constraints by greedy colours. Those of one colour share no particle, so that the processor need not
+// wait for one before it begins the next. Constraints that find none of 64 colours come last. `particles`
+// returns a constraint's particles.
 template <class Constraint, class Particles>
 void sort_by_color(std::vector<Constraint>& constraints, std::size_t particle_count, Particles particles) {
     constexpr std::size_t color_count = 64;
-    std::vector<std::uint64_t> taken(particle_count, 0); // colours at a particle, one bit each
+    std::vector<std::uint64_t> taken(particle_count, 0); // the colours used at each particle, one bit each
     std::array<std::vector<Constraint>, color_count + 1> classes;
     for (const Constraint& constraint : constraints) {
         std::uint64_t around = 0;
@@ -211,7 +209,7 @@ Body make_body(const vox_sim_body_desc& desc) {
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
         const std::uint32_t* c = &body.tets[4 * t];
         volumes6[t] = volume6(rest[c[0]], rest[c[1]], rest[c[2]], rest[c[3]]);
-        // A volume that only rounding errors make is none.
+        // A volume within rounding error counts as zero.
         const double size =
             std::max({(rest[c[1]] - rest[c[0]]).squaredNorm(), (rest[c[2]] - rest[c[0]]).squaredNorm(),
                       (rest[c[3]] - rest[c[0]]).squaredNorm()});

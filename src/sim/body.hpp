@@ -1,5 +1,4 @@
-// A deformable body: particles, and what holds them together. Plain arrays that the stages of a substep work
-// on.
+// A deformable body: the plain arrays of particles and constraints that the stages of a substep work on.
 #pragma once
 
 #include <vox/vox_sim.h>
@@ -18,17 +17,17 @@ struct EdgeConstraint {
     std::uint32_t a, b;
     double rest_length;
     double compliance; // of the length
-    double softness;   // compliance over the squared substep, as far as that can answer it (set_substep)
+    double softness;   // compliance / substep^2, raised to what the substep can handle (see set_substep)
 };
 
-// Keeps the signed volume of its four particles. "Six-fold volume" is the determinant of the three edges from
-// corner 0.
+// Keeps the signed volume of its four particles. The "six-fold volume" is the determinant of the three edges
+// from corner 0.
 struct VolumeConstraint {
     std::uint32_t corners[4];
     double rest_volume6;
     double compliance; // of the six-fold volume
     double softness;
-    double rest_answer; // squares of the constraint's gradients over the masses, summed up, at rest
+    double rest_answer; // sum at rest of the squares of the constraint's gradients divided by the masses
 };
 
 struct Body {
@@ -37,31 +36,31 @@ struct Body {
 
     // particles
     std::vector<Vec3> positions;
-    std::vector<Vec3> previous; // where the particles were when the substep began
+    std::vector<Vec3> previous; // positions at the beginning of the substep
     std::vector<Vec3> velocities;
     std::vector<double> masses;
     std::vector<double> inverse_masses; // all 0 for a fixed body
-    std::vector<float> grid_positions;  // 3 a particle: what the grid sees
+    std::vector<float> grid_positions;  // 3 a particle; the grid borrows them
 
     // constraints
     std::vector<std::uint32_t> tets; // 4 a tet
     std::vector<EdgeConstraint> edges;
     std::vector<VolumeConstraint> volumes;
     double damping = 0;
-    double substep = 0;         // that the constraints are set up for; 0: none yet
-    std::uint64_t softened = 0; // constraints that are stiffer than that substep can answer
+    double substep = 0;         // length of the substep that the constraints are set up for; 0: not yet
+    std::uint64_t softened = 0; // constraints whose stiffness that substep cannot handle
 
-    Vec3 acceleration = Vec3::Zero(); // besides gravity
+    Vec3 acceleration = Vec3::Zero(); // in addition to gravity
     double mean_edge = 0;
     std::uint64_t flat_tets = 0;
     std::uint64_t inverted_tets = 0;
     std::uint64_t raised_masses = 0;
 };
 
-// Checks the caller's arrays and numbers and computes masses and constraints from them. Throws.
+// Checks the caller's arrays and numbers (throws) and computes masses and constraints from them.
 Body make_body(const vox_sim_body_desc& desc);
 
-// Replaces positions and velocities (3 a particle; null: as they are). Throws and then changes nothing.
+// Replaces positions and velocities (3 a particle; null: keeps them). Changes nothing if it throws.
 void set_state(Body& body, const double* positions, const double* velocities);
 
 // Rounds the positions for the grid.

@@ -10,12 +10,12 @@ namespace vox::sim {
 
 namespace {
 
-// Least ratio of compliance / h^2 to what a constraint's particles answer by themselves. With 4, the total
+// Least ratio of compliance / h^2 to the constraint's own term, grad C M^-1 grad C^T. With 4, the total
 // energy of a ball dropped on the floor never rose above its first value, whatever its stiffness; with 1 it
 // did, by 6 %.
 constexpr double least_softness = 4;
 
-// Where a particle was in the middle of the substep, which is what its velocity belongs to.
+// The position of a particle in the middle of the substep, which is the time its velocity belongs to.
 Vec3 middle(const Body& body, std::uint32_t v) { return (body.positions[v] + body.previous[v]) / 2; }
 
 } // namespace
@@ -44,7 +44,7 @@ void move_freely(Body& body, const Vec3& gravity, double h) {
     }
 }
 
-// With one sweep a substep the multipliers start at 0, and Eq. 18 becomes
+// As there is one sweep a substep, the multipliers start at 0, and Eq. 18 becomes
 //     lambda = -C / (grad C M^-1 grad C^T + compliance / h^2).
 
 void solve_edges(Body& body) {
@@ -54,7 +54,7 @@ void solve_edges(Body& body) {
     for (const EdgeConstraint& edge : body.edges) {
         const Vec3 d = x[edge.a] - x[edge.b];
         const double length = d.norm();
-        if (length == 0) continue; // no direction to part them in
+        if (length == 0) continue; // there is no direction in which to separate them
         const Vec3 direction = d / length;
         const double lambda = -(length - edge.rest_length) / (w[edge.a] + w[edge.b] + edge.softness);
         x[edge.a] += (w[edge.a] * lambda) * direction;
@@ -62,9 +62,10 @@ void solve_edges(Body& body) {
     }
 }
 
-// The gradients of a tet that collapses vanish while its constraint does not, which would throw its corners
-// anywhere. So what they sum to never counts for less than a quarter of its value at rest: then no corner
-// moves farther than about the tet's height, and momentum is kept as the multiplier is only scaled.
+// When a tet collapses, its gradients vanish but its constraint does not, which would move its corners
+// arbitrarily far. Therefore the sum over the gradients is never taken as less than a quarter of its value at
+// rest. Then no corner moves farther than about the tet's height. Momentum is kept, since this only scales
+// the multiplier.
 void solve_volumes(Body& body) {
     if (body.fixed) return;
     const double* w = body.inverse_masses.data();
@@ -92,8 +93,9 @@ void take_velocities(Body& body, double h) {
         body.velocities[v] = per_h * (body.positions[v] - body.previous[v]);
 }
 
-// Kelvin and Voigt: a dashpot beside each spring, of `damping` times its stiffness. Each takes its share of
-// the edge's rate implicitly, 1 - 1 / (1 + g), so that no damping can overshoot.
+// The Kelvin-Voigt model: each spring has a parallel dashpot of `damping` times its stiffness. It is
+// integrated implicitly and takes the share 1 - 1 / (1 + g) of the edge's rate, so that no damping can
+// overshoot.
 void damp(Body& body, double h) {
     if (body.fixed || body.damping == 0) return;
     const double* w = body.inverse_masses.data();
@@ -111,9 +113,9 @@ void damp(Body& body, double h) {
     }
 }
 
-// One sweep a substep leaves each constraint to answer whatever the others have done to it since. So a spring
-// pulls, at rest too, with its length over (compliance + h^2 grad C M^-1 grad C^T), and it is that spring
-// whose energy counts. Velocities belong to the middle of the substep, and so does the energy.
+// With a single sweep a substep, a constraint responds with the force of a spring of compliance
+// compliance + h^2 grad C M^-1 grad C^T, also at rest, so the energy is that of this spring. It is computed
+// for the middle of the substep, to which velocities belong.
 double elastic_energy(const Body& body) {
     const double h2 = body.substep * body.substep;
     const double* w = body.inverse_masses.data();

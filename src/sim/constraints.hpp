@@ -1,17 +1,17 @@
-// What a body does by itself in a substep.
+// The stages of a substep that concern a single body.
 //
 // Macklin, Mueller, Chentanez: "XPBD: Position-Based Simulation of Compliant Constrained Dynamics" (2016),
-// Eqs. 18 and 26; one iteration a substep after Macklin et al.: "Small Steps in Physics Simulation" (2019).
-// Constraints are answered one after another in a fixed order (Gauss-Seidel), so that the same input gives
-// the same bits.
+// Eqs. 18 and 26, with one iteration a substep as in Macklin et al.: "Small Steps in Physics Simulation"
+// (2019). Constraints are solved one after another in a fixed order (Gauss-Seidel), so that the same input
+// gives the same bits.
 #pragma once
 
 #include "sim/body.hpp"
 
 namespace vox::sim {
 
-// Sets the constraints up for substeps of h. Stiffness that one sweep a substep cannot answer is cut down,
-// and counted: it would come out as energy from nowhere.
+// Sets the constraints up for substeps of h. Stiffness that one sweep a substep cannot handle is reduced and
+// counted, because it would add energy.
 void set_substep(Body& body, double h);
 
 // Semi-implicit Euler: velocities first, then positions with them.
@@ -20,10 +20,10 @@ void move_freely(Body& body, const Vec3& gravity, double h);
 void solve_edges(Body& body);
 void solve_volumes(Body& body);
 
-// Velocities from the way that the substep has moved the particles.
+// Computes velocities from how far the substep has moved the particles.
 void take_velocities(Body& body, double h);
 
-// Slows the edges' change of length. Keeps momentum and angular momentum.
+// Damps the edges' change of length. Keeps momentum and angular momentum.
 void damp(Body& body, double h);
 
 // Energy stored in the constraints.

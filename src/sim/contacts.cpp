@@ -14,22 +14,21 @@ const T& element(const T* data, std::size_t byte_stride, std::uint64_t i) {
     return *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(data) + i * byte_stride);
 }
 
-// Where the vertex is, seen from the place in the tet where it was found.
+// The position of the vertex relative to the point of the tet at which it was found.
 Vec3 relative(const Contact& c, const std::vector<Vec3> Body::*positions) {
     Vec3 r = (c.a->*positions)[c.vertex];
     for (int k = 0; k < 4; ++k) r -= c.weights[k] * (c.b->*positions)[c.corners[k]];
     return r;
 }
 
-// Moves the vertex by `impulse` over its mass, and the tet's corners the opposite way.
+// Moves the vertex by `impulse` / its mass, and the tet's corners in the opposite direction.
 void apply(const Contact& c, std::vector<Vec3> Body::*positions, const Vec3& impulse) {
     (c.a->*positions)[c.vertex] += c.a->inverse_masses[c.vertex] * impulse;
     for (int k = 0; k < 4; ++k)
         (c.b->*positions)[c.corners[k]] -= (c.weights[k] * c.b->inverse_masses[c.corners[k]]) * impulse;
 }
 
-// How a penetration is answered: `push` undoes what was there before, the whole is also what stops the
-// motion.
+// The impulse against a penetration. Its part `push` undoes earlier penetration; the rest stops the motion.
 struct Answer {
     double whole = 0;
     double push = 0;
@@ -45,7 +44,8 @@ Answer answer_depth(double depth, double depth_before, double slop, double inver
     return {whole, std::clamp((depth_before - allowed) / inverse_mass, 0.0, whole)};
 }
 
-// The impulse that holds the tangential part of `moved`, if Coulomb's law gives so much for `normal_impulse`.
+// The impulse that undoes the tangential part of `moved`, up to the bound of Coulomb's law for
+// `normal_impulse`.
 Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impulse, double inverse_mass,
                       double friction) {
     const Vec3 slipped = moved - moved.dot(normal) * normal;

@@ -1,12 +1,12 @@
-// What bodies do to each other and to the floor in a substep: penalty response and friction.
+// The response to contacts between bodies and with the floor in a substep: penalty forces and friction.
 //
 // A vertex that the depth stage found inside another body (Heidelberger et al. 2004) is pushed along the
-// stage's direction with a force linear in its depth, the tetrahedron that holds it with the opposite one,
-// spread by the vertex's barycentric weights. The force is integrated implicitly, as an XPBD constraint on
-// the depth (Macklin et al. 2016), so that its stiffness may be anything. Two rules keep contacts calm, both
-// in the manner of Box2D 3: what was penetrated before the substep is undone at a bounded speed and adds
-// nothing to the velocities; a small depth, the slop, is left alone, so that a resting contact is found again
-// in every substep. Friction holds the relative tangential motion of the substep, up to Coulomb's bound.
+// stage's direction with a force linear in its depth. The tetrahedron that contains it is pushed with the
+// opposite force, distributed by the vertex's barycentric weights. The force is integrated implicitly, as an
+// XPBD constraint on the depth (Macklin et al. 2016), so that any stiffness is stable. Two rules, both as in
+// Box2D 3, keep contacts calm. Penetration from before the substep is undone at a bounded speed, which does
+// not add to the velocities. A small depth, the slop, is tolerated, so that a resting contact is found again
+// in every substep. Friction opposes the relative tangential motion of the substep, up to Coulomb's bound.
 #pragma once
 
 #include "sim/body.hpp"
@@ -22,11 +22,11 @@ struct Contact {
     Body* b;
     std::uint32_t vertex;
     std::uint32_t corners[4];
-    double weights[4]; // of the corners, where the vertex was when it was found
+    double weights[4]; // barycentric weights of the vertex when it was found
     Vec3 direction;    // out of b
-    double depth;      // when it was found
+    double depth;      // depth when it was found
     double slop;
-    double inverse_mass; // of vertex and tet against each other
+    double inverse_mass; // of the relative motion of vertex and tet
 };
 
 struct ContactSettings {
@@ -36,16 +36,17 @@ struct ContactSettings {
     double slop; // negative: a hundredth of the mean edge of the two bodies
 };
 
-// A half-space: floor where normal . x < offset. A zero normal is no floor.
+// The floor fills the half-space normal . x < offset. There is none if normal is zero.
 struct Floor {
     Vec3 normal;
     double offset;
 };
 
-// The body of a mesh, null when there is none. `bodies` ascend in mesh.
+// The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
 Body* find_body(std::span<const std::unique_ptr<Body>> bodies, vox_mesh mesh);
 
-// Contacts of the grid's last step. Meshes that are not in `bodies` and pairs of fixed bodies are left out.
+// Reads the contacts of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
+// bodies.
 void gather_contacts(const vox_grid* grid, std::span<const std::unique_ptr<Body>> bodies,
                      const ContactSettings& settings, std::vector<Contact>& contacts);
 

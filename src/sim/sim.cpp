@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "sim/constraints.hpp"
 
 #include <algorithm>
@@ -12,11 +13,7 @@ using namespace vox::sim;
 
 namespace {
 
-constexpr double shortest_time_step = 1e-12; // the square of a ten-thousandth of it is still a normal number
-
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
+constexpr double shortest_time_step = 1e-12; // with 10000 substeps, their squares are still normal numbers
 
 [[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
 
@@ -42,8 +39,6 @@ Floor floor_of(const vox_sim_desc& desc) {
     return floor;
 }
 
-unsigned long long number(std::uint64_t count) { return count; }
-
 } // namespace
 
 vox_sim::vox_sim(const vox_sim_desc& desc)
@@ -66,7 +61,8 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
     check(vox_grid_create(desc.grid, &grid));
     grid_.reset(grid);
     vox_penetration_view penetrations;
-    check(vox_grid_penetrations(grid, &penetrations)); // a grid without them is of no use here
+    check(vox_grid_penetrations(grid,
+                                &penetrations)); // fails for a grid without them, which the response needs
 }
 
 // ---- step -----------------------------------------------------------------------------------------
@@ -80,8 +76,8 @@ void vox_sim::step(double time_step) {
     if (time_step > max_time_step_) {
         if (counts_.clamped_steps++ == 0)
             write_log(VOX_LOG_WARNING,
-                      format("time step %g is cut down to max_time_step, %g; so will be others", time_step,
-                             max_time_step_));
+                      format("time step %g clamped to max_time_step %g; further warnings suppressed",
+                             time_step, max_time_step_));
         time_step = max_time_step_;
     }
     const double h = time_step / substeps_;
@@ -99,13 +95,13 @@ void vox_sim::step(double time_step) {
 void vox_sim::set_substeps(double h) {
     for (const auto& body : bodies_) {
         set_substep(*body, h);
-        if (body->softened == 0 || softening_told_) continue;
-        softening_told_ = true;
-        write_log(
-            VOX_LOG_WARNING,
-            format("body %u: %llu of %zu constraints are stiffer than substeps of %g can answer and are made "
-                   "softer; so will be others",
-                   body->mesh, number(body->softened), body->edges.size() + body->volumes.size(), h));
+        if (body->softened == 0 || softening_logged_) continue;
+        softening_logged_ = true;
+        write_log(VOX_LOG_WARNING,
+                  format("body %u: %llu of %zu constraints are too stiff for substeps of %g and were "
+                         "softened; further "
+                         "warnings suppressed",
+                         body->mesh, llu(body->softened), body->edges.size() + body->volumes.size(), h));
     }
 }
 
@@ -140,7 +136,7 @@ void vox_sim::substep(double h) {
 
 vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
     auto body = std::make_unique<Body>(make_body(desc));
-    // What follows the insertion into the grid must not fail.
+    // Nothing may fail after the insertion into the grid, so memory is reserved before.
     if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
 
     vox_mesh_desc mesh = vox_default_mesh_desc();
@@ -153,18 +149,17 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
     check(vox_mesh_insert(grid_.get(), &mesh, &body->mesh));
 
     const Body& inserted = *body;
-    // A slot of the grid may be used again, so a new body need not be the last.
+    // The grid may reuse a slot, so the new body's id need not be the greatest.
     const auto place = std::upper_bound(bodies_.begin(), bodies_.end(), body->mesh,
                                         [](vox_mesh id, const auto& other) { return id < other->mesh; });
     bodies_.insert(place, std::move(body));
     if (inserted.flat_tets + inserted.inverted_tets + inserted.raised_masses > 0)
         write_log(
             VOX_LOG_WARNING,
-            format("body %u: %llu of %llu tets have no rest volume and so no volume constraint, %llu are "
+            format("body %u: %llu of %llu tets have no rest volume and thus no volume constraint, %llu are "
                    "inverted; %llu of %zu vertices were made heavier",
-                   inserted.mesh, number(inserted.flat_tets), number(desc.tet_count),
-                   number(inserted.inverted_tets), number(inserted.raised_masses),
-                   inserted.positions.size()));
+                   inserted.mesh, llu(inserted.flat_tets), llu(desc.tet_count), llu(inserted.inverted_tets),
+                   llu(inserted.raised_masses), inserted.positions.size()));
     return inserted.mesh;
 }
 

@@ -3,12 +3,13 @@
 
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
+#include "sim/library.hpp"
 
 #include <memory>
 #include <vector>
 
-// Every public vox_sim_* function is one member here; all throw, and none changes anything when it does
-// (step: see vox_sim_step).
+// Every public vox_sim_* function is a member here. All of them throw, and change nothing if they do, except
+// step (see vox_sim_step).
 struct vox_sim {
 public:
     explicit vox_sim(const vox_sim_desc& desc); // throws INVALID_ARGUMENT naming the field and its value
@@ -24,10 +25,6 @@ public:
     vox_sim_counts counts() const;
 
 private:
-    struct GridDeleter {
-        void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
-    };
-
     void set_substeps(double h);
     void detect();
     void substep(double h);
@@ -41,10 +38,10 @@ private:
     vox::sim::ContactSettings contact_settings_;
     vox::sim::Floor floor_;
 
-    std::unique_ptr<vox_grid, GridDeleter> grid_;
+    vox::sim::GridHandle grid_;
     std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
     std::vector<vox::sim::Contact> contacts_;             // of the last detection
 
-    bool softening_told_ = false;
+    bool softening_logged_ = false;
     vox_sim_counts counts_{};
 };

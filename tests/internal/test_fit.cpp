@@ -87,7 +87,7 @@ Data made(unsigned seed, std::size_t count, double noise) {
 START_TEST(same_as_the_plain_way) {
     for (const std::size_t count : {std::size_t{5}, std::size_t{7}, std::size_t{12}, std::size_t{30}}) {
         const Data data = made(unsigned(_i), count, 0.01 * _i);
-        const TimeFit fit = fit_times(data.sizes, data.times);
+        const vox_time_fit fit = fit_times(data.sizes, data.times);
         const std::size_t most = std::min<std::size_t>(8, count - 2);
         std::size_t best = 2;
         for (std::size_t degree = 3; degree <= most; ++degree)
@@ -97,7 +97,7 @@ START_TEST(same_as_the_plain_way) {
                                 1e-9 + 1e-6 * fit.prediction_error);
         const std::vector<Real> plain = plain_fit(data.u, data.y, best);
         for (std::size_t i = 0; i < count; ++i)
-            ck_assert_double_eq_tol(std::log(fit.at(data.sizes[i])), double(value(plain, data.u[i])), 1e-9);
+            ck_assert_double_eq_tol(std::log(fitted_time(fit, data.sizes[i])), double(value(plain, data.u[i])), 1e-9);
     }
 }
 END_TEST
@@ -105,7 +105,7 @@ END_TEST
 /* Many degrees, many points, one after another: the recurrence does not lose its way. */
 START_TEST(many_points) {
     const Data data = made(3, 5000, 0.05);
-    const TimeFit fit = fit_times(data.sizes, data.times);
+    const vox_time_fit fit = fit_times(data.sizes, data.times);
     const std::vector<Real> plain = plain_fit(data.u, data.y, fit.degree);
     for (std::size_t k = 0; k <= fit.degree; ++k)
         ck_assert_double_eq_tol(fit.coefficients[k], double(plain[k]), 1e-8);

@@ -262,7 +262,7 @@ START_TEST(bad_input) {
     /* A share that no position of two balls has. */
     desc = plain();
     desc.contact_share = 0.9;
-    ck_fails(vox_experiment_create(&desc, &untouched), VOX_ERROR_INVALID_STATE, "wanted is 0.9");
+    ck_fails(vox_experiment_create(&desc, &untouched), VOX_ERROR_INVALID_STATE, "expected 0.9");
 
     vox_sim_body_desc other = body;
     desc = plain();

@@ -154,8 +154,8 @@ START_TEST(fit_refuses) {
     vox_time_fit none;
     memset(&none, 0, sizeof none);
     none.struct_size = sizeof none;
-    ck_fails(vox_fit_time_at(&none, 0.1, &time), bad, "fit is none of vox_fit_times");
-    ck_fails(vox_fit_zone(&none, 1, &min, &max), bad, "fit is none of vox_fit_times");
+    ck_fails(vox_fit_time_at(&none, 0.1, &time), bad, "fit was not filled by vox_fit_times");
+    ck_fails(vox_fit_zone(&none, 1, &min, &max), bad, "fit was not filled by vox_fit_times");
     none = fit;
     none.degree = 99;
     ck_fails(vox_fit_zone(&none, fit.time, &min, &max), bad, "degree 99");

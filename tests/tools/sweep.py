@@ -183,16 +183,16 @@ class Sweep(unittest.TestCase):
         path = self.path("samples.csv")
         run_json("sweep", *BALL, "--rounds", 1, "--csv", path)
         lines = self.lines(path)
-        self.refused(1, "line 2 is of another experiment", *BALL, "--rounds", 1, "--share", 0.05, "--resume", path)
-        self.refused(1, "line 2 is of another experiment", *BALL, "--rounds", 1, "--engine", "fast", "--resume", path)
+        self.refused(1, "line 2 belongs to another experiment", *BALL, "--rounds", 1, "--share", 0.05, "--resume", path)
+        self.refused(1, "line 2 belongs to another experiment", *BALL, "--rounds", 1, "--engine", "fast", "--resume", path)
         self.assertEqual(self.lines(path), lines)
         for number, (bad, pattern) in enumerate((
             ("name,cell_size", "line 1 is not the header"),
             ("garbage", "line 1 is not the header"),
-            (lines[0] + "\n" + "1,2,3", "line 2 is no sample"),
-            (lines[0] + "\n" + lines[1].replace(",0,", ",zero,", 1), "line 2 is no sample"),
-            (lines[0] + "\n" + lines[1] + "x", "line 2 is no sample"),
-            (lines[0] + "\n" + lines[1].rsplit(" ", 1)[0], "line 2 has 2 frames, this experiment 3"),
+            (lines[0] + "\n" + "1,2,3", "line 2 is not a sample"),
+            (lines[0] + "\n" + lines[1].replace(",0,", ",zero,", 1), "line 2 is not a sample"),
+            (lines[0] + "\n" + lines[1] + "x", "line 2 is not a sample"),
+            (lines[0] + "\n" + lines[1].rsplit(" ", 1)[0], "line 2 has 2 frames, this experiment has 3"),
         )):
             with self.subTest(bad=bad):
                 self.refused(1, pattern, *BALL, "--rounds", 1, "--resume", self.write(f"bad{number}.csv", bad + "\n"))
@@ -219,7 +219,7 @@ class Sweep(unittest.TestCase):
         self.refused(1, "missing.msh", missing)
         surface = self.write("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
         self.refused(1, "0 tets", surface)
-        self.refused(1, "wanted is 0.95", "--ball", 1500, "--share", 0.95)
+        self.refused(1, "expected 0.95", "--ball", 1500, "--share", 0.95)
 
 
 if __name__ == "__main__":

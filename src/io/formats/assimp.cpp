@@ -1,5 +1,6 @@
-// Surfaces of every format that assimp reads: node transforms applied, polygons cut into triangles, meshes of
-// a scene joined or one of them taken.
+// Reads surfaces of every format that assimp knows. Node transforms are applied, polygons split into
+// triangles, and the meshes of a scene joined unless a single one is requested.
+#include "io/determinant.hpp"
 #include "io/formats/readers.hpp"
 
 #include <assimp/Importer.hpp>
@@ -14,7 +15,7 @@
 namespace vox::io {
 namespace {
 
-// Vertices at exactly the same position are one: file formats and assimp repeat a vertex for every normal,
+// Merges vertices at exactly the same position. File formats and assimp repeat a vertex for every normal,
 // texture coordinate or material that it has, which would leave a closed surface open.
 class Joiner {
 public:
@@ -37,7 +38,7 @@ private:
 
     std::size_t find(const double p[3]) const {
         std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) { // + 0.0 turns -0 into 0
+        for (int k = 0; k < 3; ++k) { // adding 0.0 turns -0 into 0
             hash = (hash ^ std::bit_cast<std::uint64_t>(p[k] + 0.0)) * 0x9e3779b97f4a7c15u;
             hash ^= hash >> 32;
         }
@@ -77,12 +78,7 @@ public:
             out[i] = m_[i][0] * static_cast<double>(p.x) + m_[i][1] * static_cast<double>(p.y) +
                      m_[i][2] * static_cast<double>(p.z) + m_[i][3];
     }
-    bool mirrors() const {
-        return m_[0][0] * (m_[1][1] * m_[2][2] - m_[1][2] * m_[2][1]) +
-                   m_[0][1] * (m_[1][2] * m_[2][0] - m_[1][0] * m_[2][2]) +
-                   m_[0][2] * (m_[1][0] * m_[2][1] - m_[1][1] * m_[2][0]) <
-               0;
-    }
+    bool mirrors() const { return determinant(m_[0], m_[1], m_[2]) < 0; }
 
 private:
     double m_[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -107,7 +103,7 @@ public:
 
 private:
     void add_node(const aiNode& root) {
-        // A stack of its own: files can nest nodes deeper than the call stack reaches.
+        // The stack is explicit because files can nest nodes deeper than the call stack allows.
         struct Entry {
             const aiNode* node;
             Matrix parent;
@@ -158,7 +154,7 @@ private:
         }
     }
 
-    // FBX says how many centimetres its unit has; glTF is in metres by definition.
+    // FBX states its unit in centimetres; glTF is in metres by definition.
     void read_unit() {
         if (!scene_.mMetaData) return;
         double centimetres = 0;
@@ -183,7 +179,7 @@ private:
 
 constexpr unsigned steps = aiProcess_Triangulate;
 
-// Points and lines that a format can hold are counted by us; nothing else of the scene is wanted.
+// assimp would otherwise make a mesh of the skeleton of a scene that has no meshes.
 void configure(Assimp::Importer& importer) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
 }

@@ -1,4 +1,4 @@
-// The bytes of a file on disk: mapped where the system can, else read.
+// The bytes of a file on disk, mapped into memory if the system supports it, and read otherwise.
 #pragma once
 
 #include "io/formats/scan.hpp"
@@ -10,7 +10,7 @@ namespace vox::io {
 
 class FileBytes {
 public:
-    // Throws Error(FILE) when `path` is no readable regular file or pipe.
+    // Throws Error(FILE) if `path` is not a readable regular file or pipe.
     explicit FileBytes(const std::string& path);
     ~FileBytes();
     FileBytes(const FileBytes&) = delete;
@@ -20,7 +20,7 @@ public:
 
 private:
     File file_;
-    std::vector<char> read_; // when not mapped
+    std::vector<char> read_; // the bytes if the file is not mapped
     void* mapped_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// Telling formats apart, and what all readers share.
+// Recognises formats, and holds what all readers share.
 #include "io/formats/readers.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace vox::io {
 namespace {
 
-// `bytes` from its first character that is neither byte order mark, blank, line end nor in a comment line.
+// `bytes` without the byte order mark, white space and comment lines at the beginning.
 std::string_view first_text(std::string_view bytes, char comment) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const File file{"", bytes};
@@ -56,7 +56,7 @@ std::string extension_of(std::string_view name) {
     return extension;
 }
 
-void refuse_strangers(const File& file) {
+void refuse_other_content(const File& file) {
     const auto refuse = [&](const char* reason) {
         throw Error(VOX_ERROR_FORMAT, format("%s: %s", file.name.c_str(), reason));
     };
@@ -84,12 +84,12 @@ void Skipped::add(Cell cell, const char* name, std::uint64_t number) {
     volumes_.push_back({name, number});
 }
 
-void Skipped::tell(MeshData& data) const {
+void Skipped::report(MeshData& data) const {
     data.skipped_elements += elements_;
     for (const Kind& kind : volumes_)
-        data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s",
-                                    static_cast<unsigned long long>(kind.number), kind.number == 1 ? "" : "s",
-                                    kind.number == 1 ? "was" : "were", kind.name.c_str()));
+        data.notes.push_back(format("%llu volume element%s of another kind %s left out: %s", llu(kind.number),
+                                    kind.number == 1 ? "" : "s", kind.number == 1 ? "was" : "were",
+                                    kind.name.c_str()));
 }
 
 void require_tets(const MeshData& data, const std::string& name) {

@@ -12,7 +12,7 @@ struct ElementType {
     const char* name;
 };
 
-// The element types of the manual; nodes 0 where it names none.
+// An element type of the manual; `nodes` is 0 for a number that is not in it.
 const ElementType& element_type(std::int64_t type) {
     static const ElementType unknown = {0, Cell::other, ""};
     static const ElementType types[32] = {unknown,
@@ -60,7 +60,7 @@ public:
 
     MeshData read() {
         data_.format = VOX_IO_FORMAT_GMSH;
-        std::size_t elements_at = 0; // of an $Elements section that stands before the nodes
+        std::size_t elements_at = 0; // where an $Elements section begins that precedes the nodes
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
             std::string_view name = in_.peek();
             if (!name.starts_with('$')) in_.expected("a section ($...)");
@@ -97,7 +97,7 @@ public:
             end_section(version_ == 10 ? "ELM" : "Elements");
         }
         if (!have_elements_) in_.expected("an $Elements section");
-        skipped_.tell(data_);
+        skipped_.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
     }
@@ -126,7 +126,7 @@ private:
             const auto one = in_.binary<std::uint32_t>(false, "the integer 1");
             if (one != 1 && one != 0x01000000u) {
                 in_.seek(start);
-                in_.fail("expected the integer 1, which tells the byte order, found another number");
+                in_.fail("expected the integer 1, which shows the byte order, found another number");
             }
             swap_ = one != 1;
         }
@@ -177,9 +177,7 @@ private:
         } else {
             read_node_blocks();
         }
-        std::int64_t twice;
-        if (!numbers_.finish(twice))
-            in_.fail(format("two nodes have the number %lld", static_cast<long long>(twice)));
+        numbers_.finish(in_);
     }
 
     void text_node() {
@@ -237,9 +235,8 @@ private:
                 in_.fail(format("expected an entity of dimension 0 to 3, found %d", dimension));
             const std::uint64_t count = in_block("nodes in this block", binary_ ? 28 : 8);
             if (data_.positions.size() / 3 + count > total)
-                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu",
-                                static_cast<unsigned long long>(total),
-                                static_cast<unsigned long long>(count), data_.positions.size() / 3));
+                in_.fail(format("expected %llu nodes in all, found a block of %llu after %zu", llu(total),
+                                llu(count), data_.positions.size() / 3));
             const std::size_t extra = parametric_ ? 8 * static_cast<std::size_t>(dimension) : 0;
             if (version_ == 40) {
                 for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(extra) : text_node();
@@ -275,7 +272,7 @@ private:
             for (std::uint64_t done = 0; done < count;) done += binary_elements(count - done);
     }
 
-    // Versions 1 and 2: number, type, tags, nodes.
+    // In versions 1 and 2 an element is its number, type, tags and nodes.
     void text_element() {
         in_.skip_space();
         in_.integer<std::int64_t>("an element number");
@@ -285,12 +282,10 @@ private:
             in_.integer<std::int64_t>("an elementary region");
             const auto nodes = in_.integer<std::int64_t>("a number of nodes");
             if (nodes != type.nodes)
-                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name,
-                                static_cast<long long>(nodes)));
+                in_.fail(format("expected %d nodes (%s), found %lld", type.nodes, type.name, lld(nodes)));
         } else {
             const auto tags = in_.integer<std::int64_t>("a number of tags");
-            if (tags < 0)
-                in_.fail(format("expected a number of tags, found %lld", static_cast<long long>(tags)));
+            if (tags < 0) in_.fail(format("expected a number of tags, found %lld", lld(tags)));
             for (std::int64_t i = 0; i < tags; ++i) in_.integer<std::int64_t>("a tag");
         }
         text_nodes(type);
@@ -302,12 +297,13 @@ private:
         if (!corners) return in_.skip_line();
         for (int i = 0; i < type.nodes; ++i) {
             const auto number = in_.integer<std::int64_t>("a node number");
-            if (i < wanted) corners->push_back(vertex_of(number));
+            if (i < wanted) corners->push_back(numbers_.vertex_of(number, in_));
         }
         in_.line_end();
     }
 
-    // A block of version 2: type, number of elements, number of tags; then number, tags, nodes of each.
+    // A block of version 2 begins with the type, the number of elements and the number of tags; then come
+    // number, tags and nodes of each element.
     std::uint64_t binary_elements(std::uint64_t most) {
         const std::size_t start = in_.offset();
         const ElementType& type = checked_type(in_.binary<std::int32_t>(swap_, "an element type"));
@@ -315,21 +311,21 @@ private:
         const auto tags = in_.binary<std::int32_t>(swap_, "a number of tags");
         if (count < 1 || static_cast<std::uint64_t>(count) > most || tags < 0) {
             in_.seek(start);
-            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags",
-                            static_cast<unsigned long long>(most), count, tags));
+            in_.fail(format("expected a block of 1 to %llu elements, found one of %d with %d tags", llu(most),
+                            count, tags));
         }
         const std::size_t before = 4 * (1 + static_cast<std::size_t>(tags));
         binary_block<std::int32_t>(type, static_cast<std::uint64_t>(count), before);
         return static_cast<std::uint64_t>(count);
     }
 
-    // `count` elements: `before` bytes that are not needed, then the nodes as Integers.
+    // Each of the `count` elements has `before` bytes that are not needed, then its nodes as Integers.
     template <class Integer>
     void binary_block(const ElementType& type, std::uint64_t count, std::size_t before) {
         const std::size_t size = before + type.nodes * sizeof(Integer);
         if (count > in_.remaining() / size)
-            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow",
-                            static_cast<unsigned long long>(count), size, in_.remaining()));
+            in_.fail(format("expected %llu elements of %zu bytes, but only %zu bytes follow", llu(count),
+                            size, in_.remaining()));
         std::vector<std::uint32_t>* const corners = corners_of(type, count);
         if (!corners) {
             in_.take(count * size, "elements");
@@ -339,12 +335,12 @@ private:
         for (std::uint64_t e = 0; e < count; ++e) {
             const char* const nodes = in_.take(size, "an element") + before;
             for (std::size_t i = 0; i < wanted; ++i)
-                corners->push_back(
-                    vertex_of(static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_))));
+                corners->push_back(numbers_.vertex_of(
+                    static_cast<std::int64_t>(load<Integer>(nodes + i * sizeof(Integer), swap_)), in_));
         }
     }
 
-    // Versions 4: blocks of one type; number and nodes of each element.
+    // In versions 4.x a block holds elements of one type, each with its number and nodes.
     void read_element_blocks() {
         const std::size_t start = in_.offset();
         const std::uint64_t blocks = block_count();
@@ -363,10 +359,8 @@ private:
             }
             const std::uint64_t count = in_block("elements in this block", binary_ ? 8 : 4);
             if (done + count > total)
-                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu",
-                                static_cast<unsigned long long>(total),
-                                static_cast<unsigned long long>(count),
-                                static_cast<unsigned long long>(done)));
+                in_.fail(format("expected %llu elements in all, found a block of %llu after %llu", llu(total),
+                                llu(count), llu(done)));
             done += count;
             if (type->cell == Cell::tet || type->cell == Cell::high_tet) {
                 const std::size_t line = binary_ ? 20 : 9; // at least
@@ -391,8 +385,8 @@ private:
 
     // ---- shared ----
 
-    // Versions 4: blocks and things in all; version 4.1 adds the lowest and highest number, which nobody
-    // needs.
+    // A section of versions 4.x begins with the number of blocks and the total number of nodes or elements.
+    // Version 4.1 adds their lowest and highest number, which are not needed.
     std::uint64_t block_count() {
         if (!binary_) in_.skip_space();
         return binary_ ? binary_count("number of blocks", 20) : in_.count("number of blocks", 4, max_count);
@@ -422,35 +416,24 @@ private:
     [[noreturn]] void wrong_total(const char* what, std::size_t start, std::uint64_t total,
                                   std::uint64_t found) {
         in_.seek(start);
-        in_.fail(format("%llu %s are declared, but the blocks hold %llu",
-                        static_cast<unsigned long long>(total), what,
-                        static_cast<unsigned long long>(found)));
+        in_.fail(format("%llu %s are declared, but the blocks hold %llu", llu(total), what, llu(found)));
     }
 
     const ElementType& checked_type(std::int64_t number) {
         const ElementType& type = element_type(number);
         if (type.nodes == 0)
             in_.fail(format("expected an element type of the Gmsh manual (1 to 31, 92, 93), found %lld",
-                            static_cast<long long>(number)));
+                            lld(number)));
         return type;
     }
 
-    // Where the corners of such elements go, after counting them; null when they are left out.
+    // Counts `count` elements of a type and returns where their corners go, or null if they are left out.
     std::vector<std::uint32_t>* corners_of(const ElementType& type, std::uint64_t count) {
         if (type.cell == Cell::high_tet) data_.second_order_tets += count;
         if (type.cell == Cell::tet || type.cell == Cell::high_tet) return &data_.tets;
         if (type.cell == Cell::triangle) return &data_.triangles;
         skipped_.add(type.cell, type.name, count);
         return nullptr;
-    }
-
-    std::uint32_t vertex_of(std::int64_t number) {
-        const std::uint32_t vertex = numbers_.find(number);
-        if (vertex == NodeNumbers::none)
-            in_.fail(format("expected the number of a node, found %lld, which none of the %llu nodes has",
-                            static_cast<long long>(number),
-                            static_cast<unsigned long long>(numbers_.count())));
-        return vertex;
     }
 
     const File& file_;

@@ -26,96 +26,113 @@ bool is_keyword(std::string_view word) {
     return !word.empty() && ((word[0] >= 'A' && word[0] <= 'Z') || (word[0] >= 'a' && word[0] <= 'z'));
 }
 
-} // namespace
+class MeditReader {
+public:
+    explicit MeditReader(const File& file) : file_(file), in_(file, '#') {}
 
-MeshData read_medit(const File& file) {
-    MeshData data;
-    data.format = VOX_IO_FORMAT_MEDIT;
-    Scanner in(file, '#');
-    Skipped skipped;
-    bool have_vertices = false, have_dimension = false;
+    MeshData read() {
+        data_.format = VOX_IO_FORMAT_MEDIT;
+        in_.skip_space();
+        if (!in_.accept("MeshVersionFormatted")) in_.expected("MeshVersionFormatted");
+        const auto version = integer<int>("a version");
+        if (version < 1 || version > 4)
+            in_.fail(format("version %d: the versions read are 1 to 4", version), VOX_ERROR_UNSUPPORTED);
+        for (in_.skip_space(); !in_.done(); in_.skip_space()) {
+            const std::string keyword(in_.peek());
+            if (!is_keyword(keyword)) in_.expected("a keyword");
+            in_.word("a keyword");
+            if (keyword == "End") break;
+            in_.skip_space();
+            read_section(keyword);
+        }
+        if (!have_vertices_) in_.fail("expected a section Vertices, found none");
+        const std::size_t vertices = data_.positions.size() / 3;
+        if (highest_at_ > 0 && highest_ >= vertices) {
+            in_.seek(highest_at_);
+            in_.fail(
+                format("expected a vertex number from 1 to %zu, found %llu", vertices, llu(highest_) + 1));
+        }
+        skipped_.report(data_);
+        require_tets(data_, file_.name);
+        return std::move(data_);
+    }
 
-    const auto next = [&] { in.skip_space(); };
-    next();
-    if (!in.accept("MeshVersionFormatted")) in.expected("MeshVersionFormatted");
-    next();
-    const auto version = in.integer<int>("a version");
-    if (version < 1 || version > 4)
-        in.fail(format("version %d: the versions read are 1 to 4", version), VOX_ERROR_UNSUPPORTED);
+private:
+    template <class Integer>
+    Integer integer(const char* what) {
+        in_.skip_space();
+        return in_.integer<Integer>(what);
+    }
 
-    // Corners are checked against the number of vertices at the end: sections stand in any order.
-    std::uint32_t highest = 0;
-    std::size_t highest_at = 0;
-    for (next(); !in.done(); next()) {
-        const std::string keyword(in.peek());
-        if (!is_keyword(keyword)) in.expected("a keyword");
-        in.word("a keyword");
-        if (keyword == "End") break;
-        next();
+    void read_section(const std::string& keyword) {
+        const auto* section = std::find_if(std::begin(sections), std::end(sections),
+                                           [&](const Section& s) { return keyword == s.keyword; });
         if (keyword == "Dimension") {
-            const auto dimension = in.integer<int>("a dimension");
-            if (dimension != 3) in.fail(format("expected dimension 3, found %d", dimension));
-            have_dimension = true;
+            const auto dimension = in_.integer<int>("a dimension");
+            if (dimension != 3) in_.fail(format("expected dimension 3, found %d", dimension));
+            have_dimension_ = true;
         } else if (keyword == "Vertices") {
-            if (have_vertices) in.fail("expected one section Vertices, found a second one");
-            if (!have_dimension) in.fail("expected Dimension before Vertices");
-            have_vertices = true;
-            const auto count = in.count("number of vertices", 8, max_count);
-            data.positions.reserve(3 * count);
-            for (std::uint64_t i = 0; i < count; ++i) {
-                for (int k = 0; k < 3; ++k) {
-                    next();
-                    data.positions.push_back(in.real("a coordinate"));
-                }
-                next();
-                in.integer<std::int64_t>("a reference");
-            }
-        } else if (const Section* section =
-                       std::find_if(std::begin(sections), std::end(sections),
-                                    [&](const Section& candidate) { return keyword == candidate.keyword; });
-                   section != std::end(sections)) {
-            const auto count =
-                in.count("number of elements", 2 * static_cast<std::size_t>(section->nodes + 1), max_count);
-            const bool tets = section->cell == Cell::tet || section->cell == Cell::high_tet;
-            const int wanted = tets ? 4 : section->cell == Cell::triangle ? 3 : 0;
-            std::vector<std::uint32_t>& corners = tets ? data.tets : data.triangles;
-            if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted) * count);
-            for (std::uint64_t e = 0; e < count; ++e) {
-                for (int i = 0; i < section->nodes; ++i) {
-                    next();
-                    const auto number = in.integer<std::int64_t>("a vertex number");
-                    if (i >= wanted) continue;
-                    if (number < 1 || number > static_cast<std::int64_t>(max_count))
-                        in.fail(format("expected a vertex number, counted from 1, found %lld",
-                                       static_cast<long long>(number)));
-                    corners.push_back(static_cast<std::uint32_t>(number - 1));
-                    if (corners.back() >= highest) {
-                        highest = corners.back();
-                        highest_at = in.offset();
-                    }
-                }
-                next();
-                in.integer<std::int64_t>("a reference");
-            }
-            if (!wanted) skipped.add(section->cell, section->name, count);
-            if (section->cell == Cell::high_tet) data.second_order_tets += count;
+            read_vertices();
+        } else if (section != std::end(sections)) {
+            read_elements(*section);
         } else {
-            // Corners, Ridges, Normals and what else there may be: numbers up to the next keyword.
-            while (!in.done() && !is_keyword(in.peek())) {
-                in.word("a number");
-                next();
-            }
+            // Corners, Ridges, Normals and others hold numbers up to the next keyword.
+            for (; !in_.done() && !is_keyword(in_.peek()); in_.skip_space()) in_.word("a number");
         }
     }
-    if (!have_vertices) in.fail("expected a section Vertices, found none");
-    if (highest_at > 0 && highest >= data.positions.size() / 3) {
-        in.seek(highest_at);
-        in.fail(format("expected a vertex number from 1 to %zu, found %llu", data.positions.size() / 3,
-                       static_cast<unsigned long long>(highest) + 1));
+
+    void read_vertices() {
+        if (have_vertices_) in_.fail("expected one section Vertices, found a second one");
+        if (!have_dimension_) in_.fail("expected Dimension before Vertices");
+        have_vertices_ = true;
+        const auto count = in_.count("number of vertices", 8, max_count);
+        data_.positions.reserve(3 * count);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                in_.skip_space();
+                data_.positions.push_back(in_.real("a coordinate"));
+            }
+            integer<std::int64_t>("a reference");
+        }
     }
-    skipped.tell(data);
-    require_tets(data, file.name);
-    return data;
-}
+
+    void read_elements(const Section& section) {
+        const auto count =
+            in_.count("number of elements", 2 * static_cast<std::size_t>(section.nodes + 1), max_count);
+        const bool tets = section.cell == Cell::tet || section.cell == Cell::high_tet;
+        const int wanted = tets ? 4 : section.cell == Cell::triangle ? 3 : 0;
+        std::vector<std::uint32_t>& corners = tets ? data_.tets : data_.triangles;
+        if (wanted) corners.reserve(corners.size() + static_cast<std::size_t>(wanted) * count);
+        for (std::uint64_t e = 0; e < count; ++e) {
+            for (int i = 0; i < section.nodes; ++i) {
+                const auto number = integer<std::int64_t>("a vertex number");
+                if (i >= wanted) continue;
+                if (number < 1 || number > static_cast<std::int64_t>(max_count))
+                    in_.fail(format("expected a vertex number, counted from 1, found %lld", lld(number)));
+                corners.push_back(static_cast<std::uint32_t>(number - 1));
+                if (corners.back() >= highest_) {
+                    highest_ = corners.back();
+                    highest_at_ = in_.offset();
+                }
+            }
+            integer<std::int64_t>("a reference");
+        }
+        if (!wanted) skipped_.add(section.cell, section.name, count);
+        if (section.cell == Cell::high_tet) data_.second_order_tets += count;
+    }
+
+    const File& file_;
+    Scanner in_;
+    MeshData data_;
+    Skipped skipped_;
+    bool have_vertices_ = false, have_dimension_ = false;
+    // The highest corner and where it is. It is checked at the end, as sections may come in any order.
+    std::uint32_t highest_ = 0;
+    std::size_t highest_at_ = 0;
+};
+
+} // namespace
+
+MeshData read_medit(const File& file) { return MeditReader(file).read(); }
 
 } // namespace vox::io

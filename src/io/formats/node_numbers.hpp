@@ -1,6 +1,7 @@
-// From a file's node numbers to vertex indices. Numbers in ascending steps of one, the usual case, cost
-// nothing.
+// Maps the node numbers of a file to vertex indices. Consecutive numbers, the usual case, need no memory.
 #pragma once
+
+#include "io/formats/scan.hpp"
 
 #include <cstdint>
 #include <utility>
@@ -10,9 +11,10 @@ namespace vox::io {
 
 class NodeNumbers {
 public:
-    static constexpr std::uint32_t none = 0xffffffffu;
+    // Error texts call the vertices `one` or `many`, as the format does.
+    explicit NodeNumbers(const char* one = "node", const char* many = "nodes") : one_(one), many_(many) {}
 
-    // Numbers of the vertices, in file order.
+    // Adds the number of the next vertex, in file order.
     void add(std::int64_t number) {
         if (!numbers_.empty()) {
             numbers_.push_back(number);
@@ -26,29 +28,36 @@ public:
         ++count_;
     }
 
-    // After the last add, before the first find. False when two vertices have the number `out_twice`.
-    bool finish(std::int64_t& out_twice);
+    // Must be called after the last add and before the first vertex_of. `in` fails if two vertices have the
+    // same number.
+    void finish(const Scanner& in);
 
-    // Index of the vertex with that number, or none.
-    std::uint32_t find(std::int64_t number) const noexcept {
-        if (!numbers_.empty()) return find_slow(number);
-        return distance(number) < count_ ? static_cast<std::uint32_t>(distance(number)) : none;
+    // Returns the index of the vertex with that number. `in` fails if there is none.
+    std::uint32_t vertex_of(std::int64_t number, const Scanner& in) const {
+        if (numbers_.empty() && distance(number) < count_)
+            return static_cast<std::uint32_t>(distance(number));
+        const std::uint32_t vertex = find_slow(number);
+        if (vertex == none) fail(number, in);
+        return vertex;
     }
 
-    std::uint64_t count() const noexcept { return count_; }
-
 private:
-    // number - first_, huge where number < first_.
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    // number - first_, or a huge value if number < first_.
     std::uint64_t distance(std::int64_t number) const noexcept {
         return static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(first_);
     }
     std::uint32_t find_slow(std::int64_t number) const noexcept;
+    [[noreturn]] void fail(std::int64_t number, const Scanner& in) const;
 
-    std::int64_t first_ = 0; // the smallest number once finished
+    const char* one_;
+    const char* many_;
+    std::int64_t first_ = 0; // of the numbers added; after finish, the smallest
     std::uint64_t count_ = 0;
-    std::vector<std::int64_t> numbers_; // only when they are not consecutive
-    std::vector<std::uint32_t> table_;  // number - first_ -> index, when dense enough
-    std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_; // (number, index), when not
+    std::vector<std::int64_t> numbers_; // empty while all numbers are consecutive
+    std::vector<std::uint32_t> table_;  // index of number first_ + i, if the numbers are dense
+    std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_; // (number, index), if they are sparse
 };
 
 } // namespace vox::io

@@ -1,5 +1,5 @@
-// OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII. A reader of
-// our own: assimp 5.2.5 takes faces to lie on one line each and crashes where they do not.
+// OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII. assimp 5.2.5
+// is not used for it because it expects each face on a line of its own and crashes otherwise.
 #include "io/formats/readers.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace vox::io {
 namespace {
 
-// The header word without its prefixes: ST (texture), C (colours) and N (normals) only add fields that are
+// The header word without its prefixes. ST (texture), C (colours) and N (normals) only add fields, which are
 // skipped.
 std::string_view base_keyword(std::string_view word) {
     if (word.starts_with("ST")) word.remove_prefix(2);
@@ -45,7 +45,7 @@ MeshData read_off(const File& file) {
     const auto vertices = in.count("number of vertices", 6, max_count);
     in.skip_space();
     const auto faces = in.count("number of faces", 4, max_count);
-    in.skip_line(); // the number of edges, which nobody keeps right
+    in.skip_line(); // the number of edges, which is often wrong
 
     data.positions.reserve(3 * vertices);
     for (std::uint64_t v = 0; v < vertices; ++v) {
@@ -64,8 +64,7 @@ MeshData read_off(const File& file) {
             const auto vertex = in.integer<std::uint64_t>("a vertex number");
             if (vertex >= vertices)
                 in.fail(format("expected a vertex number from 0 to %llu, found %llu",
-                               static_cast<unsigned long long>(std::max<std::uint64_t>(vertices, 1) - 1),
-                               static_cast<unsigned long long>(vertex)));
+                               llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex)));
             const auto corner = static_cast<std::uint32_t>(vertex);
             if (i == 0) first = corner;
             if (i >= 2) data.triangles.insert(data.triangles.end(), {first, last, corner}); // a fan

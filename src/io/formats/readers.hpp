@@ -1,6 +1,6 @@
-// One reader a format: bytes in, plain arrays out. A reader checks every count against the bytes that are
-// left before it reserves memory by it, and every index before it uses it; failures are Errors that name the
-// place.
+// The readers, one for each format, turn bytes into plain arrays. A reader checks every count against the
+// remaining bytes before it reserves memory for it, and every index before it uses it. Its failures are
+// Errors that name the place in the file.
 #pragma once
 
 #include "io/formats/scan.hpp"
@@ -17,41 +17,41 @@ MeshData read_vtu(const File& file);
 
 // OFF surfaces; polygons are cut into fans.
 bool starts_as_off(std::string_view bytes);
-bool is_off(const File& file); // by content or by name: assimp never gets a file it takes for OFF
+bool is_off(const File& file); // by content or name, so that assimp never gets a file it considers OFF
 MeshData read_off(const File& file);
 
-// Surfaces through assimp: from memory, or from a path when other files may lie beside it.
-// `extension` without its dot; mesh_index as in vox_io_load_desc.
+// Reads surfaces through assimp, from memory or from a path, beside which other files may be needed.
+// `extension` comes without its dot; mesh_index is as in vox_io_load_desc.
 MeshData read_surface(const File& file, const std::string& extension, std::uint32_t mesh_index);
 MeshData read_surface_at(const std::string& path, std::uint32_t mesh_index);
 bool is_surface_extension(const std::string& extension);
 
-// What `bytes` is, told by its first characters; AUTO when they say nothing.
+// The format that the first characters of `bytes` indicate, or AUTO.
 vox_io_format format_of_content(std::string_view bytes);
-// What a file of this name holds; AUTO when the extension is unknown.
+// The format that the extension indicates, or AUTO.
 vox_io_format format_of_extension(const std::string& extension);
 // The part of a name after its last dot, in lower case.
 std::string extension_of(std::string_view name);
 
-// Throws when the file is none of ours for a reason worth telling: empty, UTF-16, compressed, a web page.
-void refuse_strangers(const File& file);
+// Throws if the file is recognised as something other than a mesh (empty, UTF-16, compressed, a web page).
+void refuse_other_content(const File& file);
 
 // ---- shared by the readers ----
 
-// What becomes of one cell of a mixed mesh.
+// How a cell of a mixed mesh is treated.
 enum class Cell : std::uint8_t {
-    tet,      // four nodes
-    high_tet, // more nodes, the corners first
-    triangle, // three nodes, or more with the corners first
-    volume,   // another volume element: worth a word when skipped
-    other     // points, lines, quadrilaterals and the like
+    tet,      // has four nodes
+    high_tet, // has more nodes, of which the corners come first and are used
+    triangle, // has three nodes, or more with the corners first
+    volume,   // any other volume element: skipped, with a warning
+    other     // points, lines, quadrilaterals and the like: skipped
 };
 
-// Counts skipped cells and says afterwards which volume elements were left out.
+// Counts skipped cells, and by name those that are volume elements.
 class Skipped {
 public:
     void add(Cell cell, const char* name, std::uint64_t number);
-    void tell(MeshData& data) const;
+    void report(MeshData& data) const;
 
 private:
     struct Kind {
@@ -62,10 +62,10 @@ private:
     std::uint64_t elements_ = 0;
 };
 
-// Throws, naming the file, when data holds no tet. Every reader of a tet format ends with it.
+// Throws, naming the file, if data holds no tet. Every reader of a tet format ends with this.
 void require_tets(const MeshData& data, const std::string& name);
 
-// Most vertices and most tets of a mesh.
+// The largest number of vertices, and of tets, of a mesh.
 inline constexpr std::uint64_t max_count = VOX_MAX_VERTICES;
 
 } // namespace vox::io

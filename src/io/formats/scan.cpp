@@ -41,16 +41,15 @@ void Scanner::out_of_range(const char* what) {
 void Scanner::check_count(const char* what, std::uint64_t value, std::size_t bytes, std::uint64_t limit,
                           std::size_t at) const {
     if (value > remaining() / bytes)
-        throw Error(VOX_ERROR_FORMAT,
-                    format("%s: %s: %llu are declared, but only %zu bytes follow", place(at).c_str(), what,
-                           static_cast<unsigned long long>(value), remaining()));
+        throw Error(VOX_ERROR_FORMAT, format("%s: %s: %llu are declared, but only %zu bytes follow",
+                                             place(at).c_str(), what, llu(value), remaining()));
     if (value > limit)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("%s: %s: %llu are more than the limit of %llu", place(at).c_str(), what,
-                           static_cast<unsigned long long>(value), static_cast<unsigned long long>(limit)));
+        throw Error(VOX_ERROR_LIMIT, format("%s: %s: %llu are more than the limit of %llu", place(at).c_str(),
+                                            what, llu(value), llu(limit)));
 }
 
-// The first significant digit, moved by the exponent, stands behind the decimal point.
+// A number out of range is tiny if its first significant digit, shifted by the exponent, is behind the
+// decimal point.
 bool Scanner::is_tiny(std::string_view number) noexcept {
     const std::size_t e = std::min(number.find_first_of("eE"), number.size());
     const std::string_view digits = number.substr(0, e);

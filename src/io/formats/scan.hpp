@@ -1,7 +1,8 @@
-// Reading text and binary mesh files from memory: one pass, no copies, every failure with its place.
+// Reads text and binary mesh files from memory in one pass, without copies. Every failure names its place.
 #pragma once
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -21,15 +22,15 @@ struct File {
     std::string_view bytes;
 };
 
-// `text` cut to a length fit for an error message, with everything unprintable shown as "?".
+// Text for an error message, shortened to `longest` characters, with unprintable ones shown as "?".
 std::string printable(std::string_view text, std::size_t longest = 40);
 
-// A position in a file. Fields are read inside one line unless skip_space() is called between them; line ends
-// are "\n", "\r\n" or "\r". The place of a failure is worked out when it happens, so that reading costs
-// nothing.
+// A position in a file. Fields are read within one line unless skip_space() is called between them; line ends
+// are "\n", "\r\n" or "\r". Line numbers are computed only when a failure needs one, so that reading does not
+// pay for them.
 class Scanner {
 public:
-    // From `comment` to the end of a line counts as blank; 0: the format has no comments.
+    // `comment` begins a comment, which extends to the end of its line; 0: the format has no comments.
     explicit Scanner(const File& file, char comment = 0)
         : name_(file.name), begin_(file.bytes.data()), at_(begin_), end_(begin_ + file.bytes.size()),
           comment_(comment) {}
@@ -42,15 +43,15 @@ public:
     void seek(std::size_t offset) noexcept { at_ = begin_ + offset; }
     std::string_view rest() const noexcept { return {at_, remaining()}; }
 
-    // Failures are told by byte instead of by line from here on, or the reverse.
+    // From now on failures name the byte (on) or the line (off).
     void count_bytes(bool on) noexcept { bytes_ = on; }
 
     std::string place(std::size_t offset) const;
     std::string place() const { return place(offset()); }
 
-    // "FILE, line N: expected WHAT, found ..." with what stands at this place.
+    // Throws "FILE, line N: expected WHAT, found ..." with the word at this place.
     [[noreturn]] void expected(const char* what);
-    // "FILE, line N: TEXT"
+    // Throws "FILE, line N: TEXT".
     [[noreturn]] void fail(const std::string& text, vox_result result = VOX_ERROR_FORMAT) const;
 
     // ---- text ----
@@ -58,7 +59,7 @@ public:
     void skip_blanks() noexcept {
         while (at_ != end_ && is_blank(*at_)) ++at_;
     }
-    // Blanks, comments and line ends.
+    // Skips blanks, comments and line ends.
     void skip_space() noexcept {
         for (;; ++at_) {
             while (at_ != end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
@@ -75,13 +76,13 @@ public:
         while (at_ != end_ && !is_line_end(*at_)) ++at_;
         pass_line_end();
     }
-    // Nothing but blanks may stand before the end of the line; goes to the next one.
+    // Goes to the next line. Fails if anything but blanks remains in this one.
     void line_end() {
         if (!at_line_end()) expected("the end of the line");
         skip_line();
     }
 
-    // What stands here up to white space; stays in place. Empty at the end of a line.
+    // The next word of the line, without passing it. Empty at the end of a line.
     std::string_view peek() noexcept {
         if (at_line_end()) return {};
         const char* stop = at_;
@@ -119,7 +120,7 @@ public:
         double value = 0;
         const auto [stop, error] = std::from_chars(start, end_, value);
         if (error == std::errc::invalid_argument || !at_word_end(stop)) expected(what);
-        // A number too small for a double is read as zero, as C's strtod does; one too large is a failure.
+        // A number too small for a double is read as zero, as by C's strtod; a number too large fails.
         if (error == std::errc::result_out_of_range) {
             if (!is_tiny({start, static_cast<std::size_t>(stop - start)})) out_of_range(what);
         } else if (!std::isfinite(value)) {
@@ -129,8 +130,7 @@ public:
         return value;
     }
 
-    // A count of things of which each takes at least `bytes` bytes of the rest of the file, and at most
-    // `limit`.
+    // Reads a count of at most `limit` items that each take at least `bytes` bytes of the rest of the file.
     std::uint64_t count(const char* what, std::size_t bytes, std::uint64_t limit) {
         skip_blanks();
         if (at_ != end_ && *at_ == '-') expected(what);
@@ -155,7 +155,7 @@ public:
     template <class T>
     T binary(bool swap, const char* what);
 
-    // Whether a decimal number out of a double's range is so for being small.
+    // Whether a decimal number that is out of a double's range is too small rather than too large.
     static bool is_tiny(std::string_view number) noexcept;
 
     static bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -183,7 +183,7 @@ private:
     bool bytes_ = false;
 };
 
-// The value stored at `data`, which need not be aligned; `swap` reverses its bytes.
+// Reads the value stored at `data`, which need not be aligned; `swap` reverses its bytes.
 template <class T>
 T load(const char* data, bool swap) noexcept {
     char bytes[sizeof(T)];

@@ -8,13 +8,12 @@ namespace {
 void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
     Scanner in(file, '#');
     in.skip_space();
-    // "0 0 0 0" and a line end less at the end of the file.
+
     const auto count = in.count("number of nodes", 1, max_count);
     const auto dimension = in.integer<std::int64_t>("number of dimensions");
-    if (dimension != 3)
-        in.fail(format("expected 3 dimensions, found %lld", static_cast<long long>(dimension)));
+    if (dimension != 3) in.fail(format("expected 3 dimensions, found %lld", lld(dimension)));
     in.skip_line();
-    in.check_count("number of nodes", count, 7, max_count, in.offset());
+    in.check_count("number of nodes", count, 7, max_count, in.offset()); // a node is at least "0 0 0 0"
     data.positions.reserve(3 * count);
     for (std::uint64_t i = 0; i < count; ++i) {
         in.skip_space();
@@ -23,12 +22,8 @@ void read_nodes(const File& file, MeshData& data, NodeNumbers& numbers) {
         in.skip_line(); // attributes and boundary marker
     }
     in.skip_space();
-    if (!in.done())
-        in.expected(
-            format("the end of the file after %llu nodes", static_cast<unsigned long long>(count)).c_str());
-    std::int64_t twice;
-    if (!numbers.finish(twice))
-        in.fail(format("two nodes have the number %lld", static_cast<long long>(twice)));
+    if (!in.done()) in.expected(format("the end of the file after %llu nodes", llu(count)).c_str());
+    numbers.finish(in);
 }
 
 void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
@@ -37,8 +32,7 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
     const auto count = in.count("number of tetrahedra", 1, max_count);
     const auto corners = in.integer<std::int64_t>("number of nodes per tetrahedron");
     if (corners != 4 && corners != 10)
-        in.fail(
-            format("expected 4 or 10 nodes per tetrahedron, found %lld", static_cast<long long>(corners)));
+        in.fail(format("expected 4 or 10 nodes per tetrahedron, found %lld", lld(corners)));
     in.skip_line();
     in.check_count("number of tetrahedra", count, 9, max_count, in.offset());
     data.tets.reserve(4 * count);
@@ -48,20 +42,12 @@ void read_tets(const File& file, const NodeNumbers& numbers, MeshData& data) {
         for (std::int64_t c = 0; c < corners; ++c) {
             const auto number = in.integer<std::int64_t>("a node number");
             if (c >= 4) continue; // nodes on edges
-            const std::uint32_t vertex = numbers.find(number);
-            if (vertex == NodeNumbers::none)
-                in.fail(format("expected the number of a node, found %lld, which none of the %llu nodes has",
-                               static_cast<long long>(number),
-                               static_cast<unsigned long long>(numbers.count())));
-            data.tets.push_back(vertex);
+            data.tets.push_back(numbers.vertex_of(number, in));
         }
         in.skip_line(); // attributes
     }
     in.skip_space();
-    if (!in.done())
-        in.expected(
-            format("the end of the file after %llu tetrahedra", static_cast<unsigned long long>(count))
-                .c_str());
+    if (!in.done()) in.expected(format("the end of the file after %llu tetrahedra", llu(count)).c_str());
     if (corners == 10) data.second_order_tets = count;
 }
 

@@ -9,7 +9,7 @@ MeshData read_vega(const File& file) {
     MeshData data;
     data.format = VOX_IO_FORMAT_VEGA;
     Scanner in(file, '#');
-    NodeNumbers numbers;
+    NodeNumbers numbers("vertex", "vertices");
     Skipped skipped;
     bool have_vertices = false, have_elements = false;
     for (in.skip_space(); !in.done(); in.skip_space()) {
@@ -25,8 +25,7 @@ MeshData read_vega(const File& file) {
                 in.fail("*INCLUDE of another file is not read", VOX_ERROR_UNSUPPORTED);
             const auto count = in.count("number of vertices", 7, max_count);
             const auto dimension = in.integer<std::int64_t>("number of dimensions");
-            if (dimension != 3)
-                in.fail(format("expected 3 dimensions, found %lld", static_cast<long long>(dimension)));
+            if (dimension != 3) in.fail(format("expected 3 dimensions, found %lld", lld(dimension)));
             in.skip_line();
             data.positions.reserve(3 * count);
             for (std::uint64_t i = 0; i < count; ++i) {
@@ -35,9 +34,7 @@ MeshData read_vega(const File& file) {
                 for (int k = 0; k < 3; ++k) data.positions.push_back(in.real("a coordinate"));
                 in.skip_line();
             }
-            std::int64_t twice;
-            if (!numbers.finish(twice))
-                in.fail(format("two vertices have the number %lld", static_cast<long long>(twice)));
+            numbers.finish(in);
         } else if (keyword == "*ELEMENTS") {
             if (!have_vertices) in.fail("expected *VERTICES before *ELEMENTS");
             have_elements = true;
@@ -51,8 +48,7 @@ MeshData read_vega(const File& file) {
             const auto count = in.count("number of elements", 9, max_count);
             const auto corners = in.integer<std::int64_t>("number of vertices per element");
             if (corners != (tets ? 4 : 8))
-                in.fail(format("expected %d vertices per element, found %lld", tets ? 4 : 8,
-                               static_cast<long long>(corners)));
+                in.fail(format("expected %d vertices per element, found %lld", tets ? 4 : 8, lld(corners)));
             in.skip_line();
             if (tets) data.tets.reserve(data.tets.size() + 4 * count);
             for (std::uint64_t e = 0; e < count; ++e) {
@@ -60,20 +56,14 @@ MeshData read_vega(const File& file) {
                 in.integer<std::int64_t>("an element number");
                 for (std::int64_t i = 0; i < corners; ++i) {
                     const auto number = in.integer<std::int64_t>("a vertex number");
-                    const std::uint32_t vertex = numbers.find(number);
-                    if (vertex == NodeNumbers::none)
-                        in.fail(format("expected the number of a vertex, found %lld, which none of the %llu "
-                                       "vertices has",
-                                       static_cast<long long>(number),
-                                       static_cast<unsigned long long>(numbers.count())));
+                    const std::uint32_t vertex = numbers.vertex_of(number, in);
                     if (tets) data.tets.push_back(vertex);
                 }
                 in.line_end();
             }
             if (!tets) skipped.add(Cell::volume, "cubes", count);
         }
-        // Up to the next section: nothing, or the lines of a section that is not needed (*MATERIAL, *SET
-        // ...).
+        // Skips the lines of sections that are not needed (*MATERIAL, *SET ...).
         const bool needed = keyword == "*VERTICES" || keyword == "*ELEMENTS";
         for (in.skip_space(); !in.done() && !in.peek().starts_with('*'); in.skip_space()) {
             if (needed) in.expected("a section (*...)");
@@ -82,7 +72,7 @@ MeshData read_vega(const File& file) {
     }
     if (!have_vertices) in.fail("expected a section *VERTICES, found none");
     if (!have_elements) in.fail("expected a section *ELEMENTS, found none");
-    skipped.tell(data);
+    skipped.report(data);
     require_tets(data, file.name);
     return data;
 }

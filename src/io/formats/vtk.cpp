@@ -29,7 +29,7 @@ public:
             } else if (keyword == "METADATA") {
                 skip_metadata();
             } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
-                break; // all we want stands before
+                break; // what follows is not needed
             } else {
                 in_.seek(start);
                 in_.expected("POINTS, CELLS, CELL_TYPES, FIELD, METADATA, POINT_DATA or CELL_DATA");
@@ -49,7 +49,7 @@ public:
                            in_.seek(cells_at_);
                            in_.fail(format("cell %zu: %s", cell, text.c_str()));
                        });
-        skipped.tell(data_);
+        skipped.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
     }
@@ -92,7 +92,7 @@ private:
         return type;
     }
 
-    // A count of values of which each takes `size` bytes in a binary file and at least two in a text file.
+    // Reads a count of values that each take at least `size` bytes in a binary file.
     std::uint64_t count(const char* what, std::size_t size) {
         return in_.count(what, binary_ ? size : 1, max_count * 8);
     }
@@ -100,7 +100,7 @@ private:
     template <class Out>
     void read_numbers(VtkNumber type, std::uint64_t number, std::vector<Out>& out, const char* what) {
         in_.line_end();
-        const std::size_t least = binary_ ? size_of(type) : 2; // the last one may lack its blank
+        const std::size_t least = binary_ ? size_of(type) : 2; // the last number may lack its blank
         in_.check_count(what, number > 0 && !binary_ ? number - 1 : number, least, max_count * 8,
                         in_.offset());
         out.reserve(out.size() + number);
@@ -137,7 +137,7 @@ private:
         const std::size_t start = in_.offset();
         in_.line_end();
         if (next_keyword() && in_.accept("OFFSETS")) {
-            // Version 5.1: `first` offsets, one more than cells, and `second` points.
+            // Version 5.1 has `first` offsets, one more than cells, and `second` points.
             const VtkNumber offset_type = number_type("a number type (vtktypeint64 ...)");
             read_numbers(offset_type, first, ends_, "offsets");
             if (ends_.empty() || ends_[0] != 0) in_.fail("expected offsets that start with 0");
@@ -147,12 +147,12 @@ private:
             const VtkNumber point_type = number_type("a number type (vtktypeint64 ...)");
             read_numbers(point_type, second, connectivity_, "points of cells");
             if (!ends_.empty() && ends_.back() != second)
-                in_.fail(format("expected offsets that end with %llu, found %llu",
-                                static_cast<unsigned long long>(second),
-                                static_cast<unsigned long long>(ends_.back())));
+                in_.fail(format("expected offsets that end with %llu, found %llu", llu(second),
+                                llu(ends_.back())));
             return;
         }
-        // Before: `first` cells, each its number of points and the points; `second` numbers in all.
+        // Earlier versions have `first` cells, each as its number of points and the points, `second` numbers
+        // in all.
         in_.seek(start);
         std::vector<std::uint64_t>& list = connectivity_;
         read_numbers(VtkNumber::i32, second, list, "points of cells");
@@ -162,9 +162,8 @@ private:
             const std::uint64_t points = from < second ? list[from] : 0;
             if (from >= second || points > second - from - 1) {
                 in_.seek(start);
-                in_.fail(format("expected %llu cells in %llu numbers, found only %llu",
-                                static_cast<unsigned long long>(first),
-                                static_cast<unsigned long long>(second), static_cast<unsigned long long>(c)));
+                in_.fail(format("expected %llu cells in %llu numbers, found only %llu", llu(first),
+                                llu(second), llu(c)));
             }
             for (std::uint64_t i = 0; i < points; ++i) list[to++] = list[from + 1 + i]; // drop the counts
             from += 1 + points;
@@ -172,9 +171,8 @@ private:
         }
         if (from != second) {
             in_.seek(start);
-            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu",
-                            static_cast<unsigned long long>(first), static_cast<unsigned long long>(second),
-                            static_cast<unsigned long long>(from)));
+            in_.fail(format("expected the %llu cells to fill %llu numbers, found %llu", llu(first),
+                            llu(second), llu(from)));
         }
         list.resize(to);
     }
@@ -187,7 +185,8 @@ private:
         read_numbers(VtkNumber::i32, number, types_, "a cell type");
     }
 
-    // FIELD name arrays, then for each: name, components, tuples, type, and the values.
+    // A field is its name, the number of arrays, and for each array its name, components, tuples, type and
+    // values.
     void skip_field() {
         in_.word("a field name");
         const std::uint64_t arrays = count("number of arrays", 1);
@@ -221,7 +220,7 @@ private:
         }
     }
 
-    // Lines up to an empty one.
+    // Metadata end with an empty line.
     void skip_metadata() {
         in_.line_end();
         while (!in_.done() && !in_.at_line_end()) in_.skip_line();

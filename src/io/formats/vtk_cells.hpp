@@ -9,15 +9,15 @@ namespace vox::io {
 
 struct VtkCellType {
     Cell cell;
-    std::uint64_t least_points; // for the cells we take: the corners
+    std::uint64_t least_points; // 0 for cells that are skipped
     const char* name;
 };
 
-// Type numbers of vtkCellType.h.
+// `type` is a number of vtkCellType.h.
 VtkCellType vtk_cell_type(std::uint64_t type);
 
-// Puts the cells into `data`. Cell c has connectivity[offsets[c - 1]] to connectivity[offsets[c] - 1].
-// `fail(cell, text)` must throw.
+// Adds the cells to `data`. Cell c has the points connectivity[ends[c - 1]] to connectivity[ends[c] - 1],
+// counted from first_vertex. `fail(cell, text)` must throw.
 template <class Fail>
 void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<std::uint64_t>& connectivity,
                     const std::vector<std::uint64_t>& types, std::uint64_t first_vertex,
@@ -25,9 +25,8 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
     for (std::size_t c = 0; c < types.size(); ++c) {
         const std::uint64_t start = c == 0 ? 0 : ends[c - 1];
         if (ends[c] < start || ends[c] > connectivity.size())
-            fail(c,
-                 format("expected offsets that ascend up to %zu, found %llu after %llu", connectivity.size(),
-                        static_cast<unsigned long long>(ends[c]), static_cast<unsigned long long>(start)));
+            fail(c, format("expected offsets that ascend up to %zu, found %llu after %llu",
+                           connectivity.size(), llu(ends[c]), llu(start)));
         const VtkCellType type = vtk_cell_type(types[c]);
         const std::uint64_t points = ends[c] - start;
         if (type.cell == Cell::volume || type.cell == Cell::other) {
@@ -36,9 +35,8 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
         }
         const std::uint64_t corners = type.cell == Cell::triangle ? 3 : 4;
         if (points < type.least_points || (points > type.least_points && type.least_points == corners))
-            fail(c, format("expected %llu points (%s), found %llu",
-                           static_cast<unsigned long long>(type.least_points), type.name,
-                           static_cast<unsigned long long>(points)));
+            fail(c, format("expected %llu points (%s), found %llu", llu(type.least_points), type.name,
+                           llu(points)));
         if (type.cell == Cell::high_tet) ++data.second_order_tets;
         std::vector<std::uint32_t>& out = type.cell == Cell::triangle ? data.triangles : data.tets;
         for (std::uint64_t i = 0; i < corners; ++i) {
@@ -51,13 +49,13 @@ void take_vtk_cells(const std::vector<std::uint64_t>& ends, const std::vector<st
     }
 }
 
-// VTK's names of number types, of both flavours of files.
+// VTK's number types, under the names of both kinds of files.
 enum class VtkNumber : std::uint8_t { none, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
 VtkNumber vtk_number(std::string_view name);
 std::size_t size_of(VtkNumber number);
 
-// Numbers as they are stored: appended to `out`, integers as their 64-bit pattern.
+// Appends stored numbers to `out`, integers as their 64-bit pattern.
 void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
                         std::vector<double>& out);
 void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,

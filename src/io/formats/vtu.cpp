@@ -1,5 +1,5 @@
-// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware): ASCII, base64 and appended arrays, raw or
-// compressed with zlib, headers of 32 or 64 bits, either byte order. XML by pugixml, inflation by zlib.
+// VTK XML unstructured grids, .vtu ("VTK XML Formats", Kitware), with ASCII, base64 and appended arrays, raw
+// or compressed with zlib, headers of 32 or 64 bits, and either byte order.
 #include "io/formats/vtk_cells.hpp"
 
 #include <pugixml.hpp>
@@ -10,8 +10,8 @@
 namespace vox::io {
 namespace {
 
-// The bytes that base64 text stands for. Padding may end a group anywhere: VTK writes the header and the data
-// as separate groups. Blanks are skipped; `fail` throws.
+// Decodes base64 text. Padding may end a group anywhere, as VTK encodes the header and the data separately.
+// White space is skipped. `fail` must throw.
 template <class Fail>
 std::string from_base64(std::string_view text, std::size_t most, const Fail& fail) {
     std::string out;
@@ -51,8 +51,8 @@ std::string from_base64(std::string_view text, std::size_t most, const Fail& fai
 
 struct Array {
     VtkNumber type = VtkNumber::none;
-    std::string bytes; // for binary and appended arrays
-    bool text = false; // for ASCII arrays: numbers in `where.child_value()`
+    std::string bytes; // of binary and appended arrays
+    bool text = false; // an ASCII array, with its numbers in `where.child_value()`
     pugi::xml_node where;
 };
 
@@ -93,7 +93,7 @@ public:
             any = true;
         }
         if (!any) fail(grid, "expected an element Piece, found none");
-        skipped_.tell(data_);
+        skipped_.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
     }
@@ -103,12 +103,12 @@ private:
                            vox_result result = VOX_ERROR_FORMAT) const {
         std::string place = file_.name;
         if (where && where.offset_debug() >= 0)
-            place += format(", byte %lld (%s %s)", static_cast<long long>(where.offset_debug()), where.name(),
+            place += format(", byte %lld (%s %s)", lld(where.offset_debug()), where.name(),
                             printable(where.attribute("Name").value()).c_str());
         throw Error(result, format("%s: %s", place.c_str(), text.c_str()));
     }
 
-    // Appended data may be raw bytes, which are no XML: it is cut out before the rest is parsed.
+    // Appended data may be raw bytes, which are not XML, so it is cut out before the rest is parsed.
     void parse() {
         std::string_view xml = file_.bytes;
         std::string rest;
@@ -127,8 +127,8 @@ private:
         }
         const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
         if (!result)
-            fail({}, format("byte %lld: expected XML, found this: %s", static_cast<long long>(result.offset),
-                            result.description()));
+            fail({},
+                 format("byte %lld: expected XML, found this: %s", lld(result.offset), result.description()));
     }
 
     // ---- arrays ----
@@ -146,8 +146,7 @@ private:
         if (kind == "ascii") {
             const std::size_t length = std::strlen(array.child_value());
             if (values > (length + 1) / 2)
-                fail(array, format("expected %llu values, found %zu characters",
-                                   static_cast<unsigned long long>(values), length));
+                fail(array, format("expected %llu values, found %zu characters", llu(values), length));
             out.text = true;
         } else if (kind == "binary") {
             out.bytes = decode(array, array.child_value(), true, values, size);
@@ -169,7 +168,7 @@ private:
         return header_size_ == 4 ? load<std::uint32_t>(at, swap_) : load<std::uint64_t>(at, swap_);
     }
 
-    // The first `size` bytes that `source` stands for.
+    // The first `size` bytes of `source`, decoded.
     std::string decoded(const pugi::xml_node& array, std::string_view source, bool base64,
                         std::size_t size) const {
         std::string bytes =
@@ -181,13 +180,13 @@ private:
         return bytes;
     }
 
-    // The values of a binary array: behind a header, whole or in compressed blocks.
+    // The values of a binary array, which follow a header, in one piece or in compressed blocks.
     std::string decode(const pugi::xml_node& array, std::string_view source, bool base64,
                        std::uint64_t values, std::size_t value_size) const {
         const std::size_t available = base64 ? source.size() / 4 * 3 + 3 : source.size();
         const auto too_many = [&](const char* what, std::uint64_t number) {
-            fail(array, format("%s: %llu are declared, but only %zu bytes follow", what,
-                               static_cast<unsigned long long>(number), available));
+            fail(array,
+                 format("%s: %llu are declared, but only %zu bytes follow", what, llu(number), available));
         };
         if (!compressed_) {
             if (values > available / value_size) too_many("values", values);
@@ -196,17 +195,18 @@ private:
             const std::uint64_t declared = header_word(head, 0);
             if (declared != size)
                 fail(array, format("expected %zu bytes of values, found a header that says %llu", size,
-                                   static_cast<unsigned long long>(declared)));
+                                   llu(declared)));
             return decoded(array, source, base64, header_size_ + size).substr(header_size_);
         }
 
-        // Header: blocks, size of a block, size of the last one (0: as the others), compressed size of each.
+        // The header holds the number of blocks, the size of a block, the size of the last one (0: as the
+        // others), and the compressed size of each.
         const std::string start = decoded(array, source, base64, 3 * header_size_);
         const std::uint64_t blocks = header_word(start, 0);
         if (blocks > available / header_size_) too_many("blocks", blocks);
         const std::uint64_t block_size = header_word(start, 1);
         const std::uint64_t last = header_word(start, 2);
-        // zlib packs no more than 1032 to 1.
+        // zlib compresses to no less than 1/1032 of the size.
         if (values > available * 1032 / value_size) too_many("values", values);
         const std::size_t size = values * value_size;
         const std::size_t header = (3 + blocks) * header_size_;
@@ -232,8 +232,7 @@ private:
                            reinterpret_cast<const Bytef*>(all.data() + from), static_cast<uLong>(own));
             if (status != Z_OK || length != wanted)
                 fail(array, format("block %llu: expected %llu bytes packed by zlib, found other data (%s)",
-                                   static_cast<unsigned long long>(b),
-                                   static_cast<unsigned long long>(wanted), zError(status)));
+                                   llu(b), llu(wanted), zError(status)));
             from += own;
             to += wanted;
         }
@@ -247,7 +246,7 @@ private:
         if (!array.text) {
             if (!std::is_floating_point_v<Out> &&
                 (array.type == VtkNumber::f32 || array.type == VtkNumber::f64))
-                fail(array.where, "expected whole numbers, found a type of fractions");
+                fail(array.where, "expected an integer type, found a floating-point type");
             return append_vtk_numbers(array.type, array.bytes.data(), values, swap_, out);
         }
         const File text{file_.name, array.where.child_value()};
@@ -272,8 +271,8 @@ private:
         std::uint64_t number = 0;
         const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error != std::errc{} || stop != text.data() + text.size() || number > max_count)
-            fail(piece, format("expected %s from 0 to %llu, found \"%s\"", name,
-                               static_cast<unsigned long long>(max_count), printable(text).c_str()));
+            fail(piece, format("expected %s from 0 to %llu, found \"%s\"", name, llu(max_count),
+                               printable(text).c_str()));
         return number;
     }
 
@@ -288,20 +287,17 @@ private:
         const std::uint64_t cells = number_of(piece, "NumberOfCells");
         const std::uint64_t first_vertex = data_.positions.size() / 3;
         if (first_vertex + points > max_count)
-            fail(piece, format("more than %llu points in all", static_cast<unsigned long long>(max_count)),
-                 VOX_ERROR_LIMIT);
+            fail(piece, format("more than %llu points in all", llu(max_count)), VOX_ERROR_LIMIT);
         if (points > 0) {
             const pugi::xml_node array = piece.child("Points").child("DataArray");
             if (!array) fail(piece, "expected a DataArray in an element Points, found none");
             const auto components = array.attribute("NumberOfComponents").as_ullong(3);
-            if (components != 3)
-                fail(array, format("expected 3 components, found %llu",
-                                   static_cast<unsigned long long>(components)));
+            if (components != 3) fail(array, format("expected 3 components, found %llu", llu(components)));
             append(open(array, 3 * points), 3 * points, data_.positions);
             for (std::uint64_t i = 3 * first_vertex; i < data_.positions.size(); ++i)
                 if (!std::isfinite(data_.positions[i]))
                     fail(array, format("point %llu: expected a coordinate, found one that is not finite",
-                                       static_cast<unsigned long long>(i / 3 - first_vertex)));
+                                       llu(i / 3 - first_vertex)));
         }
         if (cells == 0) return;
         const pugi::xml_node node = piece.child("Cells");
@@ -312,7 +308,7 @@ private:
         for (std::uint64_t c = 0; c < cells; ++c)
             if (ends[c] < (c == 0 ? 0 : ends[c - 1]) || ends[c] > 8 * max_count)
                 fail(offsets, format("expected offsets that ascend, found %lld at cell %llu",
-                                     static_cast<long long>(ends[c]), static_cast<unsigned long long>(c)));
+                                     static_cast<long long>(ends[c]), llu(c)));
         const pugi::xml_node kinds = cell_array(node, "types");
         append(open(kinds, cells), cells, types);
         const pugi::xml_node list = cell_array(node, "connectivity");

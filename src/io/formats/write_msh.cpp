@@ -1,6 +1,7 @@
-// Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
+// Writes Gmsh .msh 2.2 and 4.1 (Gmsh reference manual, "File formats"). All triangles belong to entity 1 of
 // dimension 2, all tets to entity 1 of dimension 3.
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/formats/writers.hpp"
 
 #include <algorithm>
@@ -53,8 +54,8 @@ void write_point_data(const MeshData& mesh, PointData point_data, bool binary, O
     }
 }
 
-// $Entities of version 4.1: at most one surface and one volume, with the box of all vertices, without
-// physical groups and boundaries.
+// Writes $Entities of version 4.1: at most one surface and one volume, both with the box of all vertices, and
+// without physical groups and boundaries.
 void write_entities(const MeshData& mesh, bool surface, bool volume, bool binary, Output& out) {
     double box[6] = {};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -97,8 +98,8 @@ void write_msh22(const MeshData& mesh, PointData point_data, bool binary, Output
     const Kind kinds[] = {{mesh.triangles, 3, 2, 2}, {mesh.tets, 4, 4, 3}};
     const std::uint64_t elements = kinds[0].count() + kinds[1].count();
     if (elements > std::numeric_limits<std::int32_t>::max())
-        throw Error(VOX_ERROR_LIMIT, format("%llu elements are more than .msh 2.2 can number",
-                                            static_cast<unsigned long long>(elements)));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("%llu elements are more than .msh 2.2 can number", llu(elements)));
     write_header("2.2", binary, out);
     out << "$Nodes\n" << vertices << '\n';
     for (std::uint64_t v = 0; v < vertices; ++v) {
@@ -142,7 +143,7 @@ void write_msh41(const MeshData& mesh, PointData point_data, bool binary, Output
 
     write_entities(mesh, node_dimension == 2 || kinds[0].count() > 0, node_dimension == 3, binary, out);
 
-    // One block of nodes, which names its entity, parametric and the number of nodes.
+    // There is one block of nodes. It begins with its entity, `parametric` and the number of nodes.
     out << "$Nodes\n";
     if (binary) {
         out.binary<std::uint64_t>(1).binary(vertices).binary<std::uint64_t>(1).binary(vertices);

@@ -1,4 +1,5 @@
-// VTK XML unstructured grid ("VTK XML Formats", Kitware): text, or raw appended arrays with 64-bit headers.
+// Writes VTK XML unstructured grids ("VTK XML Formats", Kitware) as text, or with raw appended arrays that
+// have 64-bit headers.
 #include "io/formats/writers.hpp"
 
 namespace vox::io {
@@ -21,7 +22,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-// A DataArray: declared with its values (text) or with the place of its values (binary).
+// A DataArray is declared with its values (text) or with the offset of its values (binary).
 class Arrays {
 public:
     Arrays(bool binary, Output& out) : binary_(binary), out_(out) {}
@@ -52,7 +53,7 @@ public:
         out_ << "</DataArray>\n";
     }
 
-    // The values of all arrays declared so far.
+    // Writes the values of all arrays declared so far.
     void append() {
         if (!binary_) return;
         out_ << "<AppendedData encoding=\"raw\">\n_";

@@ -1,4 +1,4 @@
-// One writer a format: a mesh and numbers on its vertices in, bytes out.
+// The writers, one for each format, turn a mesh and numbers on its vertices into bytes.
 #pragma once
 
 #include "io/mesh_data.hpp"
@@ -12,7 +12,7 @@
 
 namespace vox::io {
 
-// Collects bytes and hands them on in large pieces. `flush` must be called at the end.
+// Collects bytes and passes them on in large pieces. `flush` must be called at the end.
 class Output {
 public:
     explicit Output(std::function<void(std::string_view)> write) : write_(std::move(write)) {
@@ -27,7 +27,7 @@ public:
         buffer_ += c;
         return checked();
     }
-    Output& operator<<(double value) { return number(value); } // shortest text that reads back the same
+    Output& operator<<(double value) { return number(value); } // shortest text that gives the same double
     Output& operator<<(std::uint32_t value) { return number(value); }
     Output& operator<<(std::uint64_t value) { return number(value); }
 

@@ -13,7 +13,7 @@ using Point = std::array<double, 3>;
 
 double norm(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
-// `depth` is positive inside and lies within +-half of the origin.
+// Fills the region where `depth` is positive, which must be within +-half of the origin.
 template <class Depth>
 MeshData make(const Point& half, double cell, Depth&& depth) {
     const Frame frame = make_frame({-half[0], -half[1], -half[2]}, half, cell);

@@ -1,4 +1,4 @@
-// Bodies given by a function of space, positive inside, by isosurface stuffing.
+// Makes bodies by isosurface stuffing, from functions of space that are positive inside.
 #pragma once
 
 #include "io/mesh_data.hpp"

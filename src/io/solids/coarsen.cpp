@@ -1,7 +1,9 @@
-// Labelle and Shewchuk 2007, Sect. 4: a balanced octree of body-centred cells, uniform at the boundary. Its
-// tetrahedra are those of the lattice, the same halved where an edge has a midpoint, and half pyramids and
-// quarters where cells of different size meet. They have angles of 45 degrees and more.
+// A balanced octree of body-centred cells, uniform at the boundary: Labelle and Shewchuk 2007, Sect. 4. Its
+// tetrahedra are those of the lattice, halves of them if an edge has a midpoint, and half pyramids and
+// quarter pyramids between cells of different size. Their dihedral angles are at least 45 degrees.
 #include "io/solids/coarsen.hpp"
+
+#include "io/determinant.hpp"
 
 #include <utility>
 
@@ -27,9 +29,7 @@ std::int64_t orientation(const std::array<Node, 4>& t) {
     std::array<std::array<std::int64_t, 3>, 3> e{};
     for (std::size_t i = 0; i < 3; ++i)
         e[i] = {t[i + 1].x - t[0].x, t[i + 1].y - t[0].y, t[i + 1].z - t[0].z};
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    return determinant(e[0], e[1], e[2]);
 }
 
 } // namespace
@@ -61,7 +61,7 @@ Octree::Octree(const Frame& frame, const NodeSet& inside, const std::function<bo
         for (std::int32_t& cells : coarse.cells) cells = (cells + 1) / 2;
         merged_[level].for_each_run([&](std::uint32_t, const Run& run) {
             if (run.y % 4 != 0 || run.z % 4 != 0) return;
-            // Cells of the next level: all their eight parts and the ring of cells around those.
+            // A cell of the next level needs its eight parts and the ring of cells around them.
             for (std::int32_t i = (run.first + 1) / 2; 2 * i + 2 <= run.last; ++i) {
                 bool all = 2 * i - 1 >= run.first;
                 for (std::int32_t n = 0; n < 64 && all; ++n)
@@ -88,7 +88,7 @@ void Octree::for_each_tet(const std::function<void(const std::array<Node, 4>&)>&
                 const bool larger = holds(level + 1, parent(next));
                 const bool equal = !larger && level > 0 && direction > 0 && is_leaf(level, next);
                 if (!larger && !equal) continue;
-                // The corners of the face, round about.
+                // The corners of the face, in cyclic order.
                 const unsigned u = (axis + 1) % 3, v = (axis + 2) % 3;
                 std::array<Node, 4> corners;
                 corners[0] =
@@ -97,8 +97,8 @@ void Octree::for_each_tet(const std::function<void(const std::array<Node, 4>&)>&
                 corners[2] = step(corners[1], v, side);
                 corners[3] = step(corners[0], v, side);
                 if (larger) {
-                    // The diagonal through the centre of the larger cell's face, where four of these faces
-                    // meet.
+                    // The face is split by the diagonal to the centre of the larger cell's face, where four
+                    // of these faces meet.
                     const Node far_apex = centre(level + 1, parent(next));
                     for (unsigned c = 0; c < 4; ++c) {
                         const Node& middle = corners[c];
@@ -116,7 +116,7 @@ void Octree::for_each_tet(const std::function<void(const std::array<Node, 4>&)>&
                 }
                 const Node far_apex = centre(level, next);
                 for (unsigned c = 0; c < 4; ++c) {
-                    // The edge has a midpoint when a cell across it is smaller.
+                    // The edge has a midpoint if a cell across it is smaller.
                     const unsigned across = c % 2 == 0 ? v : u;
                     const std::int32_t away = c == 0 || c == 3 ? -1 : 1;
                     const Node &p = corners[c], &q = corners[(c + 1) % 4];

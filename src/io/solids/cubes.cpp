@@ -3,6 +3,7 @@
 #include "io/solids/cubes.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/solids/five_tets.hpp"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Whether the triangle meets the unit cube at `cube`, with a little more room, so that none is missed by
-// rounding.
+// Whether the triangle intersects the unit cube at `cube`, enlarged a little so that no cube is missed
+// because of rounding.
 bool touches(const std::array<Vector, 3>& triangle, const Vector& cube) {
     constexpr double half = 0.5 + 1e-7;
     std::array<Vector, 3> p = triangle;
@@ -43,8 +44,8 @@ bool touches(const std::array<Vector, 3>& triangle, const Vector& cube) {
     return !apart(cross(edges[0], edges[1]));
 }
 
-// Calls visit(i, j, k) for the unit cubes that the triangle touches. Goes through columns along the axis that
-// the triangle faces most, so that the work goes with its area.
+// Calls visit(i, j, k) for the unit cubes that the triangle touches. It searches columns along the axis
+// closest to the triangle's normal, so that the work is proportional to the area.
 template <class Visit>
 void for_each_touched(const std::array<Vector, 3>& triangle, Visit&& visit) {
     Vector e1{}, e2{};
@@ -65,13 +66,14 @@ void for_each_touched(const std::array<Vector, 3>& triangle, Visit&& visit) {
     }
     for (std::int32_t i = low[u]; i <= high[u]; ++i)
         for (std::int32_t j = low[v]; j <= high[v]; ++j) {
-            // Where the plane passes through the column; all of the triangle's extent when it has no normal.
+            // The range where the plane passes through the column, or all of the triangle's extent if it has
+            // no normal.
             double least = low[w], most = high[w];
             if (normal[w] != 0) {
                 const double at = triangle[0][w] - ((i + 0.5 - triangle[0][u]) * normal[u] +
                                                     (j + 0.5 - triangle[0][v]) * normal[v]) /
                                                        normal[w];
-                // The slope against u and v is at most one each.
+                // The slope is at most 1 in u and in v.
                 least = std::max(least, std::floor(at - 1.01));
                 most = std::min(most, std::floor(at + 1.01));
             }
@@ -91,8 +93,7 @@ void check_count(std::uint64_t cubes, std::uint64_t max_tets) {
     if (5 * cubes > max_tets)
         throw Error(VOX_ERROR_LIMIT,
                     format("%llu cubes make %llu tets, at most %llu are allowed: choose larger cells",
-                           static_cast<unsigned long long>(cubes), static_cast<unsigned long long>(5 * cubes),
-                           static_cast<unsigned long long>(max_tets)));
+                           llu(cubes), llu(5 * cubes), llu(max_tets)));
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Bodies of whole lattice cubes, five tetrahedra each.
+// Makes bodies of whole lattice cubes, five tetrahedra each.
 #pragma once
 
 #include "io/mesh_data.hpp"
@@ -6,8 +6,8 @@
 
 namespace vox::io {
 
-// The cubes that a triangle of the surface touches, and those whose centre is inside (a node of odd
-// coordinates).
+// The cubes that a triangle of the surface touches, and those whose centre, a node of odd coordinates, is in
+// `inside`.
 MeshData make_cubes(const vox_io_mesh_view& surface, const Frame& frame, const NodeSet& inside,
                     std::uint64_t max_tets);
 

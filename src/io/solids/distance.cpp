@@ -1,5 +1,5 @@
-// Nearest point of a triangle by the regions of its plane: Ericson, "Real-time collision detection",
-// 2005, 5.1.5.
+// Finds the closest point of a triangle by the regions of its plane: Ericson, "Real-time collision
+// detection", 2005, Sect. 5.1.5.
 #include "io/solids/distance.hpp"
 
 #include <Eigen/Core>
@@ -90,7 +90,8 @@ double TriangleTree::squared_distance(const std::array<double, 3>& point, double
     const Vector3d p(point[0], point[1], point[2]);
     const auto corner = [&](std::uint32_t v) { return Vector3d(positions_ + 3 * std::size_t{v}); };
     double best = std::numeric_limits<double>::infinity();
-    // Median splits of fewer than 2^32 triangles are at most 32 deep, and one node a level waits.
+    // Median splits of fewer than 2^32 triangles are at most 32 levels deep, and one node waits on each
+    // level.
     std::array<std::uint32_t, 64> waiting{};
     std::size_t count = 0;
     waiting[count++] = 0;

@@ -1,4 +1,4 @@
-// Distance from points to a set of triangles.
+// Distances from points to a set of triangles.
 #pragma once
 
 #include <array>
@@ -7,19 +7,20 @@
 
 namespace vox::io {
 
-// Bounding volume hierarchy over triangles: median splits, exact distances.
+// A bounding volume hierarchy over triangles, built by median splits.
 class TriangleTree {
 public:
     // `positions`: 3 a vertex, borrowed; `triangles`: 3 indices each. At least one triangle.
     TriangleTree(const double* positions, std::vector<std::uint32_t> triangles);
 
-    // Squared distance to the nearest triangle; when that is not above `enough`, any number not above it.
+    // Squared distance to the nearest triangle. If that is at most `enough`, any number up to `enough` may be
+    // returned.
     double squared_distance(const std::array<double, 3>& point, double enough) const;
 
 private:
     struct Node {
         std::array<double, 3> min, max;
-        std::uint32_t first, count; // of the triangles; count 0: children are this node + 1 and `first`
+        std::uint32_t first, count; // triangles; with count 0, the children are this node + 1 and `first`
     };
 
     void build(std::uint32_t first, std::uint32_t count);

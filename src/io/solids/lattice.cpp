@@ -60,7 +60,7 @@ NodeSet with_neighbours(const Frame& frame, const NodeSet& nodes) {
             runs.push_back({run.y + step, run.z, run.first, run.last});
             runs.push_back({run.y, run.z + step, run.first, run.last});
         }
-        // Along the diagonals x changes by one, to the other parity: 2 i + parity +- 1.
+        // Along the diagonals x changes by one, and thus its parity: 2 i + parity +- 1.
         const std::int32_t parity = run.y & 1;
         for (const std::int32_t y : {-1, 1})
             for (const std::int32_t z : {-1, 1})

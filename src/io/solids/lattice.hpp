@@ -1,7 +1,7 @@
-// The body-centred cubic lattice that isosurface stuffing works on, and sparse sets of its points.
+// The body-centred cubic lattice for isosurface stuffing, and sparse sets of its points.
 //
-// Coordinates are integers in units of half a cell. A lattice point has three even coordinates (corners of
-// the cubic cells) or three odd ones (their centres). It has fourteen neighbours: six along the axes at
+// Coordinates are integers in units of half a cell. A lattice point has three even coordinates (a corner of
+// the cubic cells) or three odd ones (a centre of a cell). It has fourteen neighbours, six along the axes at
 // distance 2 (long edges) and eight along the cubes' diagonals at distance sqrt(3) (short edges).
 #pragma once
 
@@ -16,8 +16,8 @@ struct Node {
     std::int32_t x, y, z;
 };
 
-// Neighbour k lies at neighbour_steps[k], neighbour k ^ 1 at its opposite. k / 2 is the direction: 0, 1, 2
-// the axes.
+// Neighbour k is at neighbour_steps[k], and neighbour k ^ 1 opposite to it. k / 2 is the direction, of which
+// 0, 1 and 2 are the axes.
 inline constexpr std::array<Node, 14> neighbour_steps = {{{2, 0, 0},
                                                           {-2, 0, 0},
                                                           {0, 2, 0},
@@ -32,13 +32,13 @@ inline constexpr std::array<Node, 14> neighbour_steps = {{{2, 0, 0},
                                                           {-1, 1, -1},
                                                           {1, -1, -1},
                                                           {-1, 1, 1}}};
-inline constexpr unsigned long_neighbours = 6; // the first six
+inline constexpr unsigned long_neighbours = 6; // the first six, at the end of long edges
 
 constexpr Node operator+(const Node& a, const Node& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-// Where the lattice lies in space, and how many cells it has.
+// The lattice's position in space, and how many cells it has.
 struct Frame {
-    std::array<double, 3> origin{}; // of node (0, 0, 0)
+    std::array<double, 3> origin{}; // position of node (0, 0, 0)
     double half_cell = 0;
     std::array<std::int32_t, 3> cells{}; // nodes run from 0 to 2 * cells
 
@@ -47,27 +47,27 @@ struct Frame {
     }
 };
 
-// Longest side of a lattice, in cells.
+// The longest possible side of a lattice, in cells.
 inline constexpr std::int32_t max_cells = 4096;
 
-// A lattice of `cell` sized cells around the box, centred on it, with a margin of two cells on each side.
-// Throws LIMIT when it would have more than max_cells cells along an axis.
+// A lattice of cells with edge `cell`, centred on the box, with a margin of two cells on each side. Throws
+// LIMIT if the box is longer than max_cells cells along an axis.
 Frame make_frame(const std::array<double, 3>& box_min, const std::array<double, 3>& box_max, double cell);
 
-// Nodes (2 * first + parity, y, z) to (2 * last + parity, y, z): parity is that of y, which is that of z.
+// The nodes (2 * first + parity, y, z) to (2 * last + parity, y, z), where parity is that of y and of z.
 struct Run {
     std::int32_t y, z;
     std::int32_t first, last;
 };
 
-// A set of nodes kept as runs along x. Nodes are numbered 0 to size - 1, row by row. Memory goes with the
-// number of rows and runs.
+// A set of nodes stored as runs along x. Nodes are numbered 0 to size - 1, row by row. Memory is proportional
+// to the number of rows and runs.
 class NodeSet {
 public:
     static constexpr std::uint32_t none = 0xffffffffu;
 
     NodeSet() = default;
-    // The union of the runs. Throws LIMIT where it would hold more than 2^32 - 2 nodes.
+    // The union of the runs. Throws LIMIT if it would contain more than 2^32 - 2 nodes.
     NodeSet(const Frame& frame, std::vector<Run> runs);
 
     std::uint32_t size() const { return size_; }
@@ -114,13 +114,13 @@ private:
                static_cast<std::size_t>(y);
     }
 
-    std::int32_t rows_y_ = 0, rows_z_ = 0; // of one parity
+    std::int32_t rows_y_ = 0, rows_z_ = 0; // numbers of rows of one parity
     std::uint32_t size_ = 0;
     std::vector<std::uint32_t> row_start_;
     std::vector<Span> spans_;
 };
 
-// The set with all fourteen neighbours of its nodes.
+// The nodes together with all their neighbours.
 NodeSet with_neighbours(const Frame& frame, const NodeSet& nodes);
 
 } // namespace vox::io

@@ -1,11 +1,12 @@
-// A ball as a cubic lattice, each cube cut in five tetrahedra, the boundary moved onto the sphere and the
-// inside smoothed. It gives the mean edge and the optima that Tables 1 and 2 of the cell size paper state for
-// the five spheres (n_trad within .4 %, n_a within .5 %); lattices that are laid over a shape and fitted to
-// its boundary: Spillmann, Wagner, Teschner, "Robust tetrahedral meshing of triangle soups", VMV 2006.
+// A ball is a cubic lattice with each cube split into five tetrahedra, the boundary moved onto the sphere and
+// the inside smoothed. It reproduces the mean edge and the optima that Tables 1 and 2 of the cell size paper
+// state for the five spheres (n_trad within .4 %, n_a within .5 %). Fitting a lattice to the boundary of a
+// shape follows Spillmann, Wagner, Teschner, "Robust tetrahedral meshing of triangle soups", VMV 2006.
 //
-// Deterministic on every platform: only + - * / and square roots, in a fixed order.
+// The result is the same on every platform, since it uses only + - * / and square roots, in a fixed order.
 #include "io/solids/lattice_ball.hpp"
 
+#include "io/determinant.hpp"
 #include "io/solids/five_tets.hpp"
 
 #include <algorithm>
@@ -18,13 +19,14 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// The origin's place in its cube, so that the body has no exact symmetry.
+// The origin's position in its cube, chosen so that the body has no exact symmetry.
 constexpr Point offset = {.137, .271, .419};
 constexpr double pi = std::numbers::pi;
 
 double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
-// Newton's iteration rather than std::cbrt, whose last bit depends on the platform. `x` is positive.
+// Uses Newton's iteration rather than std::cbrt, whose last bit depends on the platform. `x` must be
+// positive.
 double cube_root(double x) {
     int exponent = 0;
     (void)std::frexp(x, &exponent);
@@ -36,15 +38,13 @@ double cube_root(double x) {
     }
 }
 
-// The cubes [i, i + 1] of spacing `spacing` whose eight corners lie in the unit ball; i from -half to half -
-// 1 on each axis. Lattice points are numbered as they are met, x fastest, and the ones in use hold
-// consecutive numbers.
+// A lattice with cubes from -half to half - 1 on each axis. Points are indexed with x fastest.
 struct Lattice {
     std::int64_t half = 0;
-    std::int64_t side = 0;             // points an axis
-    std::vector<std::uint8_t> inside;  // per point: in the ball
-    std::vector<std::uint8_t> kept;    // per cube, numbered by its lowest corner
-    std::vector<std::uint32_t> vertex; // per point: its number, or none
+    std::int64_t side = 0;             // points along an axis
+    std::vector<std::uint8_t> inside;  // for each point, whether it is in the ball
+    std::vector<std::uint8_t> kept;    // for each cube, by its lowest corner, whether it is in the ball
+    std::vector<std::uint32_t> vertex; // for each point its vertex, or none
     std::uint64_t cubes = 0;
 };
 
@@ -68,7 +68,7 @@ Lattice select_cubes(double spacing) {
         for (std::int64_t y = 0; y < side; ++y)
             for (std::int64_t x = 0; x < side; ++x)
                 lattice.inside[at++] = norm(lattice_point(lattice.half, spacing, x, y, z)) <= 1;
-    // The outermost points lie well outside the ball, so every point of an inner cube has all its neighbours.
+    // The outermost points are well outside the ball, so every point of an inner cube has all its neighbours.
     for (std::size_t i = 0; i + static_cast<std::size_t>(side * side + side + 1) < lattice.inside.size();
          ++i) {
         bool all = true;
@@ -86,14 +86,12 @@ double signed_volume(const double* a, const double* b, const double* c, const do
     const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const Point v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     const Point w = {d[0] - a[0], d[1] - a[1], d[2] - a[2]};
-    return (u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-            u[2] * (v[0] * w[1] - v[1] * w[0])) /
-           6;
+    return determinant(u, v, w) / 6;
 }
 
-// Moves each inner vertex to the mean of its neighbours, all at once, three times. An inner vertex has all
-// its eight cubes, hence six neighbours along the axes and, when the diagonals of the faces around it end in
-// it, twelve along those.
+// Moves all inner vertices at once to the mean of their neighbours, three times. An inner vertex has all of
+// its eight cubes and therefore six neighbours along the axes and, if the diagonals of the faces around it
+// end in it, twelve along those.
 void smooth_inside(std::vector<double>& positions, const Lattice& lattice,
                    const std::vector<std::uint32_t>& points, const std::vector<std::uint8_t>& boundary) {
     const std::int64_t steps[3] = {1, lattice.side, lattice.side * lattice.side};
@@ -126,8 +124,8 @@ void smooth_inside(std::vector<double>& positions, const Lattice& lattice,
     }
 }
 
-// Tets flatter than a thousandth of the median volume (four corners on the sphere, for the most part) go, and
-// with them the vertices that nothing uses any more.
+// Removes tets of less than a thousandth of the median volume (most of them have four corners on the sphere),
+// and the vertices that are no longer used.
 void drop_flat(MeshData& mesh) {
     const std::size_t count = mesh.tets.size() / 4;
     std::vector<double> volumes(count);
@@ -165,7 +163,7 @@ void drop_flat(MeshData& mesh) {
     for (std::uint32_t& v : mesh.tets) v = number[v];
 }
 
-// The ball of radius 1 over a lattice of the given spacing; empty where no cube fits.
+// The ball of radius 1 over a lattice of the given spacing; empty if no cube fits.
 MeshData build(double spacing) {
     MeshData mesh;
     Lattice lattice = select_cubes(spacing);
@@ -182,7 +180,7 @@ MeshData build(double spacing) {
             for (std::size_t k = 0; k < 3; ++k)
                 if (corner >> k & 1) point += steps[k];
             used[static_cast<std::size_t>(point)] = 1;
-            // A corner is on the boundary when a face of the cube that it belongs to has no cube behind it.
+            // A corner is on the boundary if a face of this cube that it belongs to has no cube behind it.
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int64_t behind =
                     static_cast<std::int64_t>(cube) + (corner >> k & 1 ? steps[k] : -steps[k]);
@@ -234,15 +232,15 @@ std::uint64_t distance(const MeshData& mesh, std::uint64_t tet_count) {
     return tets > tet_count ? tets - tet_count : tet_count - tets;
 }
 
-// Few tets: every spacing at which another cube fits in is tried, from one cube to well above the count.
+// For few tets. Tries every spacing at which one more cube fits in, around the wanted number of cubes.
 MeshData search_all(std::uint64_t tet_count) {
     const double cubes_wanted = static_cast<double>(tet_count) / 5;
     const std::int64_t reach = static_cast<std::int64_t>(cube_root(3 * (cubes_wanted + 8) / (4 * pi))) + 3;
-    std::vector<double> farthest; // corner of each cube near the origin, for spacing 1
+    std::vector<double> farthest; // of each cube near the origin, for spacing 1
     for (std::int64_t z = -reach; z < reach; ++z)
         for (std::int64_t y = -reach; y < reach; ++y)
             for (std::int64_t x = -reach; x < reach; ++x) {
-                double most = 0;
+                double most = 0; // distance of the farthest corner
                 for (int c = 0; c < 8; ++c)
                     most = std::max(most,
                                     norm(lattice_point(0, 1, x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))));
@@ -253,7 +251,7 @@ MeshData search_all(std::uint64_t tet_count) {
     const std::size_t last = static_cast<std::size_t>(1.5 * cubes_wanted) + 4;
     const std::size_t first = std::max<std::size_t>(static_cast<std::size_t>(cubes_wanted), 2) - 2;
     for (std::size_t k = first; k <= last; ++k) {
-        MeshData mesh = build((1 - 1e-9) / farthest[k]); // k + 1 cubes, more where several fit in at once
+        MeshData mesh = build((1 - 1e-9) / farthest[k]); // k + 1 cubes, or more if several fit in at once
         if (mesh.tets.empty()) continue;
         if (best.tets.empty() || distance(mesh, tet_count) < distance(best, tet_count))
             best = std::move(mesh);
@@ -261,7 +259,7 @@ MeshData search_all(std::uint64_t tet_count) {
     return best;
 }
 
-// Many tets: their number goes with the third power of the spacing, nearly.
+// For many tets, whose number is nearly proportional to 1 / spacing^3.
 MeshData search_spacing(std::uint64_t tet_count) {
     const double wanted = static_cast<double>(tet_count);
     double spacing = cube_root(5 * 4 * pi / 3 / wanted);

@@ -1,4 +1,4 @@
-// A ball as a cubic lattice, five tetrahedra a cube.
+// Makes a ball from a cubic lattice, five tetrahedra a cube.
 #pragma once
 
 #include "io/mesh_data.hpp"

@@ -1,4 +1,4 @@
-// How far a long piece of work has come, for the caller's progress function.
+// Reports the progress of long work to the caller's function.
 #pragma once
 
 #include "base/error.hpp"
@@ -14,7 +14,7 @@ public:
     Progress(std::int32_t (*receive)(double fraction, void* user), void* user)
         : receive_(receive), user_(user) {}
 
-    // The part of this work from `from` to `to`, as a work of its own.
+    // The progress of the part of this work from fraction `from` to fraction `to`.
     Progress part(double from, double to) const {
         Progress part = *this;
         part.from_ = at(from);
@@ -22,7 +22,7 @@ public:
         return part;
     }
 
-    // Throws INVALID_STATE when the receiver wants the work to end.
+    // Throws INVALID_STATE if the receiver cancels.
     void report(double fraction) const {
         if (receive_ && receive_(at(fraction), user_) != 0)
             throw Error(VOX_ERROR_INVALID_STATE,

@@ -1,5 +1,6 @@
 #include "io/solids/quality.hpp"
 
+#include "io/buckets.hpp"
 #include "io/solids/distance.hpp"
 
 #include <Eigen/Dense>
@@ -28,7 +29,7 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
         std::array<Vector3d, 4> p;
         for (std::size_t k = 0; k < 4; ++k) p[k] = corner(mesh, mesh.tets[4 * t + k]);
         quality.volume += (p[1] - p[0]).dot((p[2] - p[0]).cross(p[3] - p[0])) / 6;
-        // Normals of the facets across from each corner, all outward or all inward.
+        // Normals of the facets opposite each corner, all outward or all inward.
         const std::array<Vector3d, 4> normal = {
             (p[2] - p[1]).cross(p[3] - p[1]), (p[3] - p[0]).cross(p[2] - p[0]),
             (p[1] - p[0]).cross(p[3] - p[0]), (p[2] - p[0]).cross(p[1] - p[0])};
@@ -46,43 +47,27 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
 
 // The facets of exactly one tet, three vertices each.
 std::vector<std::uint32_t> boundary_facets(const vox_io_mesh_view& mesh) {
-    // Facets by their lowest vertex, then sorted among the few that share it.
-    std::vector<std::uint64_t> start(mesh.vertex_count + 1, 0);
-    const auto for_each_facet = [&](auto&& visit) {
+    using Others = std::pair<std::uint32_t, std::uint32_t>;
+    const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < mesh.tet_count; ++t)
             for (std::size_t left_out = 0; left_out < 4; ++left_out) {
                 std::array<std::uint32_t, 3> facet{};
                 for (std::size_t k = 0, n = 0; k < 4; ++k)
                     if (k != left_out) facet[n++] = mesh.tets[4 * t + k];
                 std::sort(facet.begin(), facet.end());
-                visit(facet);
+                put(facet[0], Others{facet[1], facet[2]});
             }
     };
-    for_each_facet([&](const auto& facet) { ++start[facet[0] + std::size_t{1}]; });
-    for (std::size_t v = 0; v < mesh.vertex_count; ++v) start[v + 1] += start[v];
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> others(4 * mesh.tet_count);
-    std::vector<std::uint64_t> next(start.begin(), start.end() - 1);
-    for_each_facet([&](const auto& facet) { others[next[facet[0]]++] = {facet[1], facet[2]}; });
     std::vector<std::uint32_t> boundary;
-    for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
-        const auto begin = others.begin() + static_cast<std::ptrdiff_t>(start[v]);
-        const auto end = others.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
-        std::sort(begin, end);
-        for (auto at = begin; at != end;) {
-            auto after = at;
-            while (after != end && *after == *at) ++after;
-            if (after - at == 1) {
-                boundary.push_back(static_cast<std::uint32_t>(v));
-                boundary.push_back(at->first);
-                boundary.push_back(at->second);
-            }
-            at = after;
-        }
-    }
+    for_each_run<Others>(mesh.vertex_count, each,
+                         [&](std::uint32_t lowest, const Others& others, std::ptrdiff_t tets) {
+                             if (tets == 1)
+                                 boundary.insert(boundary.end(), {lowest, others.first, others.second});
+                         });
     return boundary;
 }
 
-// The largest distance from points on the triangles, no more than `spacing` apart, to the triangles of the
+// The largest distance from sample points on the triangles, at most `spacing` apart, to the triangles of the
 // tree.
 double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* triangles, std::size_t count,
                         double spacing, const TriangleTree& tree) {
@@ -91,7 +76,7 @@ double largest_distance(const vox_io_mesh_view& mesh, const std::uint32_t* trian
         const Vector3d a = corner(mesh, triangles[3 * t]), b = corner(mesh, triangles[3 * t + 1]),
                        c = corner(mesh, triangles[3 * t + 2]);
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-        // Two parts a side at least; at most a thousand, for surfaces with very large triangles.
+        // At least two parts a side; at most a thousand, to bound the work for very large triangles.
         const int parts = static_cast<int>(std::clamp(std::ceil(longest / spacing), 2.0, 1000.0));
         for (int i = 0; i <= parts; ++i)
             for (int j = 0; i + j <= parts; ++j) {
@@ -113,7 +98,7 @@ vox_io_quality measure_quality(const vox_io_mesh_view& mesh, const vox_io_mesh_v
     quality.boundary_facets = boundary.size() / 3;
     if (!surface || surface->triangle_count == 0) return quality;
     for (std::size_t t = 0; t < surface->triangle_count; ++t) {
-        // Around the first vertex rather than the origin, which may lie far away.
+        // Volumes are summed around the first vertex, as the true origin may be far away.
         const Vector3d origin = corner(*surface, surface->triangles[0]);
         const Vector3d a = corner(*surface, surface->triangles[3 * t]) - origin;
         const Vector3d b = corner(*surface, surface->triangles[3 * t + 1]) - origin;

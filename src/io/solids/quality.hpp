@@ -1,11 +1,11 @@
-// How good a tet mesh is, and how near its boundary comes to a surface.
+// Measures how good a tet mesh is, and how close its boundary is to a surface.
 #pragma once
 
 #include <vox/vox_io.h>
 
 namespace vox::io {
 
-// See vox_io_measure_quality. `surface` null: none.
+// See vox_io_measure_quality. `surface` may be null.
 vox_io_quality measure_quality(const vox_io_mesh_view& mesh, const vox_io_mesh_view* surface);
 
 } // namespace vox::io

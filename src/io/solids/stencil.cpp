@@ -1,11 +1,14 @@
 // Labelle and Shewchuk, "Isosurface stuffing: fast tetrahedral meshes with good dihedral angles", SIGGRAPH
-// 2007, Sect. 3 and Figure 3. The stencils are worked out from the rules rather than typed in.
+// 2007, Sect. 3 and Figure 3. The stencils are computed from the paper's rules rather than tabulated.
 //
-// One rule differs from the paper: which diagonal splits a quadrilateral. The paper looks at the lattice
-// alone (the diagonal ends in the cut point of a long edge, else the parity rule decides); here it starts at
-// the inside vertex whose edge keeps the larger part, and the paper's rule decides ties. Both depend on the
-// face alone, so neighbours agree. With the distances of solid_stuff.cpp this one gives better angles.
+// The rule for the diagonal that splits a quadrilateral differs from the paper. The paper uses the lattice
+// alone: the diagonal ends in the cut point of a long edge, or else the parity rule decides. Here it starts
+// at the inside vertex whose edge keeps the larger part, and the paper's rule only decides ties. Both rules
+// depend on nothing but the face, so neighbours agree. With the distances in io/solids/stuff.cpp, the rule
+// used here gives better angles.
 #include "io/solids/stencil.hpp"
+
+#include "io/determinant.hpp"
 
 #include <utility>
 
@@ -26,24 +29,24 @@ bool are_long_edge(unsigned a, unsigned b) { return (a ^ 1u) == b; }
 
 using Stumps = std::array<std::array<double, 4>, 4>;
 
-// Face (p, q, m), p and q inside, m outside: what is left is the quadrilateral p, q, cut(q, m), cut(p, m).
-// The diagonal must be the same seen from both tetrahedra of the face; returns whether it starts at p (else
-// at q). Over the three faces around one m the rule is an order of the three inside vertices, never a cycle:
-// otherwise the prism they make could not be split.
+// Of a face (p, q, m) with p and q inside and m outside, the quadrilateral p, q, cut(q, m), cut(p, m)
+// remains. Returns whether its diagonal starts at p rather than q. Both tetrahedra of the face must find the
+// same diagonal. Over the three faces around one m, the rule orders the three inside vertices and never makes
+// a cycle; with a cycle, the prism that remains could not be split.
 bool starts_at_p(unsigned p, unsigned q, unsigned m, bool first_above, const Stumps& stumps) {
     if (stumps[p][m] != stumps[q][m]) return stumps[p][m] > stumps[q][m];
     if (are_long_edge(p, m)) return false;
     if (are_long_edge(q, m)) return true;
-    // The parity rule: p-q is the long edge; the diagonal starts at the one of p and q that has an even
-    // number of coordinates greater than those of m.
+    // The parity rule, for a long edge p-q: the diagonal starts at p or q, whichever has an even number of
+    // coordinates greater than those of m.
     const bool along = (p & 1) != 0;           // greater on its own edge's axis: the upper end
     const bool across = (m & 1) == 0;          // on the other edge's axis: m is the lower end
     const bool above = (p < 2) == first_above; // on the third axis
     return (along + across + above) % 2 == 0;
 }
 
-// The prism with triangles a and b, a[i] joined to b[i]; from_a[i][j] tells that the face of i and j has the
-// diagonal a[i]-b[j], and not a[j]-b[i]. Some a[i] must have both its diagonals.
+// Splits the prism with triangles a and b, in which a[i] is joined to b[i]. from_a[i][j] says that the face
+// of i and j has the diagonal a[i]-b[j] rather than a[j]-b[i]. Both diagonals must start at a[i] for some i.
 void split_prism(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t, 3>& b,
                  const std::array<std::array<bool, 3>, 3>& from_a, Stencil& out) {
     for (unsigned i = 0; i < 3; ++i) {
@@ -61,7 +64,7 @@ void split_prism(const std::array<std::uint8_t, 3>& a, const std::array<std::uin
     }
 }
 
-// The pieces, not yet oriented.
+// The pieces, with any orientation.
 Stencil cut_up(const std::array<Side, 4>& sides, bool first_above, const Stumps& stumps) {
     std::array<std::uint8_t, 4> in{}, out{}, on{};
     unsigned in_count = 0, out_count = 0, on_count = 0;
@@ -101,8 +104,9 @@ Stencil cut_up(const std::array<Side, 4>& sides, bool first_above, const Stumps&
             }
         split_prism({in[0], in[1], in[2]}, {cut(in[0], m), cut(in[1], m), cut(in[2], m)}, starts, pieces);
     } else {
-        // Two and two: the prism over the triangles at p and at q. The diagonal of the face of cut points is
-        // seen by no other tetrahedron; it is chosen so that the three make no cycle.
+        // Two corners are inside and two outside, which leaves a prism over the triangles at p and at q. The
+        // face of cut points belongs to no other tetrahedron; its diagonal is chosen so that the three make
+        // no cycle.
         const std::uint8_t p = in[0], q = in[1], m = out[0], n = out[1];
         std::array<std::array<bool, 3>, 3> starts{};
         starts[0][1] = from(p, q, m);
@@ -115,7 +119,7 @@ Stencil cut_up(const std::array<Side, 4>& sides, bool first_above, const Stumps&
     return pieces;
 }
 
-// Twice the position of a vertex, the cut points in the middle of their edges.
+// Twice the position of a vertex, with cut points assumed in the middle of their edges.
 Place place(unsigned v, bool first_above) {
     const int z = first_above ? -2 : 2;
     const std::array<Place, 4> corners = {{{0, 0, 0}, {4, 0, 0}, {2, -2, z}, {2, 2, z}}};
@@ -131,9 +135,7 @@ int six_volumes(const Tet& tet, bool first_above) {
         const Place b = place(tet[i + 1], first_above);
         for (unsigned k = 0; k < 3; ++k) e[i][k] = b[k] - a[k];
     }
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    return determinant(e[0], e[1], e[2]);
 }
 
 } // namespace

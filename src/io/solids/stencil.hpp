@@ -1,4 +1,5 @@
-// The stencils of isosurface stuffing: what is left of one lattice tetrahedron when the boundary cuts it.
+// The stencils of isosurface stuffing: the part of a lattice tetrahedron that remains when the boundary cuts
+// it.
 #pragma once
 
 #include <array>
@@ -6,14 +7,14 @@
 
 namespace vox::io {
 
-// Where a corner lies. `on` is a corner that was moved onto the boundary.
+// Where a corner is. `on` means that it was moved onto the boundary.
 enum class Side : std::uint8_t { outside = 0, inside = 1, on = 2 };
 
-// Corners 0 and 1 are the ends of one long edge, 2 and 3 of the other, each pair's lower end first.
+// Corners 0 and 1 are the ends of one long edge, 2 and 3 those of the other, the lower end of each first.
 // A vertex of a piece is a corner (0 to 3) or the cut point of an edge (4 to 9, edge tet_edges[v - 4]).
 struct Stencil {
     std::uint8_t count = 0;
-    std::array<std::array<std::uint8_t, 4>, 3> tets{}; // oriented as the tetrahedron (0, 1, 2, 3)
+    std::array<std::array<std::uint8_t, 4>, 3> tets{}; // with the orientation of tetrahedron (0, 1, 2, 3)
 
     void add(const std::array<std::uint8_t, 4>& tet) { tets[count++] = tet; }
 };
@@ -21,8 +22,9 @@ struct Stencil {
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> tet_edges = {
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-// What is left inside. `first_above`: the long edge 0-1 lies above 2-3 on the axis that neither is parallel
-// to. `stumps[p][m]`, for p inside and m outside: the fraction of edge p-m from p to its cut point.
+// The pieces inside. `first_above` says that the long edge 0-1 is above 2-3 on the axis that neither is
+// parallel to. For p inside and m outside, `stumps[p][m]` is the fraction of edge p-m from p to its cut
+// point.
 Stencil make_stencil(const std::array<Side, 4>& sides, bool first_above,
                      const std::array<std::array<double, 4>, 4>& stumps);
 

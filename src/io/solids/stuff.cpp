@@ -1,9 +1,10 @@
 // Labelle and Shewchuk, "Isosurface stuffing: fast tetrahedral meshes with good dihedral angles", SIGGRAPH
-// 2007: cut points on the lattice edges that the boundary crosses, nodes that are too close to one moved onto
-// it, and for every lattice tetrahedron the stencil of what is left inside.
+// 2007. Lattice edges that cross the boundary get a cut point; nodes that are too close to a cut point are
+// moved onto it; and every lattice tetrahedron is replaced by the stencil of its part inside.
 #include "io/solids/stuff.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/solids/coarsen.hpp"
 #include "io/solids/stencil.hpp"
 
@@ -13,8 +14,8 @@
 namespace vox::io {
 namespace {
 
-// Distances, in edge lengths, within which a node counts as too close to a cut point. Chosen for the rule of
-// solid_stencil.cpp by a search over the extreme configurations, which gives dihedral angles of 11.59 to
+// Distances, in edge lengths, within which a node is too close to a cut point. They were chosen for the rule
+// of io/solids/stencil.cpp by a search over the extreme configurations, in which dihedral angles are 11.59 to
 // 159.24 degrees; the paper's choices give 10.78 to 164.74 (or 8.97 to 158.76, or 9.32 to 161.64).
 constexpr double alpha_long = 0.26, alpha_short = 0.38;
 
@@ -48,14 +49,14 @@ public:
     }
 
 private:
-    // The edge from `inside` to its neighbour number `neighbour`, cut at `fraction` from inside.
+    // A cut of the edge from `inside` to its neighbour number `neighbour`, at `fraction` of the edge.
     struct Cut {
         Node inside;
         std::uint32_t neighbour;
         double fraction;
         std::uint32_t vertex;
     };
-    // For a node with a cut edge: the cuts of its fourteen edges, and the cut point it was moved to.
+    // A node that has a cut edge, with the cuts of its fourteen edges and the cut point it was moved to.
     struct Fringe {
         std::array<std::uint32_t, 14> cuts;
         std::uint32_t moved_to;
@@ -106,7 +107,7 @@ private:
         });
     }
 
-    // Moves every node that a cut point is too close to onto it; the cut points of its edges go.
+    // Moves every node that is too close to a cut point onto it, and removes the cut points of its edges.
     void warp() {
         std::vector<std::uint32_t> order(fringes_.size());
         for (std::uint32_t f = 0; f < order.size(); ++f) order[f] = f;
@@ -139,8 +140,8 @@ private:
         }
     }
 
-    // The tetrahedra around the long edges between cell centres, four each, one for each edge of the face
-    // between the two cells.
+    // Adds the tetrahedra around the long edges between cell centres: four around each, one for each edge of
+    // the face between the two cells.
     void fill(const Octree& octree) {
         for_each_node(nodes_, [&](std::uint32_t number, const Node& low) {
             if (number % 65536 == 0) progress_.report(0.4 + 0.6 * number / nodes_.size());
@@ -151,7 +152,8 @@ private:
                 if (low_merged || octree.is_merged(high)) continue;
                 const std::uint32_t high_number = nodes_.find(high);
                 if (high_number == none) continue;
-                // The face's corners, round about the edge: axes u, v = (d + 1) % 3, (d + 2) % 3.
+                // The face's corners, in cyclic order around the edge, on the axes u = (d + 1) % 3, v = (d +
+                // 2) % 3.
                 std::array<Node, 4> ring{};
                 std::array<std::uint32_t, 4> ring_number{};
                 for (unsigned c = 0; c < 4; ++c) {
@@ -170,8 +172,9 @@ private:
                     const unsigned a = edges[e][0], b = edges[e][1];
                     if (ring_number[a] == none || ring_number[b] == none) continue;
                     const bool first_above = e == 0 || e == 2;
-                    // det(d, e, f) with f the axis across: positive for e = u; the edge lies on f's other
-                    // side when first_above.
+                    // With first_above the face edge e is on the negative side of the axis f across it, and
+                    // the orientation is the sign of det(d, -f, e) = det(d, e, f), which is positive for e =
+                    // u.
                     const bool positive = (e < 2) == first_above;
                     cut_tet({number, high_number, ring_number[a], ring_number[b]},
                             {low, high, ring[a], ring[b]}, first_above, positive);
@@ -219,9 +222,8 @@ private:
 
     void add_tet(const std::array<std::uint32_t, 4>& tet) {
         if (mesh_.tets.size() / 4 >= max_tets_)
-            throw Error(VOX_ERROR_LIMIT,
-                        format("more than %llu tets (max_tets): choose larger cells than %g",
-                               static_cast<unsigned long long>(max_tets_), 2 * body_.frame.half_cell));
+            throw Error(VOX_ERROR_LIMIT, format("more than %llu tets (max_tets): choose larger cells than %g",
+                                                llu(max_tets_), 2 * body_.frame.half_cell));
         mesh_.tets.insert(mesh_.tets.end(), tet.begin(), tet.end());
     }
 
@@ -263,10 +265,10 @@ private:
     const Body& body_;
     const std::uint64_t max_tets_;
     const Progress& progress_;
-    const NodeSet nodes_; // inside, and next to those
+    const NodeSet nodes_; // the nodes inside, and their neighbours
     std::vector<Side> sides_;
-    std::vector<std::uint32_t> fringe_;  // of each node: index into fringes_, or none
-    std::vector<std::uint32_t> numbers_; // of each node: its vertex, or none
+    std::vector<std::uint32_t> fringe_;  // for each node an index into fringes_, or none
+    std::vector<std::uint32_t> numbers_; // for each node its vertex, or none
     std::vector<Fringe> fringes_;
     std::vector<Cut> cuts_;
     MeshData mesh_;
@@ -276,13 +278,13 @@ private:
 
 void check_tet_count(const NodeSet& inside, const Frame& frame, std::uint32_t coarsen,
                      std::uint64_t max_tets) {
-    // Uniform tets outnumber the nodes inside; merging takes at most eight into one each time.
+    // There are more uniform tets than nodes inside, and each merging turns at most eight tets into one.
     if (inside.size() >> std::min(3 * coarsen, 31u) > max_tets)
         throw Error(
             VOX_ERROR_LIMIT,
             format(
                 "%u lattice points inside make more than %llu tets (max_tets): choose larger cells than %g",
-                inside.size(), static_cast<unsigned long long>(max_tets), 2 * frame.half_cell));
+                inside.size(), llu(max_tets), 2 * frame.half_cell));
 }
 
 MeshData stuff(const Body& body, std::uint32_t coarsen, std::uint64_t max_tets, const Progress& progress) {

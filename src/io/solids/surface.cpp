@@ -1,6 +1,6 @@
-// Point in polyhedron by the crossings of a line; simulation of simplicity: Edelsbrunner and Mücke,
-// "Simulation of simplicity: a technique to cope with degenerate cases in geometric algorithms", ACM Trans.
-// Graphics 9(1), 1990.
+// Finds the nodes inside by counting the crossings of lines with the surface. Degenerate cases are resolved
+// by simulation of simplicity: Edelsbrunner and Mücke, "Simulation of simplicity: a technique to cope with
+// degenerate cases in geometric algorithms", ACM Trans. Graphics 9(1), 1990.
 #include "io/solids/surface.hpp"
 
 #include "base/error.hpp"
@@ -27,12 +27,11 @@ Triangle in_order(Corners corners) {
     return {corners, turn};
 }
 
-// Integer coordinates stay below 2^29, so that products of differences, and their differences, fit into 63
-// bits.
+// Integer coordinates stay below 2^29, so that differences of products of differences fit into 63 bits.
 constexpr int coordinate_bits = 29;
 
-// For each direction a linear map of determinant one to (t, u, v): t runs along the direction, a unit a unit
-// of the coordinate that leads it, and u and v are the same for all points of a line.
+// For each direction a linear map of determinant one to (t, u, v). t runs along the direction, at the rate of
+// its first coordinate; u and v are the same for all points of a line.
 struct Projection {
     std::array<std::array<std::int32_t, 3>, 3> rows; // t, u, v in terms of x, y, z
 };
@@ -61,7 +60,8 @@ std::int64_t area(const Flat& a, const Flat& b, const Flat& q) {
     return (b.u - a.u) * (q.v - a.v) - (b.v - a.v) * (q.u - a.u);
 }
 
-// Its sign once q is shifted by (e, e^2, e^3) in x, y, z, for e > 0 however small. Not zero unless a = b.
+// The sign of that area after q is shifted by (e, e^2, e^3) in x, y, z, for any sufficiently small e > 0. It
+// is zero only if a = b.
 int side(std::int64_t area, const Flat& a, const Flat& b, const Projection& projection) {
     if (area != 0) return sign(area);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -71,7 +71,8 @@ int side(std::int64_t area, const Flat& a, const Flat& b, const Projection& proj
     return 0;
 }
 
-// Whether a point shifted like that from the plane of the triangle lies on the side its normal points to.
+// Whether a point in the plane of the triangle, shifted in the same way, is on the side that its normal
+// points to.
 bool shifted_above(const Point& a, const Point& b, const Point& c) {
     const std::array<std::int64_t, 3> p = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const std::array<std::int64_t, 3> q = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
@@ -84,7 +85,7 @@ bool shifted_above(const Point& a, const Point& b, const Point& c) {
 
 struct Crossing {
     std::int32_t v, u;
-    std::int32_t turn; // +1 where the line goes in, for a surface oriented outwards
+    std::int32_t turn; // +1 if the line enters a surface that is oriented outwards
     double t;
     bool operator<(const Crossing& other) const {
         if (v != other.v) return v < other.v;
@@ -98,7 +99,7 @@ std::int64_t round_up(std::int64_t x, std::int64_t step) { // step a power of tw
     return (x + step - 1) & ~(step - 1);
 }
 
-// Equal positions get one number. Returns the numbers; `points` keeps one of each.
+// Numbers equal positions the same. Returns the numbers and keeps one of each position in `points`.
 std::vector<std::uint32_t> weld(std::vector<Point>& points) {
     std::vector<std::uint32_t> order(points.size()), number(points.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -114,7 +115,7 @@ std::vector<std::uint32_t> weld(std::vector<Point>& points) {
 }
 
 void check_edges(const std::vector<Corners>& triangles, SurfaceCheck& check) {
-    std::vector<std::uint64_t> edges; // lower vertex, higher vertex, and in the last bit the direction
+    std::vector<std::uint64_t> edges; // from high to low bits: lower vertex, higher vertex, direction
     edges.reserve(3 * triangles.size());
     for (const Corners& t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
@@ -133,7 +134,8 @@ void check_edges(const std::vector<Corners>& triangles, SurfaceCheck& check) {
     }
 }
 
-// Crosses all lines of a direction with all triangles. `oriented`: by winding number, else by parity.
+// Intersects all lines of a direction with all triangles. Inside is decided by winding number if the surface
+// is `oriented`, otherwise by parity.
 LatticeLines cast(unsigned direction, const std::vector<Point>& points,
                   const std::vector<Triangle>& triangles, int shift, bool oriented) {
     const Projection& projection = projections[direction];
@@ -154,8 +156,8 @@ LatticeLines cast(unsigned direction, const std::vector<Point>& points,
             shifted_above(points[triangle[0]], points[triangle[1]], points[triangle[2]]) == (whole > 0);
         const auto [low_u, high_u] = std::minmax({p[0].u, p[1].u, p[2].u});
         const auto [low_v, high_v] = std::minmax({p[0].v, p[1].v, p[2].v});
-        // Lines in an axis' direction have u and v of one parity, in lattice units; along a diagonal both are
-        // even.
+        // In lattice units, u and v have the same parity for lines along an axis, and are both even along a
+        // diagonal.
         const std::int64_t step_v = diagonal ? 2 * unit : unit;
         for (std::int64_t v = round_up(low_v, step_v); v <= high_v; v += step_v) {
             const std::int64_t odd = (v >> shift) & 1 ? unit : 0;
@@ -172,8 +174,8 @@ LatticeLines cast(unsigned direction, const std::vector<Point>& points,
                                        static_cast<double>(whole);
                 at = std::clamp(at, std::min({t[0], t[1], t[2]}), std::max({t[0], t[1], t[2]}));
                 at /= static_cast<double>(unit);
-                // A point right on the triangle lies behind it (t <= the point's) when its shifted image
-                // does.
+                // A point exactly on the triangle counts as behind it (its t is at least the toggle's) if its
+                // shifted image is behind it.
                 if (!after) at = std::nextafter(at, std::numeric_limits<double>::infinity());
                 crossings.push_back({static_cast<std::int32_t>(v >> shift),
                                      static_cast<std::int32_t>(u >> shift), whole > 0 ? -turn : turn, at});
@@ -221,7 +223,7 @@ SurfaceLines::SurfaceLines(const vox_io_mesh_view& surface, const Frame& frame) 
     const double scale = std::ldexp(1.0, shift_) / frame.half_cell;
     for (std::size_t i = 0; i < points_.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
-            // Vertices that no triangle uses may lie outside of the lattice.
+            // Vertices that no triangle uses may be outside of the lattice.
             const double x = std::floor((surface.positions[3 * i + k] - frame.origin[k]) * scale + 0.5);
             points_[i][k] = static_cast<std::int32_t>(std::clamp(x, -1.0, std::ldexp(1.0, coordinate_bits)));
         }
@@ -268,7 +270,7 @@ SurfaceLines::Line SurfaceLines::find(unsigned direction, const Node& node) cons
     return {lines.toggles.data() + lines.start[line], lines.toggles.data() + lines.start[line + 1]};
 }
 
-// The nodes inside according to the lines along one axis. Lines that end inside are left out.
+// The nodes inside according to the lines along one axis. Lines that end inside are ignored.
 std::vector<Run> SurfaceLines::runs_along(unsigned axis) const {
     const LatticeLines& lines = lines_[axis];
     std::vector<Run> runs;
@@ -280,7 +282,7 @@ std::vector<Run> SurfaceLines::runs_along(unsigned axis) const {
             if ((end - toggle) % 2 != 0) continue;
             const std::int32_t parity = u & 1;
             for (; toggle != end; toggle += 2) {
-                // t = 2 i + parity with toggle[0] <= t < toggle[1].
+                // The nodes at t = 2 i + parity with toggle[0] <= t < toggle[1].
                 const auto first = static_cast<std::int32_t>(std::ceil((toggle[0] - parity) / 2));
                 const auto last = static_cast<std::int32_t>(std::ceil((toggle[1] - parity) / 2)) - 1;
                 if (first > last) continue;
@@ -341,21 +343,20 @@ double SurfaceLines::leaves(const Node& node, unsigned neighbour) const {
     const Line line = find(direction, node);
     const double from = direction == 1 ? node.y : direction == 2 ? node.z : node.x;
     const double length = direction < 3 ? 2 : 1;
-    // Toggles at or before the node come first; the edge starts between two of them.
+    // The edge starts between the last toggle at or before the node and the next one.
     const double* next = std::upper_bound(line.begin, line.end, from);
     const bool forward = neighbour % 2 == 0;
-    double nearest =
-        std::numeric_limits<double>::infinity(); // along the edge's direction, may be behind the node
+    double nearest = std::numeric_limits<double>::infinity(); // along the edge; negative behind the node
     if (next != line.end) nearest = forward ? *next - from : from - *next;
     if (next != line.begin) {
         const double before = forward ? next[-1] - from : from - next[-1];
-        // The one ahead counts; the one behind only where rounding (or a vote) put it on the wrong side.
+        // The toggle ahead is used. One behind is used only if rounding or a vote put it on the wrong side.
         const bool ahead = nearest >= 0 && nearest <= length;
         const bool before_ahead = before >= 0 && before <= length;
         if (before_ahead ? !ahead || before < nearest : !ahead && std::abs(before) < std::abs(nearest))
             nearest = before;
     }
-    if (std::abs(nearest) > 2 * length) return 0.5; // no crossing near: a hole that a vote has closed
+    if (std::abs(nearest) > 2 * length) return 0.5; // no crossing is near because a vote has closed a hole
     return std::clamp(nearest / length, 0.0, 1.0);
 }
 

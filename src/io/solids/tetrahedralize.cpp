@@ -1,6 +1,7 @@
 #include "io/solids/tetrahedralize.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "io/solids/cubes.hpp"
 #include "io/solids/quality.hpp"
 #include "io/solids/stuff.hpp"
@@ -13,8 +14,8 @@
 namespace vox::io {
 namespace {
 
-// A surface is refused when more than this share of the lines ends inside of it, or of the nodes is inside
-// for one axis and outside for another.
+// A surface is refused if more than this share of the lines end inside of it, or more than this share of the
+// nodes are inside for one axis and outside for another.
 constexpr double most_doubtful = 0.01;
 
 struct Box {
@@ -38,8 +39,7 @@ void refuse_open(const SurfaceLines& lines, double doubtful) {
         VOX_ERROR_INVALID_MESH,
         format("the surface is open: %llu of its %llu edges have an odd number of triangles, and for %.1f %% "
                "of the lattice inside and outside cannot be told apart (at most %.0f %%)",
-               static_cast<unsigned long long>(lines.check().open_edges),
-               static_cast<unsigned long long>(lines.check().edges), 100 * doubtful, 100 * most_doubtful));
+               llu(lines.check().open_edges), llu(lines.check().edges), 100 * doubtful, 100 * most_doubtful));
 }
 
 struct Attempt {
@@ -72,21 +72,12 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
         mesh = stuff(body, coarsen, desc.max_tets, progress.part(0.3, 1));
     }
     if (open)
-        mesh.notes.push_back(format("the surface has %llu open edges; the holes were closed",
-                                    static_cast<unsigned long long>(lines.check().open_edges)));
+        mesh.notes.push_back(
+            format("the surface has %llu open edges; the holes were closed", llu(lines.check().open_edges)));
     else if (!lines.check().oriented)
         mesh.notes.push_back(
-            "the surface's triangles do not agree on an orientation; parity told inside from outside");
+            "the surface's triangles do not agree on an orientation; inside was decided by parity");
     return mesh;
-}
-
-double distance(const MeshData& mesh, const vox_io_mesh_view& surface) {
-    vox_io_mesh_view view{};
-    view.positions = mesh.positions.data();
-    view.vertex_count = mesh.positions.size() / 3;
-    view.tets = mesh.tets.data();
-    view.tet_count = mesh.tets.size() / 4;
-    return measure_quality(view, &surface).hausdorff;
 }
 
 } // namespace
@@ -100,20 +91,21 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
     double cell = desc.cell > 0 ? desc.cell : longest / 50;
     if (!std::isfinite(longest) || !(cell / 2 >= std::numeric_limits<double>::min()))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("the surface is %g long: no cells can be laid through it", longest));
+                    format("no cells of %g fit a surface that is %g long", cell, longest));
     const bool to_distance = desc.max_distance > 0 && desc.kind == VOX_IO_SOLID_STUFFED;
     for (std::uint32_t halvings = 0;; ++halvings, cell /= 2) {
-        // How many rounds it takes is not known: each is half of what is left.
+        // The number of rounds is not known, so each counts as half of what is left.
         const double begin = 1 - std::ldexp(1.0, -static_cast<int>(halvings));
         const Progress round = to_distance ? progress.part(begin, (1 + begin) / 2) : progress;
         MeshData mesh = run({surface, desc, box, cell, std::min(desc.coarsen, 16u) + halvings}, round);
-        // Half the cell makes four times the tets at least, where they are at the boundary.
+        // Halving the cells makes at least four times as many tets at the boundary.
         const bool last = 2 * longest / cell > max_cells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
         if (mesh.tets.empty() && (!to_distance || last))
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("no tet fits into the surface with a cell of %g (its longest side is %g)",
                                cell, longest));
-        const double reached = to_distance && !mesh.tets.empty() ? distance(mesh, surface) : 0;
+        const double reached =
+            to_distance && !mesh.tets.empty() ? measure_quality(view_of(mesh), &surface).hausdorff : 0;
         if (!mesh.tets.empty() && (!to_distance || reached <= desc.max_distance)) {
             progress.report(1);
             return mesh;
@@ -123,8 +115,8 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
                 VOX_ERROR_LIMIT,
                 format("cells of %g, %llu tets, come within %g of the surface; %g (max_distance) needs more "
                        "than %llu tets (max_tets) or %d cells along an axis",
-                       cell, static_cast<unsigned long long>(mesh.tets.size() / 4), reached,
-                       desc.max_distance, static_cast<unsigned long long>(desc.max_tets), max_cells));
+                       cell, llu(mesh.tets.size() / 4), reached, desc.max_distance, llu(desc.max_tets),
+                       max_cells));
     }
 }
 

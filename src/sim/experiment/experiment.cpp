@@ -1,6 +1,6 @@
-// Two bodies in contact are simulated once; every sample detects the contacts of the recorded frames. That is
-// the paper's experiment, since contacts and so the motion are the same for every cell size, without the time
-// of the solver.
+// Two bodies in contact are simulated once, and every sample detects the contacts of the recorded frames.
+// This is equivalent to the paper's experiment, without the time of the solver, since contacts and therefore
+// the motion are the same for every cell size.
 #include "sim/experiment/experiment.hpp"
 
 #include "base/border.hpp"
@@ -38,7 +38,7 @@ vox_sim_body_desc read_body(const vox_sim_body_desc* body, const char* name) {
     return desc;
 }
 
-// How the bodies move: the caller's settings, or vox_sim's without a floor.
+// The settings of the motion: the caller's, or vox_sim's defaults without a floor.
 vox_sim_desc sim_settings(const vox_sim_desc* given) {
     vox_sim_desc desc = vox_default_sim_desc();
     if (given)
@@ -46,11 +46,11 @@ vox_sim_desc sim_settings(const vox_sim_desc* given) {
     else
         std::fill_n(desc.floor_normal, 3, 0.0);
     desc.struct_size = sizeof desc;
-    desc.detect_every = desc.substeps; // once a frame, as in the paper
+    desc.detect_every = desc.substeps; // detects once a frame, as in the paper
     return desc;
 }
 
-// FNV-1a, a number at a time.
+// FNV-1a, applied to whole numbers instead of bytes.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t number) { return (hash ^ number) * 0x100000001b3u; }
 constexpr std::uint64_t mix_start = 0xcbf29ce484222325u;
 
@@ -69,8 +69,8 @@ vox_experiment::vox_experiment(const vox_experiment_desc& desc) {
     make_grid(desc.grid);
 }
 
-// The response pushes the bodies apart, so that fewer tets are in contact in later frames than in the first.
-// So the share that the first one starts with is corrected until the mean is the wanted one.
+// The response pushes the bodies apart, so that later frames have fewer tets in contact than the first.
+// Therefore the share of the first frame is corrected until the mean is the required one.
 void vox_experiment::place_and_record(const vox_experiment_desc& desc, vox_sim_body_desc (&bodies)[2]) {
     if (desc.turn) {
         turn_first(shapes_[0].positions);
@@ -91,7 +91,7 @@ void vox_experiment::place_and_record(const vox_experiment_desc& desc, vox_sim_b
             distance = place_at_share(share, shapes_[0], centred, axis, first);
         } catch (const Error&) {
             if (frames_.empty()) throw;
-            break; // the share itself can be reached, a correction cannot
+            break; // the required share can be reached, but not the corrected one
         }
         Shape placed = centred;
         move(placed.positions, {distance * axis[0], distance * axis[1], distance * axis[2]});
@@ -129,7 +129,7 @@ std::vector<vox_experiment::Frame> vox_experiment::record(const vox_experiment_d
 
     std::vector<Frame> frames(desc.frames);
     for (Frame& frame : frames) {
-        // A step begins with the detection, of the positions as they are now.
+        // A step begins with the detection, which uses the present positions.
         for (int i = 0; i < 2; ++i)
             frame.positions[i].assign(views[i].grid_positions,
                                       views[i].grid_positions + 3 * views[i].vertex_count);
@@ -185,7 +185,7 @@ void vox_experiment::make_grid(const vox_grid_desc* given) {
     desc.engine = VOX_ENGINE_REFERENCE;
     if (given) desc = read_struct(given, vox_default_grid_desc(), "desc.grid");
     desc.struct_size = sizeof desc;
-    desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // detection alone is measured
+    desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // only detection is measured
     vox_grid* created = nullptr;
     check(vox_grid_create(&desc, &created));
     grid_.reset(created);
@@ -215,7 +215,7 @@ vox_experiment_sample vox_experiment::measure(double cell_size, std::vector<std:
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("cell_size is %.9g, expected a finite number above 0", cell_size));
     check(vox_grid_set_cell_size(grid_.get(), cell_size));
-    step(frames_.back()); // not timed: memory for this cell size, and never the frame that comes next
+    step(frames_.back()); // not timed; allocates memory for this cell size, with another frame than the next
 
     vox_experiment_sample sample{};
     sample.cell_size = cell_size;
@@ -226,7 +226,7 @@ vox_experiment_sample vox_experiment::measure(double cell_size, std::vector<std:
         if (hash != frame.hash)
             throw Error(
                 VOX_ERROR_INTERNAL,
-                format("frame %zu: the contacts at cell size %.9g are not those of the simulation (hash "
+                format("frame %zu: the contacts at cell size %.9g differ from those of the simulation (hash "
                        "%016" PRIx64 ", expected %016" PRIx64 ")",
                        frame_ns.size(), cell_size, hash, frame.hash));
         vox_profile profile{};

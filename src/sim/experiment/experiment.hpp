@@ -10,7 +10,7 @@
 
 struct vox_experiment {
 public:
-    // The fields of `desc` itself are checked.
+    // The caller has checked the fields of `desc` itself.
     explicit vox_experiment(const vox_experiment_desc& desc);
 
     vox_experiment_facts facts() const;
@@ -37,6 +37,6 @@ private:
     double distance_ = 0;
     std::vector<Frame> frames_;
     std::vector<double> shares_;
-    vox::sim::GridHandle grid_; // what is measured
+    vox::sim::GridHandle grid_; // whose steps are measured
     vox_mesh meshes_[2] = {};
 };

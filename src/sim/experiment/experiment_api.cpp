@@ -1,5 +1,4 @@
-// The C border of vox_sim.h's experiment: validate, catch, forward. And the order and the statistic of its
-// samples.
+// The C border of the experiment, with the order and the statistics of its samples.
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "sim/experiment/experiment.hpp"
@@ -16,7 +15,6 @@ using namespace vox::sim;
 namespace {
 
 constexpr std::uint32_t max_frames = 1000;
-static_assert(VOX_FIT_CAPACITY == max_fit_degree + 1);
 
 vox_experiment_desc experiment_defaults() {
     vox_experiment_desc desc{};
@@ -73,22 +71,16 @@ double median(std::vector<std::uint64_t>& values) {
     return values.size() % 2 ? upper : (static_cast<double>(values[middle - 1]) + upper) / 2;
 }
 
-TimeFit read_fit(const vox_time_fit* in) {
+vox_time_fit read_fit(const vox_time_fit* in) {
     const vox_time_fit fit = read_struct(in, vox_time_fit{}, "fit");
-    TimeFit result;
     if (fit.degree < 2 || fit.degree > max_fit_degree || !(fit.range_min > 0) ||
         !(fit.range_max > fit.range_min) || !std::isfinite(fit.range_max) ||
         !(fit.cell_size >= fit.range_min && fit.cell_size <= fit.range_max))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("fit is none of vox_fit_times: degree %u, range %.9g to %.9g, cell size %.9g",
+                    format("fit was not filled by vox_fit_times: degree %u, range %.9g to %.9g, cell size "
+                           "%.9g",
                            fit.degree, fit.range_min, fit.range_max, fit.cell_size));
-    result.degree = fit.degree;
-    result.range_min = fit.range_min;
-    result.range_max = fit.range_max;
-    std::copy(std::begin(fit.coefficients), std::end(fit.coefficients), result.coefficients);
-    result.cell_size = fit.cell_size;
-    result.time = fit.time;
-    return result;
+    return fit;
 }
 
 } // namespace
@@ -188,30 +180,19 @@ vox_result vox_fit_times(const double* cell_sizes, const double* times, std::uin
         if (distinct.size() < 5)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("%zu different cell sizes, expected at least 5", distinct.size()));
-        const TimeFit fit = fit_times(sizes, {times, count});
-        vox_time_fit result{};
-        result.degree = static_cast<std::uint32_t>(fit.degree);
-        result.range_min = fit.range_min;
-        result.range_max = fit.range_max;
-        std::copy(std::begin(fit.coefficients), std::end(fit.coefficients), result.coefficients);
-        result.r_squared = fit.r_squared;
-        result.prediction_error = fit.prediction_error;
-        result.cell_size = fit.cell_size;
-        result.time = fit.time;
-        result.bracketed = fit.bracketed ? 1 : 0;
-        write_struct(out_fit, result, "out_fit");
+        write_struct(out_fit, fit_times(sizes, {times, count}), "out_fit");
     });
 }
 
 vox_result vox_fit_time_at(const vox_time_fit* fit, double cell_size, double* out_time) {
     return border([&] {
         require(out_time, "out_time");
-        const TimeFit read = read_fit(fit);
+        const vox_time_fit read = read_fit(fit);
         if (!(cell_size >= read.range_min && cell_size <= read.range_max))
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("cell_size is %.9g, the fit holds from %.9g to %.9g", cell_size,
                                read.range_min, read.range_max));
-        *out_time = read.at(cell_size);
+        *out_time = fitted_time(read, cell_size);
     });
 }
 
@@ -219,7 +200,7 @@ vox_result vox_fit_zone(const vox_time_fit* fit, double limit, double* out_min, 
     return border([&] {
         require(out_min, "out_min");
         require(out_max, "out_max");
-        const TimeFit read = read_fit(fit);
+        const vox_time_fit read = read_fit(fit);
         if (!(limit >= read.time) || !std::isfinite(limit))
             throw Error(
                 VOX_ERROR_INVALID_ARGUMENT,

@@ -8,10 +8,6 @@
 
 namespace vox::sim {
 
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
-
 // ---- shapes -----------------------------------------------------------------------------------------
 
 Point Bounds::centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2}; }
@@ -29,7 +25,7 @@ Bounds bounds_of(const std::vector<double>& positions) {
 
 namespace {
 
-// About the centre of the box, by the rotation of a quaternion of any length.
+// Rotates about the centre of the box by a quaternion, which need not have unit length.
 void turn(std::vector<double>& positions, double w, double x, double y, double z) {
     const double s = 2 / (w * w + x * x + y * y + z * z);
     const double matrix[3][3] = {{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
@@ -46,7 +42,7 @@ void turn(std::vector<double>& positions, double w, double x, double y, double z
 
 } // namespace
 
-// About 41 and 57 degrees, about axes that are none of a cube's.
+// Rotations by about 41 and 57 degrees, about axes that are not symmetry axes of a cube.
 void turn_first(std::vector<double>& positions) { turn(positions, 1, 0.11, 0.23, 0.28); }
 void turn_second(std::vector<double>& positions) { turn(positions, 1, 0.31, -0.37, 0.26); }
 
@@ -122,7 +118,8 @@ double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const
         return share.at({along * axis[0], along * axis[1], along * axis[2]});
     };
 
-    // From just touching to just through, in steps that do not jump over a shallow contact of slender bodies.
+    // Moves b from just touching a on one side to just touching it on the other, in steps small enough not to
+    // miss a shallow contact of slender bodies.
     double outside = a_max - b_min, inside = outside;
     const double through = a_min - b_max;
     constexpr int steps = 256;
@@ -136,7 +133,7 @@ double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const
     if (reached < wanted)
         throw Error(VOX_ERROR_INVALID_STATE,
                     format("at most %.3g of the tets come into contact along the axis (%.9g, %.9g, %.9g), "
-                           "wanted is %.3g",
+                           "expected %.3g",
                            most, axis[0], axis[1], axis[2], wanted));
     while (std::abs(reached - wanted) > 0.005 * wanted) {
         const double middle = inside + (outside - inside) / 2;

@@ -1,24 +1,15 @@
-// Two bodies put so that a given share of their tetrahedra is in contact.
+// Places two bodies so that a given share of their tetrahedra is in contact.
 #pragma once
 
-#include <vox/vox.h>
+#include "sim/library.hpp"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace vox::sim {
 
 using Point = std::array<double, 3>;
-
-struct GridDeleter {
-    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
-};
-using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
-
-// Throws what a function of the library failed with.
-void check(vox_result result);
 
 // Positions (3 a vertex) and tets (4 corners each) of a body.
 struct Shape {
@@ -32,22 +23,22 @@ struct Bounds {
 };
 Bounds bounds_of(const std::vector<double>& positions);
 
-// Turns about the centre of the bounding box. The two turns have no symmetry of a lattice, alone or relative
-// to one another.
+// Rotate about the centre of the bounding box. Neither rotation, nor the one from the first to the second, is
+// a symmetry of a lattice.
 void turn_first(std::vector<double>& positions);
 void turn_second(std::vector<double>& positions);
 
 void move(std::vector<double>& positions, const Point& by);
 void round_positions(const std::vector<double>& positions, std::vector<float>& rounded);
 
-// The share of the tetrahedra of all meshes that are in contact: that hold a vertex of another mesh.
+// The share of all tetrahedra that contain a vertex of another mesh.
 double share_in_contact(const vox_grid* grid, std::uint64_t tet_count);
 
-// Shares of two bodies, the second one at any place.
+// Computes the share in contact of two bodies for any position of the second one.
 class ContactShare {
 public:
     ContactShare(const Shape& a, const Shape& b);
-    // With b moved by this from where it was given.
+    // The share with b moved by `offset` from its given position.
     double at(const Point& offset);
 
 private:
@@ -57,9 +48,9 @@ private:
     GridHandle grid_;
 };
 
-// How far along `axis` (of unit length) b has to be moved, coming from outside, until the share is `wanted`
-// for the first time, to half a percent of it where the tets are small enough. Throws INVALID_STATE when it
-// never is.
+// How far b has to be moved along `axis` (of unit length), coming from outside, until the share first reaches
+// `wanted`, to within half a percent of it if the tets are small enough. Throws INVALID_STATE if it never
+// does.
 double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const Point& axis, double wanted);
 
 } // namespace vox::sim

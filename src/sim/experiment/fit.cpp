@@ -1,17 +1,18 @@
-// Least squares with polynomials that are orthogonal over the very points measured, by their three-term
+// Least squares with polynomials that are orthogonal over the measured points, by their three-term
 // recurrence: G. E. Forsythe, "Generation and use of orthogonal polynomials for data-fitting with a digital
-// computer", J. SIAM 5, 1957. Their coefficients do not change as the degree grows, so that all degrees are
-// tried in one pass. The degree is the one that predicts best the points it was not given, one left out at a
-// time; that needs no second fit: D. M. Allen, "The relationship between variable selection and data
-// augmentation and a method for prediction", Technometrics 16, 1974.
+// computer", J. SIAM 5, 1957. Their coefficients do not change as the degree grows, so all degrees are tried
+// in one pass. The chosen degree is the one that best predicts points left out of the fit, one at a time.
+// This needs no second fit: D. M. Allen, "The relationship between variable selection and data augmentation
+// and a method for prediction", Technometrics 16, 1974.
 //
-// Both axes are logarithms. The cost is a sum of powers of the cell size, falling ones and rising ones, whose
-// logarithm over the logarithm is a smooth bowl between two straight lines, which polynomials follow well;
-// and the noise of a time is in proportion to it, so that every point weighs the same.
+// Both axes are logarithms. The cost is a sum of falling and rising powers of the cell size. Its logarithm
+// over the logarithm of the cell size is a smooth bowl between two straight lines, which polynomials
+// approximate well. The noise of a time is proportional to it, so all points get the same weight.
 #include "sim/experiment/fit.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace vox::sim {
@@ -24,7 +25,7 @@ double dot(std::span<const double> a, std::span<const double> b) {
     return sum;
 }
 
-// One orthonormal polynomial: its values at the points, and as a power series.
+// One orthonormal polynomial, as its values at the points and as a power series.
 struct Basis {
     std::vector<double> values;
     double powers[max_fit_degree + 1] = {};
@@ -35,7 +36,8 @@ struct Basis {
     }
 };
 
-// u times `last`, made orthogonal to `last` and to the one `before` it; to all others it is already.
+// u times `last`, made orthogonal to `last` and to the one `before` it; it is already orthogonal to all
+// others.
 Basis next_basis(std::span<const double> u, const Basis& last, const Basis& before) {
     Basis next;
     next.values.resize(u.size());
@@ -62,18 +64,18 @@ double power_series(const double (&coefficients)[max_fit_degree + 1], std::size_
     return sum;
 }
 
-double cell_size_at(const TimeFit& fit, double u) {
+double cell_size_at(const vox_time_fit& fit, double u) {
     if (u == -1) return fit.range_min;
     if (u == 1) return fit.range_max;
     return fit.range_min * std::pow(fit.range_max / fit.range_min, (u + 1) / 2);
 }
 
-double place_of(const TimeFit& fit, double cell_size) {
+double place_of(const vox_time_fit& fit, double cell_size) {
     return 2 * std::log(cell_size / fit.range_min) / std::log(fit.range_max / fit.range_min) - 1;
 }
 
 // The fit of least leave-one-out error; sets degree, coefficients, r_squared and prediction_error.
-void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFit& fit) {
+void fit_polynomial(std::span<const double> u, std::span<const double> y, vox_time_fit& fit) {
     const std::size_t count = u.size();
     Basis last, before;
     last.values.assign(count, 1);
@@ -81,7 +83,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
     last.scale(1 / std::sqrt(double(count)));
     before.values.assign(count, 0);
 
-    // The residual of a point had the fit not seen it is residual / (1 - leverage).
+    // If the fit had not included a point, its residual would be residual / (1 - leverage).
     std::vector<double> residual(y.begin(), y.end()), leverage(count, 0);
     double series[max_fit_degree + 1] = {};
     double spread = 0; // sum of squares about the mean
@@ -101,10 +103,10 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
             const double unseen = residual[i] / (1 - leverage[i]);
             squares += unseen * unseen;
         }
-        // A straight line has no minimum inside.
+        // A straight line has no minimum inside the range.
         if (degree >= 2 && (least < 0 || squares < least)) {
             least = squares;
-            fit.degree = degree;
+            fit.degree = static_cast<std::uint32_t>(degree);
             std::copy(std::begin(series), std::end(series), fit.coefficients);
             fit.r_squared = spread > 0 ? 1 - left / spread : 1;
             fit.prediction_error = std::sqrt(squares / double(count));
@@ -116,8 +118,8 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFi
     }
 }
 
-// The least value over [-1, 1]: the best of a scan, then the golden section around it.
-double minimiser(const TimeFit& fit) {
+// Where the least value over [-1, 1] is, by a scan and then a golden-section search around its best point.
+double minimiser(const vox_time_fit& fit) {
     const auto value = [&](double u) { return power_series(fit.coefficients, fit.degree, u); };
     constexpr int steps = 1024;
     const auto scan = [](int i) { return double(2 * i - steps) / steps; };
@@ -139,8 +141,8 @@ double minimiser(const TimeFit& fit) {
     return inside;
 }
 
-// Where the fitted logarithm first passes `limit` on the way from `inside`, where it does not, to `end`.
-double crossing(const TimeFit& fit, double limit, double inside, double end) {
+// Where the fitted logarithm first exceeds `limit` on the way from `inside`, where it does not, to `end`.
+double crossing(const vox_time_fit& fit, double limit, double inside, double end) {
     const auto over = [&](double u) { return power_series(fit.coefficients, fit.degree, u) > limit; };
     constexpr int steps = 1024;
     const double start = inside;
@@ -159,12 +161,12 @@ double crossing(const TimeFit& fit, double limit, double inside, double end) {
 
 } // namespace
 
-double TimeFit::at(double size) const {
-    return std::exp(power_series(coefficients, degree, place_of(*this, size)));
+double fitted_time(const vox_time_fit& fit, double cell_size) {
+    return std::exp(power_series(fit.coefficients, fit.degree, place_of(fit, cell_size)));
 }
 
-TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
-    TimeFit fit;
+vox_time_fit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
+    vox_time_fit fit{};
     const auto [smallest, largest] = std::minmax_element(cell_sizes.begin(), cell_sizes.end());
     fit.range_min = *smallest;
     fit.range_max = *largest;
@@ -175,11 +177,11 @@ TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> ti
     const double best = minimiser(fit);
     fit.cell_size = cell_size_at(fit, best);
     fit.time = std::exp(power_series(fit.coefficients, fit.degree, best));
-    fit.bracketed = best > -1 && best < 1;
+    fit.bracketed = best > -1 && best < 1 ? 1 : 0;
     return fit;
 }
 
-FitZone fit_zone(const TimeFit& fit, double limit) {
+FitZone fit_zone(const vox_time_fit& fit, double limit) {
     const double best = std::clamp(place_of(fit, fit.cell_size), -1.0, 1.0);
     const double log_limit = std::max(std::log(limit), power_series(fit.coefficients, fit.degree, best));
     return {std::min(cell_size_at(fit, crossing(fit, log_limit, best, -1)), fit.cell_size),
