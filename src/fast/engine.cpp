@@ -147,7 +147,7 @@ FastEngine::FastEngine(std::pmr::memory_resource* memory)
       first_of_b_(memory), first_of_a_(memory), groups_(memory), bins_(memory), workers_(memory),
       large_buffers_(memory), degenerate_(memory) {}
 
-void FastEngine::detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
+void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                   const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                   vox_profile& profile) {
     Step step{bodies, prepared, settings, hits};
@@ -161,7 +161,7 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<FastMesh* const>
     make_windows(step);
     const std::uint64_t binned = nanoseconds();
     std::size_t tiles = 0;
-    for (const FastMesh* mesh : prepared) tiles += mesh->tiles.size();
+    for (const fast::PreparedBody& body : prepared) tiles += body.tiles->tiles.size();
     step.for_ranges(super_pieces_.size(), tiles, 32,
                     [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
                         for (std::size_t p = begin; p < end; ++p)
@@ -218,19 +218,20 @@ void FastEngine::prepare(Step& step) {
     block_pieces_.clear();
     super_pieces_.clear();
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
-        FastMesh& mesh = *step.prepared[b];
+        const Tiles& mesh = *step.prepared[b].tiles;
+        fast::MeshState& kept = *step.prepared[b].state;
         states_[b] = {};
         states_[b].buffers = none;
         states_[b].rounded = moved_origin || step.bodies[b].positions.rounded();
-        mesh.rest.expect(states_[b].rounded);
+        kept.last_positions.expect(states_[b].rounded);
         states_[b].positions = !states_[b].rounded && fast::is_packed(step.bodies[b].positions)
                                    ? reinterpret_cast<const float*>(step.bodies[b].positions.data)
-                                   : mesh.rest.positions.data();
+                                   : kept.last_positions.positions.data();
         states_[b].moved = !step.settings.carry;
         states_[b].first_block = static_cast<std::uint32_t>(blocks);
         states_[b].first_super = static_cast<std::uint32_t>(supers);
         states_[b].first_tile = static_cast<std::uint32_t>(tiles);
-        states_[b].tracked = may_certify(step, b) && mesh.turning.is_known;
+        states_[b].tracked = may_certify(step, b) && kept.orientation.is_known;
         states_[b].first_move = static_cast<std::uint32_t>(moves);
         if (states_[b].tracked) moves += mesh.block_count();
         blocks += mesh.block_count();
@@ -317,30 +318,30 @@ void FastEngine::stream(Step& step) {
 bool FastEngine::stream(const Step& step, const Piece& piece, Box& box, std::uint8_t& moved) {
     const Positions& positions = step.bodies[piece.body].positions;
     const BodyState& state = states_[piece.body];
-    FastMesh& mesh = *step.prepared[piece.body];
+    fast::MeshState& kept = *step.prepared[piece.body].state;
     const std::span<const std::uint32_t> first =
-        std::span(mesh.block_first).subspan(piece.first, piece.last - piece.first + 1);
+        std::span(step.prepared[piece.body].tiles->block_first).subspan(piece.first, piece.last - piece.first + 1);
     const std::uint32_t begin = first.front(), end = first.back();
     const std::size_t part = piece.first / piece_blocks;
     const bool packed = !state.rounded && fast::is_packed(positions);
     if (state.rounded)
-        fast::round_positions(positions, step.origin, begin, end, mesh.rest.positions.data());
+        fast::round_positions(positions, step.origin, begin, end, kept.last_positions.positions.data());
     else if (!packed)
-        moved = !fast::copy_strided(mesh.rest, part, positions, begin, end);
+        moved = !fast::copy_strided(kept.last_positions, part, positions, begin, end);
     Box* boxes = block_boxes_.data() + state.first_block + piece.first;
     const bool finite = state.tracked
-                            ? fast::stream_boxes(state.positions, mesh.turning.reference.data(), first, boxes,
+                            ? fast::stream_boxes(state.positions, kept.orientation.reference.data(), first, boxes,
                                                  block_moves_.data() + state.first_move + piece.first, box)
                             : fast::stream_boxes(state.positions, first, boxes, box);
-    if (packed) moved = !fast::compare_packed(mesh.rest, part, state.positions, begin, end, box);
-    if (state.rounded) moved = !fast::compare_exact(mesh.rest, part, positions, begin, end, box);
+    if (packed) moved = !fast::compare_packed(kept.last_positions, part, state.positions, begin, end, box);
+    if (state.rounded) moved = !fast::compare_exact(kept.last_positions, part, positions, begin, end, box);
     return finite;
 }
 
 // Bodies whose surface may tell which of their vertices can be in their own tets.
 bool FastEngine::may_certify(const Step& step, std::uint32_t body) const noexcept {
     return step.settings.winding && step.bodies[body].self_collision &&
-           step.prepared[body]->surface.is_closed;
+           step.prepared[body].boundary->is_closed;
 }
 
 // The boxes of the super-tiles of such bodies, and which of these hold no tet that may have turned over.
@@ -348,7 +349,7 @@ void FastEngine::follow_turning(Step& step) {
     std::size_t tiles = 0;
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
         states_[b].supers_known = states_[b].moved && may_certify(step, b);
-        if (states_[b].supers_known) tiles += step.prepared[b]->tiles.size();
+        if (states_[b].supers_known) tiles += step.prepared[b].tiles->tiles.size();
     }
     if (tiles == 0) return;
     step.for_ranges(super_pieces_.size(), tiles, 256, [&](std::size_t begin, std::size_t end, std::uint32_t) {
@@ -356,8 +357,8 @@ void FastEngine::follow_turning(Step& step) {
             const Piece& piece = super_pieces_[p];
             const BodyState& state = states_[piece.body];
             if (!state.supers_known) continue;
-            const FastMesh& mesh = *step.prepared[piece.body];
-            fast::follow(mesh, mesh.turning, block_boxes_.data() + state.first_block,
+            const Tiles& mesh = *step.prepared[piece.body].tiles;
+            fast::follow(mesh, step.prepared[piece.body].state->orientation, block_boxes_.data() + state.first_block,
                          state.tracked ? block_moves_.data() + state.first_move : nullptr,
                          state.rounded ? fast::slack_of_rounding(body_boxes_[piece.body]) : 0, piece.first,
                          piece.last, super_boxes_.data() + state.first_super,
@@ -379,7 +380,7 @@ void FastEngine::find_reaches(Step& step) {
         reaches_.push_back(reach);
     }
     std::size_t blocks = 0, tiles = 0;
-    for (const Reach& reach : reaches_) blocks += step.prepared[reach.a]->block_count();
+    for (const Reach& reach : reaches_) blocks += step.prepared[reach.a].tiles->block_count();
     step.for_ranges(reaches_.size(), blocks, 4096, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t r = begin; r < end; ++r) shrink_to_blocks(step, reaches_[r]);
     });
@@ -390,7 +391,7 @@ void FastEngine::find_reaches(Step& step) {
     for (const Reach& reach : reaches_) {
         states_[reach.b].reached = true;
         add(reached_regions_[reach.b], reach.region);
-        tiles += step.prepared[reach.b]->tiles.size();
+        tiles += step.prepared[reach.b].tiles->tiles.size();
     }
     step.for_ranges(block_pieces_.size(), reaches_.empty() ? 0 : block_boxes_.size(), 4 * piece_blocks,
                     [&](std::size_t begin, std::size_t end, std::uint32_t) {
@@ -409,7 +410,7 @@ void FastEngine::find_reaches(Step& step) {
 void FastEngine::shrink_to_blocks(const Step& step, Reach& reach) const {
     Box reached = empty_box;
     const Box* blocks = block_boxes_.data() + states_[reach.a].first_block;
-    const std::uint32_t count = step.prepared[reach.a]->block_count();
+    const std::uint32_t count = step.prepared[reach.a].tiles->block_count();
     for (std::uint32_t i = 0; i < count; i += fast::most_boxes) {
         std::uint64_t met =
             fast::find_overlaps(blocks + i, std::min(fast::most_boxes, count - i), reach.region);
@@ -456,7 +457,7 @@ void FastEngine::find_sides(const Step& step, const Piece& piece) {
 // side of what matters.
 void FastEngine::know_super_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
-    const FastMesh& mesh = *step.prepared[piece.body];
+    const Tiles& mesh = *step.prepared[piece.body].tiles;
     const Box* blocks = block_boxes_.data() + state.first_block;
     const std::uint8_t* sides = block_sides_.data() + state.first_block;
     const bool knows_sides = this->knows_sides(step, piece.body);
@@ -483,7 +484,7 @@ void FastEngine::know_tiles(const Step& step, const Piece& piece) {
     const BodyState& state = states_[piece.body];
     if (!state.reached) return;
     if (!state.supers_known) know_super_tiles(step, piece);
-    const FastMesh& mesh = *step.prepared[piece.body];
+    const Tiles& mesh = *step.prepared[piece.body].tiles;
     const std::span<const std::uint32_t> reaches = reaching(piece.body);
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         const Box& box = super_boxes_[state.first_super + s];
@@ -497,7 +498,7 @@ void FastEngine::know_tiles(const Step& step, const Piece& piece) {
 // Shrinks the region to what tiles of b cover.
 void FastEngine::shrink_to_tiles(const Step& step, Reach& reach) const {
     const BodyState& state = states_[reach.b];
-    const FastMesh& mesh = *step.prepared[reach.b];
+    const Tiles& mesh = *step.prepared[reach.b].tiles;
     const std::uint32_t super_tiles = mesh.super_tile_count();
     const Box* boxes = tile_boxes_.data() + state.first_tile;
     Box covered = empty_box;
@@ -541,7 +542,7 @@ void FastEngine::query(Step& step, const Piece& piece, Worker& worker) {
     for (const std::uint32_t r : reaches) add(reaches_[r].a, reaches_[r].region);
     if (sources.empty()) return;
 
-    const FastMesh& mesh = *step.prepared[b];
+    const Tiles& mesh = *step.prepared[b].tiles;
     fast::Query query{};
     query.tiles = &mesh;
     query.positions = state.positions;

@@ -4,17 +4,13 @@
 
 #include "base/scene.hpp"
 #include "cell_size/activity.hpp"
-#include "fast/last_positions.hpp"
+#include "fast/mesh_state.hpp"
 #include "fast/pairs.hpp"
 #include "fast/query.hpp"
 #include "fast/stream.hpp"
 #include "fast/winding/certificate.hpp"
-#include "fast/winding/orientation.hpp"
 #include "fast/window.hpp"
-#include "mesh/boundary.hpp"
-#include "mesh/tile_repair.hpp"
 #include "mesh/tile_sides.hpp"
-#include "mesh/tiles.hpp"
 
 #include <vox/vox.h>
 
@@ -27,36 +23,12 @@ namespace vox {
 
 class Workers;
 
-// What the engine prepares of a mesh's topology, and keeps of its positions. An empty one is prepared for an
-// empty mesh.
-struct FastMesh : Tiles {
-    explicit FastMesh(std::pmr::memory_resource* memory) noexcept
-        : Tiles(memory), surface(memory), rest(memory), turning(memory), places(memory) {}
-
-    Boundary surface; // of bodies with self-collision
-    fast::LastPositions rest;       // the positions of the last step
-    fast::OrientationCache turning; // which tets may have turned over
-    TilePlaces places;   // for edits
-
-    // The positions decide how compact tiles are, nothing else; they may move later. Throws std::bad_alloc
-    // (or what the memory throws) and leaves this as it was then.
-    void prepare(const Body& body);
-
-    // Follow an edit of the body, which is as it is now: of tetrahedra, around each vertex `tets_of` it;
-    // vertices that are new at the end. False, or what the memory throws: all is to be prepared anew.
-    bool follow(const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of);
-    bool follow_vertices(const Body& body, std::uint32_t count_before);
-
-private:
-    void expect_vertices(std::uint32_t vertex_count);
-};
-
 struct FastSettings {
     double cell_size = 0;       // 0: chosen for each window of cells from the tiles that query it
     bool winding = true;        // cull self-collision by winding numbers where it pays
     Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
     // Leave out what cannot have changed: pairs of bodies neither of which moved since the last step, whose
-    // hits the caller has. For the same engine and FastMeshes as in the last step, meshes that are new or
+    // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new or
     // gone excepted, and not after a step that failed.
     bool carry = false;
 };
@@ -69,12 +41,12 @@ public:
     FastEngine& operator=(const FastEngine&) = delete;
 
     // As ReferenceEngine::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
-    // any order. `prepared` are the tiles of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
+    // any order. `prepared` is what there is of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
     // the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in their box)
     // and the stage times from `bin_ns` to `narrow_ns` (here: exact decisions alone, of the worker that took
     // longest over them). Nothing but times and the order of hits depends on the workers. With more than one,
     // the memory given to the constructor and that of `hits` are used by many threads at once.
-    void detect(std::span<const Body> bodies, std::span<FastMesh* const> prepared,
+    void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
 

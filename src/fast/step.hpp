@@ -15,7 +15,7 @@ inline constexpr std::uint32_t piece_blocks = 2048; // of a piece of a body, at 
 
 struct FastEngine::Step {
     std::span<const Body> bodies;
-    std::span<FastMesh* const> prepared;
+    std::span<const fast::PreparedBody> prepared;
     const FastSettings& settings;
     std::pmr::vector<Hit>& hits;
     Vec3d origin{};     // of rounded positions as floats; else zero

@@ -52,7 +52,7 @@ void FastEngine::make_windows(Step& step) {
 
 // The sides of some tiles of a body.
 void FastEngine::sample_tiles(const Step& step, std::uint32_t body, TileSize& sides) {
-    const FastMesh& mesh = *step.prepared[body];
+    const Tiles& mesh = *step.prepared[body].tiles;
     const BodyState& state = states_[body];
     const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -68,12 +68,12 @@ void FastEngine::sample_tiles(const Step& step, std::uint32_t body, TileSize& si
 bool FastEngine::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
                            std::uint64_t& exact_tests, Workers* helpers) {
     if (!may_certify(step, b)) return false;
-    FastMesh& mesh = *step.prepared[b];
+    const fast::PreparedBody& mesh = step.prepared[b];
     const BodyState& state = states_[b];
     TileSize sides;
     sample_tiles(step, b, sides);
-    const fast::WindingBody body{mesh,
-                                 mesh.surface,
+    const fast::WindingBody body{*mesh.tiles,
+                                 *mesh.boundary,
                                  state.positions,
                                  step.bodies[b].vertex_count,
                                  body_boxes_[b],
@@ -82,7 +82,7 @@ bool FastEngine::cull_by_winding(const Step& step, std::uint32_t b, fast::Certif
                                  super_upright_.data() + state.first_super,
                                  tile_boxes_.data() + state.first_tile,
                                  tile_known_.data() + state.first_tile,
-                                 mesh.turning,
+                                 mesh.state->orientation,
                                  helpers,
                                  state.rounded,
                                  step.origin,
@@ -92,14 +92,14 @@ bool FastEngine::cull_by_winding(const Step& step, std::uint32_t b, fast::Certif
 
 // Marks the blocks with vertices that are not certified.
 void FastEngine::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buffers) const {
-    const FastMesh& mesh = *step.prepared[b];
+    const Tiles& mesh = *step.prepared[b].tiles;
     const BodyState& state = states_[b];
     const fast::Certificate& certificate = buffers.certificate;
     std::pmr::vector<std::uint8_t>& active = buffers.active;
     const std::uint32_t count = mesh.block_count();
     active.assign(count, 0);
     const std::pmr::vector<std::uint32_t>& first = mesh.block_first;
-    for (const std::uint32_t v : mesh.surface.loose)
+    for (const std::uint32_t v : step.prepared[b].boundary->loose)
         active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
                                         1)] = 1;
     if (certificate.complete) return;
@@ -124,8 +124,8 @@ void FastEngine::make_window(const Step& step, std::uint32_t a, fast::Bins& bins
     WindowBuffers& buffers = state.buffers == none ? worker.windows : large_buffers_[state.buffers];
     const bool culled = self && cull_by_winding(step, a, buffers.certificate, worker.exact_tests, helpers);
     const Box* blocks = block_boxes_.data() + state.first_block;
-    const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
-    const std::uint32_t count = step.prepared[a]->block_count();
+    const std::pmr::vector<std::uint32_t>& first = step.prepared[a].tiles->block_first;
+    const std::uint32_t count = step.prepared[a].tiles->block_count();
     Box own =
         self && !culled ? body_boxes_[a] : empty_box; // of the vertices that may be in the same body
     if (culled) {
