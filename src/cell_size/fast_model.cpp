@@ -139,14 +139,13 @@ public:
         }
     }
     Box own_region(std::uint32_t body) const {
-        const bool self = engine_.activity(body, bodies_[body].vertex_count).meets_itself;
-        return self ? engine_.windows().of[body].own : empty_box;
+        return !engine_.cleared(body, bodies_[body].vertex_count) ? engine_.windows().of[body].own : empty_box;
     }
     void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
-        const fast::StepBody& of = engine_.last_step().of[body];
-        const std::size_t first = of.first_tile, end = first + of.tiles->tiles.size();
         const fast::StepBoxes& boxes = engine_.boxes();
-        for (std::size_t t = first; t < end; ++t)
+        const std::pmr::vector<fast::StepBody>& of = engine_.last_step().of;
+        const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();
+        for (std::size_t t = of[body].first_tile; t < end; ++t)
             if (boxes.tile_known[t] && overlap(boxes.tiles[t], region)) met.push_back(boxes.tiles[t]);
     }
     void collect(std::uint32_t body, std::span<const Reach>, const Box&, const Box&,

@@ -112,11 +112,10 @@ void FastEngine::count(vox_counters& counters) {
         static_cast<std::uint64_t>(std::unique(degenerate_.begin(), degenerate_.end()) - degenerate_.begin());
 }
 
-// Where winding numbers cleared most of a body, what is left of its self-collision costs next to nothing.
-Activity FastEngine::activity(std::size_t body, std::uint32_t vertices) const noexcept {
-    if (body >= step_.of.size()) return {};
+bool FastEngine::cleared(std::size_t body, std::uint32_t vertices) const noexcept {
+    if (body >= step_.of.size()) return false;
     const fast::BodyWindow& window = windows_.of[body];
-    return {step_.of[body].moved, !is_empty(window.own) && window.count > vertices / 2};
+    return is_empty(window.own) || window.count <= vertices / 2;
 }
 
 } // namespace vox

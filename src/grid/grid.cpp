@@ -512,8 +512,10 @@ vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
         known.bodies.push_back(s.mesh.body(id));
         known.tiles.push_back(s.mesh.tiles_if_made());
         known.meshes.push_back(&s.mesh);
-        known.activity.push_back(s.body == Slot::none ? Activity{}
-                                                      : fast_engine_.activity(s.body, s.mesh.vertex_count()));
+        known.activity.push_back(s.body == Slot::none
+                                     ? Activity{}
+                                     : Activity{fast_engine_.moved(s.body),
+                                                !fast_engine_.cleared(s.body, s.mesh.vertex_count())});
     }
     if (fast_ && meshes_hold_) known.last_step = &fast_engine_;
     return known;
