@@ -142,7 +142,7 @@ void vox_grid::clear() {
     contacts_hold_ = false;
     events_.hide_pairs();
     readings_.forget();
-    queries_.forget();
+    queries_.invalidate();
     ++epoch_;
 }
 

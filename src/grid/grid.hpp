@@ -4,6 +4,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
+#include "cell_size/activity.hpp"
 #include "cell_size/adaptive.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
