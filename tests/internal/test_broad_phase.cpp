@@ -183,7 +183,7 @@ Mesh any_body(Random& r) {
         mesh = ball(50 + r.below(800));
     if (r.below(2)) jitter(mesh, 0.2, r);
     if (r.below(3) == 0) renumber(mesh, r);
-    const auto place = [&] { return double(r.below(2) ? r.uniform(-8, 8) : float(r.below(9))); };
+    const auto place = [&] { return double(r.below(2) ? r.uniform(-3, 3) : float(r.below(4))); };
     move(mesh, 1, place(), place(), place());
     return mesh;
 }
@@ -214,8 +214,8 @@ START_TEST(regions_hold_what_may_be_in_contact) {
             check_boxes(s, level);
         }
     });
-    ck_assert_uint_gt(filled, 20 * rounds);
-    ck_assert_uint_gt(met, 1000 * rounds);
+    ck_assert_uint_gt(filled, 10 * rounds);
+    ck_assert_uint_gt(met, 100 * rounds);
 }
 END_TEST
 
@@ -237,8 +237,9 @@ START_TEST(filters_and_bodies_at_rest_leave_pairs_out) {
     s.moved = {false, false, false, false};
     ck_assert_uint_eq(pairs(), 0);
     s.moved = {true, true, true, true};
-    const std::uint32_t others[2] = {s.bodies[0].mesh_id, s.bodies[1].mesh_id};
+    const std::uint32_t others[2] = {s.bodies[0].mesh_id, s.bodies[1].mesh_id}, last[1] = {s.bodies[2].mesh_id};
     s.bodies[2].exceptions = others;
+    s.bodies[0].exceptions = s.bodies[1].exceptions = last;
     ck_assert_uint_eq(pairs(), 8);
     s.bodies[0].filter.mask = 0;
     ck_assert_uint_eq(pairs(), 4);
