@@ -70,7 +70,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
 
 // The query of each piece, and the decisions on what it finds.
 void FastEngine::query(std::pmr::vector<Hit>& hits) {
-    constexpr std::size_t task_tiles = 32; // are worth a task of their own
+    constexpr std::size_t task_tiles = 32; // are worth a task: by bench_stages, ten microseconds where they find points
     fast::Decided decided{hits, degenerate_};
     step_.for_ranges(step_.super_pieces.size(), step_.tile_count, task_tiles,
                      [&](std::size_t begin, std::size_t end, std::uint32_t w) {
