@@ -914,17 +914,25 @@ typedef struct vox_counters {
 /* Writes the fields that out_counters->struct_size covers (set it first). */
 VOX_API vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters);
 
-/* Nanoseconds of the last successful step, in total and by stage. */
+/* Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+ * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
+ * leaves the fields from stream_ns on 0. */
 typedef struct vox_profile {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t step_ns;
-    uint64_t bin_ns;      /* classify the vertices, recompute the boxes */
-    uint64_t broad_ns;    /* cells and box tests */
-    uint64_t narrow_ns;   /* exact decisions */
-    uint64_t contacts_ns; /* canonical order, barycentric coordinates */
-    uint64_t depth_ns;    /* penetrations */
-    uint64_t events_ns;   /* touching pairs and events */
+    uint64_t bin_ns;         /* classify the vertices, recompute the boxes: stream + winding + windows */
+    uint64_t broad_ns;       /* cells and box tests: broad_phase + query */
+    uint64_t narrow_ns;      /* exact decisions: decide */
+    uint64_t contacts_ns;    /* canonical order, barycentric coordinates */
+    uint64_t depth_ns;       /* penetrations */
+    uint64_t events_ns;      /* touching pairs and events */
+    uint64_t stream_ns;      /* read all positions: boxes, and which meshes moved */
+    uint64_t winding_ns;     /* rule out self-contacts by winding numbers; of the worker that took longest over them */
+    uint64_t broad_phase_ns; /* regions in which meshes may be in contact */
+    uint64_t windows_ns;     /* bin the vertices that lie there */
+    uint64_t query_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
+    uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */

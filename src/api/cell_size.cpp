@@ -135,8 +135,8 @@ private:
             Box block{};
             if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
                 check_finite(body);
-            if (!std::equal(box.lo, box.lo + 3, step.box(b).lo) ||
-                !std::equal(box.hi, box.hi + 3, step.box(b).hi))
+            if (!std::equal(box.lo, box.lo + 3, step.boxes().bodies[b].lo) ||
+                !std::equal(box.hi, box.hi + 3, step.boxes().bodies[b].hi))
                 return true;
         }
         return false;

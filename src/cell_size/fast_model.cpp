@@ -1,6 +1,6 @@
 #include "cell_size/fast_model.hpp"
 
-#include "fast/pairs.hpp"
+#include "fast/broad_phase.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
@@ -131,24 +131,31 @@ public:
     FromLastStep(std::span<const Body> bodies, const FastEngine& engine) : bodies_(bodies), engine_(engine) {}
 
     void find_reaches(std::pmr::vector<Reach>& reaches, std::pmr::vector<Box>& met) const {
-        engine_.for_reaches([&](std::uint32_t a, std::uint32_t b, const Box& region) {
+        for (const fast::PairRegion& pair : engine_.broad_phase().regions) {
+            if (is_empty(pair.region)) continue;
             const std::size_t first_tile = met.size();
-            find_tiles(b, region, met);
-            reaches.push_back({a, b, region, first_tile, met.size()});
-        });
+            find_tiles(pair.b, pair.region, met);
+            reaches.push_back({pair.a, pair.b, pair.region, first_tile, met.size()});
+        }
     }
     Box own_region(std::uint32_t body) const {
-        const bool self = engine_.activity(body, bodies_[body].vertex_count).meets_itself;
-        return self ? engine_.own_region(body) : empty_box;
+        return !engine_.cleared(body, bodies_[body].vertex_count) ? engine_.windows().of[body].own : empty_box;
     }
     void find_tiles(std::uint32_t body, const Box& region, std::pmr::vector<Box>& met) const {
-        engine_.for_tiles(body, region, [&](const Box& box) { met.push_back(box); });
+        const fast::StepBoxes& boxes = engine_.boxes();
+        const std::pmr::vector<fast::StepBody>& of = engine_.last_step().of;
+        const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();
+        for (std::size_t t = of[body].first_tile; t < end; ++t)
+            if (boxes.tile_known[t] && overlap(boxes.tiles[t], region)) met.push_back(boxes.tiles[t]);
     }
     void collect(std::uint32_t body, std::span<const Reach>, const Box&, const Box&,
                  fast::Points& points) const {
-        engine_.for_binned(body, [&](const fast::Points& from, std::size_t first, std::uint32_t count) {
-            append(from, first, count, points);
-        });
+        const fast::BodyWindow& of = engine_.windows().of[body];
+        if (!of.bins) return;
+        for (std::uint32_t w = of.root; w < of.bins->windows[of.root].end; ++w) {
+            const fast::Window& window = of.bins->windows[w];
+            if (window.count) append(of.bins->points, window.first_point, window.count, points);
+        }
     }
 
 private:

@@ -1,6 +1,6 @@
 #include "cell_size/reference_model.hpp"
 
-#include "fast/pairs.hpp"
+#include "fast/broad_phase.hpp"
 
 #include <algorithm>
 #include <array>

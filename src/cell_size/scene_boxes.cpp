@@ -1,7 +1,7 @@
 #include "cell_size/scene_boxes.hpp"
 
+#include "fast/broad_phase.hpp"
 #include "fast/last_positions.hpp"
-#include "fast/query.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
 
@@ -59,7 +59,7 @@ void SceneBoxes::find_tiles(std::size_t body, const Box& region, std::pmr::vecto
             if ((beyond &= sides_[block]) == 0) break;
         if (beyond != 0) continue;
         const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-        fast::tile_boxes(tiles, positions_[body], first, last, boxes, known);
+        fast::make_tile_boxes(tiles, positions_[body], first, last, boxes, known);
         for (std::uint32_t t = first; t < last; ++t)
             if (overlap(boxes[t], region)) out.push_back(boxes[t]);
     }

@@ -22,7 +22,7 @@ public:
         if (triangles > faces_.size()) faces_.resize(triangles);
     }
 
-    std::size_t size() const noexcept { return faces_.size(); }
+    std::size_t capacity() const noexcept { return faces_.size(); }
 
     // Call it before at(), for another solid or when positions have changed.
     void begin(const Solid& solid);

@@ -12,9 +12,6 @@ namespace vox {
 
 using namespace depth;
 
-DepthStage::Worker::Worker(std::pmr::memory_resource* memory)
-    : number(memory), queue(memory), normals(memory), tree(memory) {}
-
 DepthStage::DepthStage(std::pmr::memory_resource* memory)
     : starts_(memory), points_(memory), pairs_(memory), unresolved_(memory), unresolved_by_body_(memory),
       workers_(memory) {}
@@ -48,7 +45,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     for_each(unresolved_by_body_, unresolved_.size(),
              [&](const Range& range, Worker& worker) { find_closest(scene, range, worker); });
 
-    level_workers();
+    workers_.level();
 
     penetrations.reserve(hits.size());
     penetrations.resize(points_.size());
@@ -81,30 +78,8 @@ void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
     starts_.reserve(contacts);
     unresolved_.reserve(contacts);
     unresolved_by_body_.reserve(contacts);
-    workers_.reserve(worker_count);
-    while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
+    workers_.grow(worker_count);
     for (Worker& worker : workers_) worker.counts = {};
-}
-
-// Each worker may have to do in the next step what another did in this one.
-void DepthStage::level_workers() {
-    std::size_t points = 0, vertices = 0, triangles = 0, tree = 0;
-    for (const Worker& worker : workers_) {
-        points = std::max(points, worker.queue.size());
-        vertices = std::max(vertices, worker.number.size());
-        triangles = std::max(triangles, worker.normals.size());
-        tree = std::max(tree, worker.tree.capacity());
-    }
-    for (Worker& worker : workers_) {
-        worker.reserve(points, vertices);
-        worker.normals.reserve(triangles);
-        worker.tree.reserve(tree);
-    }
-}
-
-void DepthStage::Worker::reserve(std::size_t points, std::size_t vertices) {
-    if (number.size() < vertices) number.resize(vertices, 0);
-    if (queue.size() < points) queue.resize(points);
 }
 
 // Hits are sorted by body_a, vertex and body_b; the points are sorted by body_a, body_b and vertex.
@@ -142,7 +117,9 @@ void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> co
 void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
     const std::size_t count = range.last - range.first;
-    worker.reserve(count, scene.bodies[hit.body_a].vertex_count);
+    const std::size_t vertices = scene.bodies[hit.body_a].vertex_count;
+    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
+    if (worker.queue.size() < count) worker.queue.resize(count);
     const BodyPair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions,
                         scene.solid(hit.body_b), hit.body_a == hit.body_b};
     find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,

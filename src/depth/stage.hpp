@@ -2,6 +2,7 @@
 // docs/depth.md describes the method; each part is a file in depth/.
 #pragma once
 
+#include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
 #include "depth/normals.hpp"
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox {
@@ -47,16 +49,16 @@ private:
         std::uint32_t body_b;
         std::size_t point;
     };
-    struct alignas(64) Worker {
-        explicit Worker(std::pmr::memory_resource* memory);
-
-        // Makes room for pairs of that many points, of bodies with that many vertices.
-        void reserve(std::size_t points, std::size_t vertices);
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory)
+            : number(memory), queue(memory), normals(memory), tree(memory) {}
 
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
         depth::SurfaceTree tree;
         depth::Counts counts;
+
+        auto buffers() { return std::tie(number, queue, normals, tree); }
     };
     struct Scene {
         std::span<const Body> bodies;
@@ -67,7 +69,6 @@ private:
     };
 
     void make_room(std::size_t contacts, std::size_t worker_count);
-    void level_workers();
     void list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void list_unresolved(const Scene& scene);
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);
@@ -78,7 +79,7 @@ private:
     std::pmr::vector<Range> pairs_;              // in points_
     std::pmr::vector<Unresolved> unresolved_;    // sorted by body_b
     std::pmr::vector<Range> unresolved_by_body_; // in unresolved_, one for each body_b
-    std::pmr::vector<Worker> workers_;
+    PerWorker<Worker> workers_;
 };
 
 } // namespace vox

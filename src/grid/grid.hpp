@@ -4,6 +4,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
+#include "cell_size/activity.hpp"
 #include "cell_size/adaptive.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
@@ -103,7 +104,11 @@ private:
     friend class vox::Snapshot;
 
     struct Slot {
+        Slot(std::pmr::memory_resource* memory, std::uint32_t last_generation = 0) noexcept
+            : mesh(memory), state(memory), generation(last_generation) {}
+
         vox::Mesh mesh;
+        vox::fast::MeshState state; // of the mesh, for the fast engine
         std::uint32_t generation = 0; // of the mesh that lives here, or of the last one that did
         bool live = false;
         static constexpr std::uint32_t none = ~0u;
@@ -144,7 +149,7 @@ private:
 
     // one step
     std::pmr::vector<vox::Body> bodies_;
-    std::pmr::vector<vox::FastMesh*> tiles_; // of each body, for the fast engine
+    std::pmr::vector<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage
