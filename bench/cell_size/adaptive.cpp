@@ -40,14 +40,14 @@ struct Ball {
 
     // Waves run through it, so that it never rests.
     void pose(double inflation, int step) {
-        const double a = 0.01 * radius, k = std::numbers::pi / radius, run = 0.1 * step;
         for (std::size_t v = 0; v < solid.positions.size(); ++v) {
             const Vec3 &p = solid.positions[v], q{scale * p.x, scale * p.y, scale * p.z};
-            const double moved[3] = {place.x + q.x + a * std::sin(k * q.y + run),
-                                     place.y + q.y + a * std::sin(k * q.z + run + 1),
-                                     place.z + q.z + a * std::sin(k * q.x + run + 2)};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                positions[3 * v + axis] = static_cast<float>(inflation * moved[axis]);
+            const Vec3 moved = waved({place.x + q.x, place.y + q.y, place.z + q.z}, q, 0.01 * radius,
+                                     std::numbers::pi / radius, 0.1 * step);
+            float* to = &positions[3 * v];
+            to[0] = static_cast<float>(inflation * moved.x);
+            to[1] = static_cast<float>(inflation * moved.y);
+            to[2] = static_cast<float>(inflation * moved.z);
         }
     }
 };

@@ -60,18 +60,6 @@ std::vector<SceneMaker> all_scenes(const std::string& meshes) {
     return makers;
 }
 
-double mean_edge(const Body& body) {
-    double sum = 0;
-    for (std::size_t t = 0; t < body.tets.size(); t += 4)
-        for (std::size_t i = 0; i < 4; ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const float* a = &body.positions[3 * body.tets[t + i]];
-                const float* b = &body.positions[3 * body.tets[t + j]];
-                sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
-            }
-    return sum / (6 * static_cast<double>(body.tet_count()));
-}
-
 // ---- timing ---------------------------------------------------------------------------------------
 
 class Grid {
@@ -93,15 +81,7 @@ public:
 
     static std::vector<vox_mesh_desc> descs(const Scene& scene) {
         std::vector<vox_mesh_desc> descs;
-        for (const Body& body : scene.bodies) {
-            vox_mesh_desc desc = vox_default_mesh_desc();
-            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
-            desc.positions = body.positions.data();
-            desc.vertex_count = body.vertex_count();
-            desc.tets = body.tets.data();
-            desc.tet_count = body.tet_count();
-            descs.push_back(desc);
-        }
+        for (const Body& body : scene.bodies) descs.push_back(body.desc());
         return descs;
     }
 
@@ -180,8 +160,8 @@ constexpr double hopeless = 5;
 std::vector<double> sweep_sizes(const Scene& scene, double sizes) {
     double finest = scene.mean_edge, coarsest = scene.mean_edge;
     for (const Body& body : scene.bodies) {
-        finest = std::min(finest, mean_edge(body));
-        coarsest = std::max(coarsest, mean_edge(body));
+        finest = std::min(finest, mean_edge({&body, 1}));
+        coarsest = std::max(coarsest, mean_edge({&body, 1}));
     }
     const double ratio = std::pow(most / least, 1 / (sizes - 1));
     std::vector<double> list;

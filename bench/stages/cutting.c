@@ -2,8 +2,8 @@
  * again, in a body with self-collision, with and without the step that follows. Mean processor time of one
  * edit in microseconds: now and then one that makes things anew is among them. Beside it what a new insertion
  * of the body takes. Usage: bench_cutting [largest], thousands of tetrahedra, 1000 by default. */
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "timing.h"
 
 enum { most_changed = 1000, kinds = 3 };

@@ -2,7 +2,7 @@
  * alone, what else sees it. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static vox_grid* make_grid(void) {

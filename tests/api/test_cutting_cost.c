@@ -2,9 +2,9 @@
  * winding numbers goes on for. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/ledger.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 static vox_grid* make_grid(ledger* l) {

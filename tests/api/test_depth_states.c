@@ -430,10 +430,8 @@ START_TEST(inverted_tets) {
      * closest point is. */
     body box = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.13f, 0.17f, 0.9f);
     uint32_t random = 1;
-    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i) {
-        random = random * 1664525u + 1013904223u;
-        box.positions[i] += ((float)(random >> 8) / 16777216.0f - 0.5f) * 0.5f;
-    }
+    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
+        box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
     const surface s = surface_of(box.tets, box.tet_count), t = surface_of(upper.tets, upper.tet_count);
     vox_grid* grid = new_grid();
     const vox_mesh b = insert(grid, &box, VOX_MESH_SELF_COLLISION), a = insert(grid, &upper, 0);

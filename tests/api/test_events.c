@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/ledger.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 static vox_grid* new_grid(uint32_t flags) {

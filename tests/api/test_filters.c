@@ -1,8 +1,8 @@
 /* Filters of whole pairs, and what a filter may be. That of single vertices and tetrahedra: test_self_filters.c. */
 #include <math.h>
 
+#include "scenes/random.h"
 #include "support/filter_checks.h"
-#include "support/random.h"
 
 /* ---- whole pairs ------------------------------------------------------------------------------ */
 

@@ -2,7 +2,7 @@
  * changes nothing. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static vox_grid* new_grid(uint64_t byte_budget) {

@@ -1,7 +1,7 @@
 /* The per-grid allocator, the byte budget, and what a failed allocation leaves behind. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 /* Counts what is held, checks that it comes back as it was given, and fails at the call it is told to. */

@@ -2,18 +2,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static uint64_t random_state;
-
-/* splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 */
-static uint32_t below(uint32_t count) {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)((z ^ (z >> 31)) % count);
-}
+static uint32_t below(uint32_t count) { return random_below(&random_state, count); }
 
 enum { most_bodies = 12 };
 
@@ -70,7 +63,7 @@ static void free_scene(scene* s) {
 }
 
 /* Moves a whole body, one vertex of it, or folds some of it. */
-static void move_body(scene* s, int i) {
+static void move_one(scene* s, int i) {
     float* p = s->bodies[i].positions;
     const uint32_t vertices = s->bodies[i].vertex_count, how = below(3);
     const float by = 0.0625f * ((float)below(8) - 3.5f);
@@ -148,7 +141,7 @@ START_TEST(some_move) {
                 if (!s.ids[i]) continue;
                 ++present;
                 if (below(4) != 0) continue;
-                move_body(&s, i);
+                move_one(&s, i);
                 ++moving;
             }
             const vox_counters counters = check_step(&s);
@@ -238,7 +231,7 @@ START_TEST(failed_steps) {
         const float was = *p;
         *p = i % 2 ? NAN : INFINITY;
         moved(&s, i);
-        move_body(&s, (i + 1) % 6); /* and this one moves in the failing step only */
+        move_one(&s, (i + 1) % 6); /* and this one moves in the failing step only */
         for (int again = 0; again < 2; ++again) {
             ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "vertex");
             ck_ok(vox_grid_contacts(s.grid, &view));
@@ -297,7 +290,7 @@ START_TEST(meshes_come_and_go) {
     uint64_t carried = 0;
     for (int step = 0; step < 60; ++step) {
         const int i = (int)below(8);
-        if (below(3) == 0) move_body(&s, (int)below(8));
+        if (below(3) == 0) move_one(&s, (int)below(8));
         if (s.ids[i]) {
             ck_ok(vox_mesh_remove(s.grid, s.ids[i]));
             s.ids[i] = 0;

@@ -2,10 +2,10 @@
  * filters applied by definition; what they cost. */
 #include <math.h>
 
+#include "scenes/random.h"
 #include "support/filter_checks.h"
 #include "support/ledger.h"
 #include "support/oracle.h"
-#include "support/random.h"
 
 /* ---- self-contact, by definition -------------------------------------------------------------- */
 

@@ -20,10 +20,8 @@ static pair make_pair(float h) {
     uint32_t state = 7;
     for (int b = 0; b < 2; ++b) {
         p.boxes[b] = make_box(8, h, b ? 6 * h : 0, b ? 0.3f * h : 0, 0);
-        for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i) {
-            state = state * 1664525u + 1013904223u;
-            p.boxes[b].positions[i] += ((float)(state >> 16) / 65536.0f - 0.5f) * 0.3f * h;
-        }
+        for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i)
+            p.boxes[b].positions[i] += ((float)(random_quick(&state) >> 16) / 65536.0f - 0.5f) * 0.3f * h;
         p.meshes[b] = body_desc(&p.boxes[b]);
     }
     return p;

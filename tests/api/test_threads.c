@@ -2,7 +2,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/ledger.h"
 #include "support/suite.h"
 

@@ -1,8 +1,8 @@
 /* A transform a step in place of new positions, exact in its result; and bodies without tetrahedra: points
  * and surfaces that sense or cut others. */
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/oracle.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 #include <math.h>

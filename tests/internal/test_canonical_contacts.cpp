@@ -5,6 +5,7 @@
 #include "internal/scenes.hpp"
 #include "support/suite.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 

@@ -1,5 +1,5 @@
 // A grid takes all its memory from its own allocator: with no other memory resource at hand it still works.
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 #include <cstring>

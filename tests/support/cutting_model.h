@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/suite.h"
 
 enum { tet_on, tet_off, tet_removed };

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static inline vox_grid* new_grid(void) {

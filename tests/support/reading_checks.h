@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/suite.h"
 
 /* ---- brute force ---- */

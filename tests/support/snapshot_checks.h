@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 /* ---- bytes ---- */
