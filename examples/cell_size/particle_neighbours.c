@@ -33,10 +33,8 @@ static void fill(void) {
     uint32_t state = 1;
     for (int i = 0; i < count; ++i) {
         const int place[3] = {i % side, i / side % side, i / side / side};
-        for (int axis = 0; axis < 3; ++axis) {
-            state = state * 1664525u + 1013904223u;
-            position[i][axis] = (float)place[axis] + (float)(state >> 8) / (float)(1 << 24);
-        }
+        for (int axis = 0; axis < 3; ++axis)
+            position[i][axis] = (float)place[axis] + (float)(random_quick(&state) >> 8) / (float)(1 << 24);
     }
 }
 
