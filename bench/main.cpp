@@ -4,7 +4,7 @@
 #include "entrant.hpp"
 #include "results.hpp"
 #include "scenes.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <CLI/CLI.hpp>
 

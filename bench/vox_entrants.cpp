@@ -1,7 +1,7 @@
 // The engines of vox through its C interface, as a user would call them.
 #include "entrant.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 

@@ -6,7 +6,7 @@
 // them.
 #include "bodies.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 

@@ -13,7 +13,7 @@
 #include "cell_size/unlike.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 
@@ -33,12 +33,6 @@
 
 namespace bench {
 namespace {
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n == 0 ? 0 : n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
 
 // ---- scenes ---------------------------------------------------------------------------------------
 

@@ -10,8 +10,8 @@
 #include "grid/contacts.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/fast_scenes.hpp"
-#include "processor_time.hpp"
 #include "reference/engine.hpp"
+#include "timing.h"
 
 #include <cmath>
 #include <cstdio>

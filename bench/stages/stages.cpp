@@ -5,7 +5,7 @@
 #include "base/simd.hpp"
 #include "fast/sides.hpp"
 #include "internal/fast_scenes.hpp"
-#include "processor_time.hpp"
+#include "timing.h"
 
 #include <cstdio>
 #include <cstdlib>

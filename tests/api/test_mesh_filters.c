@@ -1,4 +1,4 @@
-/* Filters of whole pairs, and what a filter may be. That of single vertices and tetrahedra: test_self_filters.c. */
+/* Filters of whole pairs, and what a filter may be. That of single vertices and tetrahedra: test_mesh_self_filters.c. */
 #include <math.h>
 
 #include "scenes/random.h"

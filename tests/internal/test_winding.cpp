@@ -3,6 +3,7 @@
 #include "internal/stage_checks.hpp"
 
 #include <map>
+#include <numeric>
 
 #include "support/suite.h" // last: it defines macros with common names
 
