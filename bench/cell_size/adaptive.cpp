@@ -1,6 +1,6 @@
 // A long run of a grid that chooses its cell size itself, beside grids of the same bodies with fixed sizes:
 // two balls in contact are inflated tenfold, sink into each other, are cut in half, a fine ball is added and
-// removed. Writes a line of times for each step; bench/adaptive.py makes the picture.
+// removed. Writes a line of times for each step; bench/cell_size/adaptive.py makes the picture.
 //
 // All grids make each step once, one after the other, so that each finds the caches as the one before left
 // them.
