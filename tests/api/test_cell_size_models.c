@@ -558,8 +558,7 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("suggest_models");
-    TCase* tests = tcase_create("suggest_models");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "suggest_models");
     tcase_add_loop_test(tests, a_suggestion_explains_itself, 0, 3);
     tcase_add_loop_test(tests, units_do_not_matter, 0, 3);
     tcase_add_loop_test(tests, self_collision_counts, 0, 3);
@@ -570,10 +569,7 @@ int main(void) {
     tcase_add_loop_test(tests, cut_bodies_are_what_is_left_of_them, 0, 2);
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
-    tcase_add_test(tests, the_grid_follows_its_bodies);
-    tcase_add_test(tests, weights_are_plain_numbers);
-    tcase_add_test(tests, minimum_of_a_function);
-    tcase_add_test(tests, bad_functions_and_bounds);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, the_grid_follows_its_bodies, weights_are_plain_numbers, minimum_of_a_function,
+                          bad_functions_and_bounds);
     return run_suite(suite);
 }

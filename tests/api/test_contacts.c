@@ -535,23 +535,12 @@ START_TEST(counters_and_profile) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, inside_and_on_the_boundary);
-    tcase_add_test(tests, shared_boundary_gives_one_contact);
-    tcase_add_test(tests, overlapping_tets);
-    tcase_add_test(tests, self_contact);
-    tcase_add_test(tests, both_directions_in_canonical_order);
-    tcase_add_test(tests, hash_tells_contacts_apart);
-    tcase_add_test(tests, strided_copied_rebound);
-    tcase_add_test(tests, unbound_positions);
-    tcase_add_test(tests, non_finite_positions);
-    tcase_add_test(tests, nothing_at_all);
-    tcase_add_test(tests, huge_coordinates);
-    tcase_add_test(tests, sliver_a_thousand_edges_long);
-    tcase_add_test(tests, scaled_and_far_copies);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, flat_and_repeated_tets_hold_nothing);
-    tcase_add_test(tests, removal_between_steps);
-    tcase_add_test(tests, counters_and_profile);
+    tcase_add_each(tests, inside_and_on_the_boundary, shared_boundary_gives_one_contact, overlapping_tets,
+                          self_contact, both_directions_in_canonical_order, hash_tells_contacts_apart,
+                          strided_copied_rebound, unbound_positions, non_finite_positions, nothing_at_all,
+                          huge_coordinates, sliver_a_thousand_edges_long, scaled_and_far_copies,
+                          coincident_bodies, flat_and_repeated_tets_hold_nothing, removal_between_steps,
+                          counters_and_profile);
 }
 
 static void add_long_tests(TCase* tests) {

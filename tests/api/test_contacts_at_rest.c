@@ -381,19 +381,10 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("rest");
-    TCase* tests = tcase_create("rest");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, nothing_moves);
-    tcase_add_test(tests, small_and_hidden_moves);
-    tcase_add_test(tests, failed_steps);
-    tcase_add_test(tests, meshes_come_and_go);
-    tcase_add_test(tests, bound_elsewhere);
-    tcase_add_test(tests, settings_and_marks);
-    tcase_add_test(tests, reference_engine_rests_never);
-    suite_add_tcase(suite, tests);
-    TCase* long_tests = tagged_tests("long");
-    tcase_add_test(long_tests, some_move);
-    tcase_add_test(long_tests, budget_ends_a_step);
-    suite_add_tcase(suite, long_tests);
+    TCase* tests = add_case(suite, "rest");
+    tcase_add_each(tests, nothing_moves, small_and_hidden_moves, failed_steps, meshes_come_and_go,
+                          bound_elsewhere, settings_and_marks, reference_engine_rests_never);
+    TCase* long_tests = add_tagged_case(suite, "long", "long");
+    tcase_add_each(long_tests, some_move, budget_ends_a_step);
     return run_suite(suite);
 }

@@ -514,16 +514,10 @@ START_TEST(cell_size_follows_a_cut) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, nothing_to_do);
-    tcase_add_test(tests, smaller_struct);
-    tcase_add_test(tests, off_and_on);
-    tcase_add_test(tests, topology_keeps_what_is_not_topology);
-    tcase_add_test(tests, growing_from_nothing);
-    tcase_add_test(tests, sliver_that_came_turns_over);
-    tcase_add_test(tests, positions_of_its_own);
-    tcase_add_test(tests, queries_and_suggestions_see_it);
-    tcase_add_test(tests, cell_size_follows_a_cut);
+    tcase_add_each(tests, arguments, nothing_to_do, smaller_struct, off_and_on,
+                          topology_keeps_what_is_not_topology, growing_from_nothing,
+                          sliver_that_came_turns_over, positions_of_its_own, queries_and_suggestions_see_it,
+                          cell_size_follows_a_cut);
 }
 
 int main(void) {

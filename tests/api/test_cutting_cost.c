@@ -258,9 +258,7 @@ START_TEST(two_tets_on_one_side) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, allocation_n_fails);
-    tcase_add_test(tests, edits_cost_what_they_change);
-    tcase_add_test(tests, compact_body);
+    tcase_add_each(tests, allocation_n_fails, edits_cost_what_they_change, compact_body);
     tcase_add_loop_test(tests, two_tets_on_one_side, 0, 5);
 }
 

@@ -571,14 +571,9 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, begin_persist_end);
-    tcase_add_test(tests, removal_ends_once_with_the_old_ids);
-    tcase_add_test(tests, clear_ends_with_the_next_step);
-    tcase_add_test(tests, failed_steps_lose_nothing);
-    tcase_add_test(tests, filters_end_and_begin);
-    tcase_add_test(tests, every_event_has_its_pair);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, begin_persist_end, removal_ends_once_with_the_old_ids,
+                          clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
+                          every_event_has_its_pair, steady_state_allocates_nothing, arguments);
 }
 
 int main(void) {

@@ -380,20 +380,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("grid");
-    TCase* tests = tcase_create("grid");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, version);
-    tcase_add_test(tests, result_names);
-    tcase_add_test(tests, last_error);
-    tcase_add_test(tests, struct_sizes);
-    tcase_add_test(tests, grid_desc_fields);
-    tcase_add_test(tests, null_arguments);
-    tcase_add_test(tests, mesh_desc_fields);
-    tcase_add_test(tests, ids);
-    tcase_add_test(tests, generations_run_out);
-    tcase_add_test(tests, user_data);
-    tcase_add_test(tests, cell_size_is_chosen);
-    tcase_add_test(tests, cell_size_without_extent);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "grid");
+    tcase_add_each(tests, version, result_names, last_error, struct_sizes, grid_desc_fields, null_arguments,
+                          mesh_desc_fields, ids, generations_run_out, user_data, cell_size_is_chosen,
+                          cell_size_without_extent);
     return run_suite(suite);
 }

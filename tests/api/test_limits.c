@@ -181,21 +181,15 @@ START_TEST(capacities) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, vertices_of_a_grid);
-    tcase_add_test(tests, buffers_grow);
+    tcase_add_each(tests, vertices_of_a_grid, buffers_grow);
 }
 
 int main(void) {
     Suite* suite = suite_create("limits");
     add_for_each_engine(suite, add_tests);
-    TCase* once = tcase_create("one engine");
-    tcase_set_timeout(once, 0);
-    tcase_add_test(once, cells_of_dense_storage);
-    tcase_add_test(once, buckets_and_workers);
-    tcase_add_test(once, capacities);
-    suite_add_tcase(suite, once);
-    TCase* large = tagged_tests("large");
+    TCase* once = add_case(suite, "one engine");
+    tcase_add_each(once, cells_of_dense_storage, buckets_and_workers, capacities);
+    TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_test(large, meshes_of_a_grid);
-    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

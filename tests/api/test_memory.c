@@ -266,12 +266,8 @@ START_TEST(many_meshes) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, everything_comes_back);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, allocation_n_fails);
-    tcase_add_test(tests, budget_is_kept);
-    tcase_add_test(tests, reserved_room);
-    tcase_add_test(tests, many_meshes);
+    tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
+                          budget_is_kept, reserved_room, many_meshes);
 }
 
 int main(void) {

@@ -290,28 +290,22 @@ START_TEST(suggested_cell_size) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, floats_and_doubles_in_one_grid);
-    tcase_add_test(tests, less_than_a_float_apart);
-    tcase_add_test(tests, limits);
-    tcase_add_test(tests, steady_state_holds_the_same_memory);
+    tcase_add_each(tests, floats_and_doubles_in_one_grid, less_than_a_float_apart, limits,
+                          steady_state_holds_the_same_memory);
 }
 
 static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, exact_for_the_doubles_given);
-    tcase_add_test(tests, doubles_of_floats_are_those_floats);
-    tcase_add_test(tests, self_contact_of_large_bodies);
+    tcase_add_each(tests, exact_for_the_doubles_given, doubles_of_floats_are_those_floats,
+                          self_contact_of_large_bodies);
 }
 
 int main(void) {
     Suite* suite = suite_create("doubles");
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    TCase* others = tcase_create("both engines, or none");
-    tcase_set_timeout(others, 0);
+    TCase* others = add_case(suite, "both engines, or none");
     tcase_add_test(others, suggested_cell_size);
-    suite_add_tcase(suite, others);
-    TCase* long_tests = tagged_tests("long");
+    TCase* long_tests = add_tagged_case(suite, "long", "long");
     tcase_add_test(long_tests, engines_agree_on_large_bodies);
-    suite_add_tcase(suite, long_tests);
     return run_suite(suite);
 }

@@ -216,10 +216,7 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, category_mask_and_group);
-    tcase_add_test(tests, pair_exceptions);
-    tcase_add_test(tests, disabled_meshes);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, arguments);
 }
 
 int main(void) {

@@ -150,10 +150,7 @@ START_TEST(mapped_positions_of_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, bound_in_another_format);
-    tcase_add_test(tests, refused);
-    tcase_add_test(tests, mapped_positions);
-    tcase_add_test(tests, mapped_positions_of_nothing);
+    tcase_add_each(tests, bound_in_another_format, refused, mapped_positions, mapped_positions_of_nothing);
 }
 
 int main(void) {

@@ -419,11 +419,8 @@ START_TEST(failing_filters_change_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, lowest_tet_that_is_left);
-    tcase_add_test(tests, overlap_in_the_rest_pose);
-    tcase_add_test(tests, rest_pose_in_double);
-    tcase_add_test(tests, steps_with_filters_allocate_nothing);
-    tcase_add_test(tests, failing_filters_change_nothing);
+    tcase_add_each(tests, lowest_tet_that_is_left, overlap_in_the_rest_pose, rest_pose_in_double,
+                          steps_with_filters_allocate_nothing, failing_filters_change_nothing);
 }
 
 static void add_long_tests(TCase* tests) {

@@ -337,13 +337,8 @@ START_TEST(points_alone) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, exact_in_its_result);
-    tcase_add_test(tests, identity_null_and_other_positions);
-    tcase_add_test(tests, what_does_not_fit);
-    tcase_add_test(tests, over_mapped_positions);
-    tcase_add_test(tests, cloth_falls_through_a_body);
-    tcase_add_test(tests, sensors_on_a_tool);
-    tcase_add_test(tests, points_alone);
+    tcase_add_each(tests, exact_in_its_result, identity_null_and_other_positions, what_does_not_fit,
+                          over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
 }
 
 int main(void) {

@@ -195,13 +195,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("depth figures");
-    TCase* tests = tcase_create("figures");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "figures");
     tcase_add_loop_test(tests, two_balls, 0, 4);
     tcase_add_loop_test(tests, directions_change_smoothly, 0, 3);
-    tcase_add_test(tests, ball_in_a_box);
-    tcase_add_test(tests, work_is_that_of_the_colliding_vertices);
-    tcase_add_test(tests, searches_are_short);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, ball_in_a_box, work_is_that_of_the_colliding_vertices, searches_are_short);
     return run_suite(suite);
 }

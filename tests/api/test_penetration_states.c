@@ -551,28 +551,16 @@ START_TEST(one_vertex_in_two_bodies) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, one_vertex_in_a_box);
-    tcase_add_test(tests, waves_reach_deep_vertices);
-    tcase_add_test(tests, the_faces_of_a_box_stay_flat);
-    tcase_add_test(tests, body_inside_a_body);
-    tcase_add_test(tests, points_without_edges);
-    tcase_add_test(tests, edges_leave_on_opposite_sides);
-    tcase_add_test(tests, no_way_through_a_facet_of_three);
-    tcase_add_test(tests, no_surface_at_all);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, stacked_boxes_touch);
-    tcase_add_test(tests, lattices_that_coincide);
-    tcase_add_test(tests, on_the_surface_of_a_part_and_inside_another);
-    tcase_add_test(tests, winding_does_not_matter);
-    tcase_add_test(tests, doubled_tets);
-    tcase_add_test(tests, flat_tets_on_the_surface);
-    tcase_add_test(tests, self_fold);
-    tcase_add_test(tests, one_vertex_in_two_bodies);
+    tcase_add_each(tests, one_vertex_in_a_box, waves_reach_deep_vertices, the_faces_of_a_box_stay_flat,
+                          body_inside_a_body, points_without_edges, edges_leave_on_opposite_sides,
+                          no_way_through_a_facet_of_three, no_surface_at_all, coincident_bodies,
+                          stacked_boxes_touch, lattices_that_coincide,
+                          on_the_surface_of_a_part_and_inside_another, winding_does_not_matter, doubled_tets,
+                          flat_tets_on_the_surface, self_fold, one_vertex_in_two_bodies);
 }
 
 static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, crossing_bars);
-    tcase_add_test(tests, inverted_tets);
+    tcase_add_each(tests, crossing_bars, inverted_tets);
 }
 
 int main(void) {

@@ -402,24 +402,15 @@ START_TEST(tiny_double_positions) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, flag);
-    tcase_add_test(tests, older_programs_have_none);
-    tcase_add_test(tests, views_follow_the_grid);
-    tcase_add_test(tests, no_contacts_no_work);
-    tcase_add_test(tests, every_unit_gives_the_same_answer);
-    tcase_add_test(tests, nothing_is_stale);
-    tcase_add_test(tests, strides_and_copies);
-    tcase_add_test(tests, double_positions);
-    tcase_add_test(tests, tiny_double_positions);
+    tcase_add_each(tests, arguments, flag, older_programs_have_none, views_follow_the_grid,
+                          no_contacts_no_work, every_unit_gives_the_same_answer, nothing_is_stale,
+                          strides_and_copies, double_positions, tiny_double_positions);
 }
 
 int main(void) {
     Suite* suite = suite_create("penetrations");
     add_for_each_engine(suite, add_tests);
-    TCase* all = tcase_create("all engines");
-    tcase_set_timeout(all, 0);
+    TCase* all = add_case(suite, "all engines");
     tcase_add_test(all, every_way_gives_the_same_bits);
-    suite_add_tcase(suite, all);
     return run_suite(suite);
 }

@@ -309,12 +309,8 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, points_by_definition);
-    tcase_add_test(tests, points_in_double);
-    tcase_add_test(tests, boxes_by_definition);
-    tcase_add_test(tests, as_it_was_when_prepared);
-    tcase_add_test(tests, many_threads);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, points_by_definition, points_in_double, boxes_by_definition,
+                          as_it_was_when_prepared, many_threads, arguments);
 }
 
 int main(void) {

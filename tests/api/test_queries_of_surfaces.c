@@ -237,8 +237,7 @@ START_TEST(rays_by_definition) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, closest_by_definition);
-    tcase_add_test(tests, rays_by_definition);
+    tcase_add_each(tests, closest_by_definition, rays_by_definition);
 }
 
 int main(void) {

@@ -280,20 +280,14 @@ START_TEST(many_bodies_and_workers) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, by_definition);
-    tcase_add_test(tests, ties);
-    tcase_add_test(tests, self_contact);
-    tcase_add_test(tests, self_contact_of_one_piece);
-    tcase_add_test(tests, transform_and_scale);
-    tcase_add_test(tests, many_bodies_and_workers);
+    tcase_add_each(tests, by_definition, ties, self_contact, self_contact_of_one_piece, transform_and_scale,
+                          many_bodies_and_workers);
 }
 
 int main(void) {
     Suite* suite = suite_create("readings");
     add_for_each_engine(suite, add_tests);
-    TCase* both = tcase_create("both engines");
-    tcase_set_timeout(both, 0);
+    TCase* both = add_case(suite, "both engines");
     tcase_add_test(both, engines_and_workers);
-    suite_add_tcase(suite, both);
     return run_suite(suite);
 }

@@ -444,16 +444,10 @@ START_TEST(task_systems) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, no_surface);
-    tcase_add_test(tests, after_removal);
+    tcase_add_each(tests, no_surface, after_removal);
     tcase_add_loop_test(tests, after_cuts_of_some, 0, 4);
-    tcase_add_test(tests, without_penetrations);
-    tcase_add_test(tests, copies);
-    tcase_add_test(tests, bad_arguments);
-    tcase_add_test(tests, changed_positions);
-    tcase_add_test(tests, memory);
-    tcase_add_test(tests, budget);
-    tcase_add_test(tests, task_systems);
+    tcase_add_each(tests, without_penetrations, copies, bad_arguments, changed_positions, memory, budget,
+                          task_systems);
 }
 
 int main(void) {

@@ -248,14 +248,9 @@ START_TEST(allocation_n_fails) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, loaded_grid_goes_on_as_the_saved_one);
-    tcase_add_test(tests, saving_the_loaded_grid_gives_the_same_bytes);
-    tcase_add_test(tests, every_engine_takes_it);
-    tcase_add_test(tests, generations_and_retired_slots);
-    tcase_add_test(tests, positions_keep_their_bits);
-    tcase_add_test(tests, an_empty_grid_and_one_without_positions);
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, allocation_n_fails);
+    tcase_add_each(tests, loaded_grid_goes_on_as_the_saved_one, saving_the_loaded_grid_gives_the_same_bytes,
+                          every_engine_takes_it, generations_and_retired_slots, positions_keep_their_bits,
+                          an_empty_grid_and_one_without_positions, arguments, allocation_n_fails);
 }
 
 int main(void) {

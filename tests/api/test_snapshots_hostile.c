@@ -240,8 +240,7 @@ START_TEST(every_word_turned_hostile) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, cut_off_and_damaged);
-    tcase_add_test(tests, missing_and_additional_chunks);
+    tcase_add_each(tests, cut_off_and_damaged, missing_and_additional_chunks);
 }
 
 static void add_long_tests(TCase* tests) {
@@ -252,9 +251,7 @@ int main(void) {
     Suite* suite = suite_create("hostile snapshots");
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    TCase* hostile = tcase_create("hostile");
-    tcase_set_timeout(hostile, 0);
+    TCase* hostile = add_case(suite, "hostile");
     tcase_add_loop_test(hostile, hostile_numbers, 0, (int)(sizeof defects / sizeof *defects));
-    suite_add_tcase(suite, hostile);
     return run_suite(suite);
 }

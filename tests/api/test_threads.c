@@ -376,14 +376,9 @@ START_TEST(bad_arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, same_for_any_task_system);
-    tcase_add_test(tests, same_for_any_worker_count);
-    tcase_add_test(tests, non_finite_is_the_same_vertex);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, budget_that_ends_in_a_task);
-    tcase_add_test(tests, large_bodies_are_shared);
-    tcase_add_test(tests, defective_task_systems);
-    tcase_add_test(tests, bad_arguments);
+    tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
+                          steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
+                          defective_task_systems, bad_arguments);
 }
 
 int main(void) {

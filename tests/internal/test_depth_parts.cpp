@@ -392,20 +392,15 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("parts of the depth stage");
-    TCase* tests = tcase_create("parts");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "parts");
     tcase_add_loop_test(tests, topology_of_anything, 0, 200);
     tcase_add_test(tests, no_tets_no_topology);
     tcase_add_loop_test(tests, walks_leave_where_the_segment_does, 0, 8);
-    tcase_add_test(tests, walks_along_facets_edges_and_through_vertices);
-    tcase_add_test(tests, walks_that_lead_nowhere);
-    tcase_add_test(tests, walks_through_inverted_tets);
-    tcase_add_test(tests, walks_do_not_go_round);
-    tcase_add_test(tests, normals_on_a_sphere);
-    tcase_add_test(tests, normals_of_a_box_are_those_of_its_faces);
-    tcase_add_test(tests, normals_of_a_tetrahedron_are_those_of_its_faces);
+    tcase_add_each(tests, walks_along_facets_edges_and_through_vertices, walks_that_lead_nowhere,
+                          walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
+                          normals_of_a_box_are_those_of_its_faces,
+                          normals_of_a_tetrahedron_are_those_of_its_faces);
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 30);
     tcase_add_test(tests, closest_on_the_fold_that_is_entered);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

@@ -26,6 +26,6 @@ static inline body make_uneven_box(void) {
 }
 
 /* The tests of bad arguments. */
-TCase* argument_tests(void);
+void add_argument_tests(Suite* suite);
 
 #endif

@@ -31,6 +31,25 @@ static inline uint64_t hash_of_step(vox_grid* grid) {
     return hash;
 }
 
+/* A case of the suite. CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large" there and
+ * under the sanitizers. A slow machine is no failure: there is no timeout. */
+static inline TCase* add_tagged_case(Suite* suite, const char* name, const char* tag) {
+    TCase* tests = tcase_create(name);
+    tcase_set_timeout(tests, 0);
+    tcase_set_tags(tests, tag);
+    suite_add_tcase(suite, tests);
+    return tests;
+}
+
+static inline TCase* add_case(Suite* suite, const char* name) { return add_tagged_case(suite, name, ""); }
+
+/* tcase_add_each(tests, a, b, c): tests that run once each. */
+#define tcase_add_each(tests, ...) \
+    do { \
+        const TTest* const each_[] = {__VA_ARGS__}; \
+        for (size_t i_ = 0; i_ < sizeof each_ / sizeof *each_; ++i_) tcase_add_test(tests, each_[i_]); \
+    } while (0)
+
 /* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
 static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
@@ -40,25 +59,14 @@ static inline void add_tagged_for_each_engine(Suite* suite, void (*add_tests)(TC
     static const char* const names[] = {"reference", "fast"};
     static void (*const setups[])(void) = {use_reference, use_fast};
     for (int i = 0; i < 2; ++i) {
-        TCase* tests = tcase_create(names[i]);
-        tcase_set_timeout(tests, 0);
-        tcase_set_tags(tests, tag);
+        TCase* tests = add_tagged_case(suite, names[i], tag);
         tcase_add_checked_fixture(tests, setups[i], NULL);
         add_tests(tests);
-        suite_add_tcase(suite, tests);
     }
 }
 
 static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) {
     add_tagged_for_each_engine(suite, add_tests, "");
-}
-
-/* CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large" there and under the sanitizers. */
-static inline TCase* tagged_tests(const char* tag) {
-    TCase* tests = tcase_create(tag);
-    tcase_set_timeout(tests, 0);
-    tcase_set_tags(tests, tag);
-    return tests;
 }
 
 static inline int run_suite(Suite* suite) {
