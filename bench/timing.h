@@ -22,8 +22,8 @@ static inline double now(void) {
 #include <cstddef>
 #include <vector>
 
-/* Seconds of a piece of work on one core: wall-clock time, less what other processes took of the core. Where the
- * processor time is the smaller one, another process ran meanwhile. */
+/* Seconds of a piece of work on one core: wall-clock time, less what other processes took of the core. Where
+ * the processor time is the smaller one, another process ran meanwhile. */
 template <class Work>
 double seconds_of(const Work& work) {
     using Clock = std::chrono::steady_clock;

@@ -1,6 +1,7 @@
 // Regret: how much longer a step takes with the cell size that a rule chooses than with the best one of a
 // fine sweep. Both engines, many scenes; the rules are the library's own cost models, a grid that chooses by
-// itself, the paper's formula, the mean edge and the median box side. bench/cell_size/regret.py makes tables of it.
+// itself, the paper's formula, the mean edge and the median box side. bench/cell_size/regret.py makes tables
+// of it.
 //
 // The best of forty noisy times is too good to be true (the winner's curse), and every rule then seems to
 // lose by the noise. So the sweep only names the candidates: its curve is smoothed, and the sizes around its

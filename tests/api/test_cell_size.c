@@ -387,7 +387,7 @@ int main(void) {
     tcase_add_each(tests, one_regular_tet, shared_facets_count_once);
     tcase_add_loop_test(tests, box_counts, 1, 6);
     tcase_add_each(tests, bodies_are_measured_together, unused_vertices_do_not_widen_the_bounds,
-                          degenerate_tets_are_counted, layout_and_winding_do_not_matter);
+                   degenerate_tets_are_counted, layout_and_winding_do_not_matter);
     tcase_add_loop_test(tests, cell_size_is_the_minimum_of_the_cost, 0, parameter_count);
     tcase_add_test(tests, readings_change_the_answer);
     tcase_add_loop_test(tests, zone_is_where_the_loss_is_small, 0, parameter_count);

@@ -292,5 +292,5 @@ void add_argument_tests(Suite* suite) {
     tcase_add_test(tests, defaults);
     tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
     tcase_add_each(tests, bad_enum, bad_mesh, non_finite_positions, nothing_to_measure, bad_struct_sizes,
-                          smaller_structs, larger_structs, bad_zone_distance);
+                   smaller_structs, larger_structs, bad_zone_distance);
 }

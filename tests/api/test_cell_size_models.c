@@ -570,6 +570,6 @@ int main(void) {
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
     tcase_add_each(tests, the_grid_follows_its_bodies, weights_are_plain_numbers, minimum_of_a_function,
-                          bad_functions_and_bounds);
+                   bad_functions_and_bounds);
     return run_suite(suite);
 }

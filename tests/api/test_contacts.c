@@ -536,11 +536,10 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, inside_and_on_the_boundary, shared_boundary_gives_one_contact, overlapping_tets,
-                          self_contact, both_directions_in_canonical_order, hash_tells_contacts_apart,
-                          strided_copied_rebound, unbound_positions, non_finite_positions, nothing_at_all,
-                          huge_coordinates, sliver_a_thousand_edges_long, scaled_and_far_copies,
-                          coincident_bodies, flat_and_repeated_tets_hold_nothing, removal_between_steps,
-                          counters_and_profile);
+                   self_contact, both_directions_in_canonical_order, hash_tells_contacts_apart,
+                   strided_copied_rebound, unbound_positions, non_finite_positions, nothing_at_all,
+                   huge_coordinates, sliver_a_thousand_edges_long, scaled_and_far_copies, coincident_bodies,
+                   flat_and_repeated_tets_hold_nothing, removal_between_steps, counters_and_profile);
 }
 
 static void add_long_tests(TCase* tests) {

@@ -515,9 +515,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, arguments, nothing_to_do, smaller_struct, off_and_on,
-                          topology_keeps_what_is_not_topology, growing_from_nothing,
-                          sliver_that_came_turns_over, positions_of_its_own, queries_and_suggestions_see_it,
-                          cell_size_follows_a_cut);
+                   topology_keeps_what_is_not_topology, growing_from_nothing, sliver_that_came_turns_over,
+                   positions_of_its_own, queries_and_suggestions_see_it, cell_size_follows_a_cut);
 }
 
 int main(void) {

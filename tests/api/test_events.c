@@ -572,8 +572,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, begin_persist_end, removal_ends_once_with_the_old_ids,
-                          clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
-                          every_event_has_its_pair, steady_state_allocates_nothing, arguments);
+                   clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
+                   every_event_has_its_pair, steady_state_allocates_nothing, arguments);
 }
 
 int main(void) {

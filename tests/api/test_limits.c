@@ -180,9 +180,7 @@ START_TEST(capacities) {
 }
 END_TEST
 
-static void add_tests(TCase* tests) {
-    tcase_add_each(tests, vertices_of_a_grid, buffers_grow);
-}
+static void add_tests(TCase* tests) { tcase_add_each(tests, vertices_of_a_grid, buffers_grow); }
 
 int main(void) {
     Suite* suite = suite_create("limits");

@@ -267,7 +267,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
-                          budget_is_kept, reserved_room, many_meshes);
+                   budget_is_kept, reserved_room, many_meshes);
 }
 
 int main(void) {

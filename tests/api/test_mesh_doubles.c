@@ -1,9 +1,11 @@
-/* Double positions: exact for the doubles given, in every range of them, mixed with floats; and what does not fit. */
+/* Double positions: exact for the doubles given, in every range of them, mixed with floats; and what does not
+ * fit. */
 #include "support/solids_of_doubles.h"
 
 #include <stdio.h>
 
-/* ---- against brute force --------------------------------------------------------------------------------- */
+/* ---- against brute force ---------------------------------------------------------------------------------
+ */
 
 START_TEST(exact_for_the_doubles_given) {
     state = 1;
@@ -99,7 +101,8 @@ START_TEST(less_than_a_float_apart) {
 }
 END_TEST
 
-/* ---- against floats ------------------------------------------------------------------------------------- */
+/* ---- against floats -------------------------------------------------------------------------------------
+ */
 
 START_TEST(doubles_of_floats_are_those_floats) {
     state = 3;
@@ -191,7 +194,8 @@ START_TEST(engines_agree_on_large_bodies) {
 }
 END_TEST
 
-/* ---- what does not fit ----------------------------------------------------------------------------------- */
+/* ---- what does not fit -----------------------------------------------------------------------------------
+ */
 
 START_TEST(limits) {
     static const double refused[] = {1e300, -1e39, 0x1.ffffffp127, INFINITY, -INFINITY, NAN};
@@ -240,7 +244,8 @@ START_TEST(limits) {
 }
 END_TEST
 
-/* ---- the steady state, and the cell size ------------------------------------------------------------------ */
+/* ---- the steady state, and the cell size ------------------------------------------------------------------
+ */
 
 START_TEST(steady_state_holds_the_same_memory) {
     solid a = make_solid(6), b = make_solid(6);
@@ -291,12 +296,12 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, floats_and_doubles_in_one_grid, less_than_a_float_apart, limits,
-                          steady_state_holds_the_same_memory);
+                   steady_state_holds_the_same_memory);
 }
 
 static void add_long_tests(TCase* tests) {
     tcase_add_each(tests, exact_for_the_doubles_given, doubles_of_floats_are_those_floats,
-                          self_contact_of_large_bodies);
+                   self_contact_of_large_bodies);
 }
 
 int main(void) {

@@ -338,7 +338,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, exact_in_its_result, identity_null_and_other_positions, what_does_not_fit,
-                          over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
+                   over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
 }
 
 int main(void) {

@@ -61,7 +61,8 @@ START_TEST(two_balls) {
         const int a = p->mesh_a == ids[0] ? 0 : 1, b = 1 - a;
         ck_assert(p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED);
         /* The true distance to the surface, as it is triangulated, ... */
-        const vector at = place(balls[a].positions, p->vertex), way = way_to(surfaces[b], balls[b].positions, at);
+        const vector at = place(balls[a].positions, p->vertex),
+                     way = way_to(surfaces[b], balls[b].positions, at);
         worst_depth = fmax(worst_depth, fabs((double)p->depth / norm(way) - 1));
         worst_angle = fmax(worst_angle, degrees_between(direction_of(p), way));
         /* ... and to the sphere, whose triangles are up to cell^2 / 8 inside it. */
@@ -116,7 +117,8 @@ START_TEST(directions_change_smoothly) {
 END_TEST
 
 START_TEST(ball_in_a_box) {
-    /* Resting on the inside of nothing: a ball deep in a box of tetrahedra, and one that sinks into its top. */
+    /* Resting on the inside of nothing: a ball deep in a box of tetrahedra, and one that sinks into its top.
+     */
     body box = make_box(10, 0.4f, -2, -2, -2), ball = make_ball(0.5, 0.08, 0.2, 0.1);
     const surface s = surface_of(box.tets, box.tet_count);
     for (int sunk = 0; sunk < 2; ++sunk) {
@@ -150,7 +152,8 @@ END_TEST
 
 /* ---- work ------------------------------------------------------------------------------------- */
 
-/* The counters when a ball of radius 0.5 sinks by `depth` into the middle of the top of a box of n * n * n / 2 cubes. */
+/* The counters when a ball of radius 0.5 sinks by `depth` into the middle of the top of a box of n * n * n /
+ * 2 cubes. */
 static vox_counters work_of(uint32_t n, double cell, double depth) {
     body box = make_box(n, 0.1f, -0.05f * (float)n, -0.05f * (float)n, -0.1f * (float)n);
     body ball = make_ball(0.5, cell, 0.2, 0.017);
@@ -167,13 +170,15 @@ static vox_counters work_of(uint32_t n, double cell, double depth) {
 }
 
 START_TEST(work_is_that_of_the_colliding_vertices) {
-    /* A body of eight times as many tetrahedra, of which as many are hit: the same work, but for the lattice's parity. */
+    /* A body of eight times as many tetrahedra, of which as many are hit: the same work, but for the
+     * lattice's parity. */
     const vox_counters small = work_of(16, 0.04, 0.1), large = work_of(32, 0.04, 0.1);
     ck_assert_uint_eq(small.penetrations, large.penetrations);
     ck_assert_uint_eq(small.leaving_edges, large.leaving_edges);
     ck_assert_uint_eq(small.edge_tests, large.edge_tests);
     ck_assert_uint_eq(small.closest_tests + large.closest_tests, 0);
-    /* More colliding vertices: no more edges than these have, each through no more tetrahedra than lie on it. */
+    /* More colliding vertices: no more edges than these have, each through no more tetrahedra than lie on it.
+     */
     for (double cell = 0.06; cell > 0.02; cell *= 0.7) {
         const vox_counters work = work_of(16, cell, 0.1);
         ck_assert_uint_gt(work.penetrations, 20);
@@ -185,7 +190,8 @@ START_TEST(work_is_that_of_the_colliding_vertices) {
 END_TEST
 
 START_TEST(searches_are_short) {
-    /* All of a ball inside a box of 20 times as many triangles or of 80 times: hardly more of them are looked at. */
+    /* All of a ball inside a box of 20 times as many triangles or of 80 times: hardly more of them are looked
+     * at. */
     const vox_counters small = work_of(16, 0.1, 1.2), large = work_of(32, 0.1, 1.2);
     ck_assert_uint_gt(small.closest_searches, 100);
     ck_assert_uint_eq(small.closest_searches, large.closest_searches);

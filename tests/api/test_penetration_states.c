@@ -40,8 +40,8 @@ static void expect(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b
     ck_assert_msg(p->state == state, "vertex %u: state %d, expected %d", vertex, (int)p->state, (int)state);
     ck_assert_msg(fabs((double)p->depth - depth) < 1e-6, "vertex %u: depth %.9g, expected %.9g", vertex,
                   (double)p->depth, depth);
-    ck_assert_msg(degrees_between(direction_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)", vertex,
-                  (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+    ck_assert_msg(degrees_between(direction_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                  vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
 }
 
 /* A tetrahedron that pokes its vertex 0 into the top of the unit box, by `depth`. */
@@ -122,7 +122,8 @@ START_TEST(body_inside_a_body) {
     ck_assert_uint_eq(counters_of(grid).closest_searches, inner_box.vertex_count);
     ck_assert_uint_eq(counters_of(grid).leaving_edges, 0);
     for (uint32_t v = 0; v < inner_box.vertex_count; ++v)
-        check_closest(penetration_of(grid, a, v, b), place(inner_box.positions, v), s, outer_box.positions, 1);
+        check_closest(penetration_of(grid, a, v, b), place(inner_box.positions, v), s, outer_box.positions,
+                      1);
     vox_grid_destroy(grid);
     free(s.triangles);
     free_body(&outer_box);
@@ -145,7 +146,8 @@ END_TEST
 
 /* ---- crossing ---- */
 
-/* A plate of 8 x 8 x 1 cubes of edge 1/8, and a tetrahedron whose vertex 0 is in it and whose edges leave on both sides. */
+/* A plate of 8 x 8 x 1 cubes of edge 1/8, and a tetrahedron whose vertex 0 is in it and whose edges leave on
+ * both sides. */
 static body make_plate(void) {
     body plate = make_box(8, 0.125f, 0, 0, 0);
     for (uint32_t v = 0; v < plate.vertex_count; ++v) plate.positions[3 * v + 2] *= 0.125f;
@@ -156,7 +158,7 @@ START_TEST(edges_leave_on_opposite_sides) {
     body plate = make_plate();
     const surface s = surface_of(plate.tets, plate.tet_count);
     /* Two above and two below, as far away: a pair of tetrahedra over a common edge. */
-    const float positions[18] = {0.5f, 0.5f, 0.0625f, 0.6f, 0.5f, 0.3625f, 0.4f, 0.5f, 0.3625f,
+    const float positions[18] = {0.5f, 0.5f, 0.0625f,  0.6f, 0.5f, 0.3625f,  0.4f, 0.5f, 0.3625f,
                                  0.5f, 0.6f, -0.2375f, 0.5f, 0.4f, -0.2375f, 0.5f, 0.5f, 0.9f};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
     vox_grid* grid = new_grid();
@@ -181,7 +183,8 @@ START_TEST(crossing_bars) {
         p[0] += 0.01f, p[1] *= 0.3f, p[2] = 0.3f * p[2] + 0.01f;
         q[0] *= 0.3f, q[1] = 0.7f * q[1] + 0.02f, q[2] *= 0.3f;
     }
-    const surface of_x = surface_of(x_bar.tets, x_bar.tet_count), of_y = surface_of(y_bar.tets, y_bar.tet_count);
+    const surface of_x = surface_of(x_bar.tets, x_bar.tet_count),
+                  of_y = surface_of(y_bar.tets, y_bar.tet_count);
     vox_grid* grid = new_grid();
     const vox_mesh a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
     step(grid);
@@ -193,7 +196,8 @@ START_TEST(crossing_bars) {
         ck_assert_float_lt(p->depth, 0.5f); /* half of a bar's width, and a bit */
         if (p->state == VOX_PENETRATION_CROSSING)
             check_closest(p, place(p->mesh_a == a ? x_bar.positions : y_bar.positions, p->vertex),
-                          p->mesh_a == a ? of_y : of_x, p->mesh_a == a ? y_bar.positions : x_bar.positions, 1);
+                          p->mesh_a == a ? of_y : of_x, p->mesh_a == a ? y_bar.positions : x_bar.positions,
+                          1);
     }
     ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 0);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_PROPAGATED], 0);
@@ -208,7 +212,8 @@ START_TEST(crossing_bars) {
 }
 END_TEST
 
-/* Vertex 0 of a small tetrahedron is in the lower of three that share the facet (0, 1, 2); the way up leads through it. */
+/* Vertex 0 of a small tetrahedron is in the lower of three that share the facet (0, 1, 2); the way up leads
+ * through it. */
 START_TEST(no_way_through_a_facet_of_three) {
     const float solid[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3f, 0.3f, -1, 0.3f, 0.3f, 1, 0.4f, 0.2f, 0.5f};
     const uint32_t tets[12] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
@@ -259,7 +264,8 @@ START_TEST(coincident_bodies) {
         ck_assert_int_eq(p->state, inside ? VOX_PENETRATION_ENCLOSED : VOX_PENETRATION_COINCIDENT);
         check_closest(p, at, s, other.positions, 1);
         const vector from_middle = {at.x - 0.5, at.y - 0.5, at.z - 0.5};
-        if (!inside) ck_assert(inner(direction_of(p), from_middle) > 0.49); /* the normal of a face it is on */
+        if (!inside)
+            ck_assert(inner(direction_of(p), from_middle) > 0.49); /* the normal of a face it is on */
     }
     vox_grid_destroy(grid);
     free(s.triangles);
@@ -270,8 +276,8 @@ END_TEST
 
 START_TEST(stacked_boxes_touch) {
     /* Vertices on faces, edges and corners of tetrahedra, all on the plane between two boxes. */
-    body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1), aligned = make_box(4, 0.25f, 3, 0, 1),
-         under = make_box(4, 0.25f, 3, 0, 0);
+    body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1),
+         aligned = make_box(4, 0.25f, 3, 0, 1), under = make_box(4, 0.25f, 3, 0, 0);
     vox_grid* grid = new_grid();
     const vox_mesh a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
                    d = insert(grid, &under, 0);
@@ -282,7 +288,7 @@ START_TEST(stacked_boxes_touch) {
         const vox_penetration* p = penetration_at(view, i);
         ck_assert_int_eq(p->state, VOX_PENETRATION_COINCIDENT);
         const vector out = p->mesh_a == a || p->mesh_a == d ? down : up; /* up: out of the lower one */
-        const int on_edge = p->mesh_a == c || p->mesh_a == d;            /* where it may be another face's normal */
+        const int on_edge = p->mesh_a == c || p->mesh_a == d; /* where it may be another face's normal */
         if (!on_edge) ck_assert(degrees_between(direction_of(p), out) < 0.01);
     }
     for (uint32_t v = 0; v < aligned.vertex_count; ++v) {
@@ -300,7 +306,8 @@ START_TEST(stacked_boxes_touch) {
 END_TEST
 
 START_TEST(lattices_that_coincide) {
-    /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them. */
+    /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them.
+     */
     body lower = make_box(8, 0.125f, 0, 0, 0), upper = make_box(4, 0.125f, 0.25f, 0.25f, 0.75f);
     vox_grid* grid = new_grid();
     const vox_mesh b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
@@ -320,7 +327,8 @@ START_TEST(lattices_that_coincide) {
 END_TEST
 
 START_TEST(on_the_surface_of_a_part_and_inside_another) {
-    /* Two boxes of one mesh that overlap; the point is on the top of the lower one. Its only contact is inside the other. */
+    /* Two boxes of one mesh that overlap; the point is on the top of the lower one. Its only contact is
+     * inside the other. */
     body low = make_box(2, 0.5f, 0, 0, 0), high = make_box(2, 0.5f, 0.1f, 0.2f, 0.3f);
     float positions[3 * 54];
     uint32_t tets[4 * 80];
@@ -329,7 +337,8 @@ START_TEST(on_the_surface_of_a_part_and_inside_another) {
     for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
     const float point[3] = {0.55f, 0.6f, 1};
     vox_grid* grid = new_grid();
-    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80), a = insert_arrays(grid, point, 1, NULL, 0);
+    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80),
+                   a = insert_arrays(grid, point, 1, NULL, 0);
     step(grid);
     ck_assert_uint_eq(counters_of(grid).contacts, 1);
     expect(grid, a, 0, b, VOX_PENETRATION_COINCIDENT, 0, up);
@@ -426,8 +435,8 @@ START_TEST(flat_tets_on_the_surface) {
 END_TEST
 
 START_TEST(inverted_tets) {
-    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, and what claims to be the
-     * closest point is. */
+    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, and what claims to
+     * be the closest point is. */
     body box = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.13f, 0.17f, 0.9f);
     uint32_t random = 1;
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
@@ -463,9 +472,9 @@ END_TEST
 
 enum { fold_cells = 96 };
 
-/* A bar with a cross-section of 1 x 1 in 4 x 4 cubes: along x for 8 units, round a half circle upwards and back, and a bit
- * further. The way back sinks by 0.24 a unit, so that the ends overlap. Sheared a little in y, so that the sides of the two
- * arms do not coincide. */
+/* A bar with a cross-section of 1 x 1 in 4 x 4 cubes: along x for 8 units, round a half circle upwards and
+ * back, and a bit further. The way back sinks by 0.24 a unit, so that the ends overlap. Sheared a little in
+ * y, so that the sides of the two arms do not coincide. */
 static body make_fold(void) {
     body bar = {NULL, NULL, (fold_cells + 1) * 25, fold_cells * 16 * 6};
     bar.positions = (float*)malloc(3 * sizeof(float) * bar.vertex_count);
@@ -492,7 +501,8 @@ static body make_fold(void) {
         for (uint32_t j = 0; j < 4; ++j)
             for (uint32_t k = 0; k < 4; ++k)
                 for (int o = 0; o < 6; ++o, ++t) {
-                    const uint32_t v = i * 25 + j * 5 + k, w = v + stride[order[o][0]], x = w + stride[order[o][1]];
+                    const uint32_t v = i * 25 + j * 5 + k, w = v + stride[order[o][0]],
+                                   x = w + stride[order[o][1]];
                     const uint32_t tet[4] = {v, w, x, v + 31};
                     memcpy(bar.tets + 4 * t, tet, sizeof tet);
                 }
@@ -523,8 +533,8 @@ START_TEST(self_fold) {
         ck_assert_int_eq(p->state, VOX_PENETRATION_SURFACE);
         ck_assert_msg(fabs((double)p->depth - depth) < 1e-5, "vertex %u: depth %g, not %g", p->vertex,
                       (double)p->depth, depth);
-        ck_assert_msg(degrees_between(direction_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)", p->vertex,
-                      (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+        ck_assert_msg(degrees_between(direction_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                      p->vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
     }
     ck_assert_uint_gt(in_middle, 5);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 20);
@@ -552,16 +562,14 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, one_vertex_in_a_box, waves_reach_deep_vertices, the_faces_of_a_box_stay_flat,
-                          body_inside_a_body, points_without_edges, edges_leave_on_opposite_sides,
-                          no_way_through_a_facet_of_three, no_surface_at_all, coincident_bodies,
-                          stacked_boxes_touch, lattices_that_coincide,
-                          on_the_surface_of_a_part_and_inside_another, winding_does_not_matter, doubled_tets,
-                          flat_tets_on_the_surface, self_fold, one_vertex_in_two_bodies);
+                   body_inside_a_body, points_without_edges, edges_leave_on_opposite_sides,
+                   no_way_through_a_facet_of_three, no_surface_at_all, coincident_bodies, stacked_boxes_touch,
+                   lattices_that_coincide, on_the_surface_of_a_part_and_inside_another,
+                   winding_does_not_matter, doubled_tets, flat_tets_on_the_surface, self_fold,
+                   one_vertex_in_two_bodies);
 }
 
-static void add_long_tests(TCase* tests) {
-    tcase_add_each(tests, crossing_bars, inverted_tets);
-}
+static void add_long_tests(TCase* tests) { tcase_add_each(tests, crossing_bars, inverted_tets); }
 
 int main(void) {
     Suite* suite = suite_create("penetration states");

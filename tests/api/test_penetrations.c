@@ -1,4 +1,5 @@
-/* Penetrations as a whole: arguments, what the flag does, how long views live, and what they do not depend on. */
+/* Penetrations as a whole: arguments, what the flag does, how long views live, and what they do not depend
+ * on. */
 #include <stddef.h>
 
 #include "support/depth_checks.h"
@@ -175,7 +176,8 @@ START_TEST(no_contacts_no_work) {
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     const vox_counters counters = counters_of(grid);
-    ck_assert_uint_eq(counters.contacts + counters.penetrations + counters.leaving_edges + counters.edge_tests, 0);
+    ck_assert_uint_eq(
+        counters.contacts + counters.penetrations + counters.leaving_edges + counters.edge_tests, 0);
     ck_assert_uint_eq(counters.closest_searches + counters.closest_tests, 0);
     vox_grid_destroy(grid);
     free_body(&one);
@@ -186,7 +188,8 @@ END_TEST
 /* ---- what they do not depend on --------------------------------------------------------------- */
 
 /* All penetrations of the pile, copied. The caller frees. */
-static vox_penetration* pile_penetrations(const vox_grid_desc* desc, pile* p, double cell_size, uint64_t* count) {
+static vox_penetration* pile_penetrations(const vox_grid_desc* desc, pile* p, double cell_size,
+                                          uint64_t* count) {
     vox_grid* grid = grid_of(desc);
     insert_pile(grid, p);
     ck_ok(vox_grid_set_cell_size(grid, cell_size));
@@ -208,7 +211,8 @@ START_TEST(every_way_gives_the_same_bits) {
     vox_penetration* expected = pile_penetrations(&plain, &p, 0, &expected_count);
     uint64_t by_state[5] = {0, 0, 0, 0, 0};
     for (uint64_t i = 0; i < expected_count; ++i) ++by_state[expected[i].state];
-    for (int state = 0; state < 5; ++state) ck_assert_msg(by_state[state] > 0, "state %d does not occur", state);
+    for (int state = 0; state < 5; ++state)
+        ck_assert_msg(by_state[state] > 0, "state %d does not occur", state);
 
     for (int engine = VOX_ENGINE_REFERENCE; engine <= VOX_ENGINE_FAST; ++engine)
         for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage)
@@ -217,7 +221,8 @@ START_TEST(every_way_gives_the_same_bits) {
                 desc.engine = (vox_engine)engine;
                 desc.storage = (vox_storage)storage;
                 desc.worker_count = workers;
-                vox_penetration* other = pile_penetrations(&desc, &p, workers == 1 ? 0 : 0.1 * workers, &count);
+                vox_penetration* other =
+                    pile_penetrations(&desc, &p, workers == 1 ? 0 : 0.1 * workers, &count);
                 ck_assert_uint_eq(count, expected_count);
                 ck_assert_mem_eq(other, expected, sizeof *expected * count);
                 free(other);
@@ -247,7 +252,8 @@ START_TEST(every_unit_gives_the_same_answer) {
         free(other);
         free_pile(&p);
     }
-    /* For others coordinates are rounded, which moves vertices off surfaces they lie on: of bodies 1 and 0 none does. */
+    /* For others coordinates are rounded, which moves vertices off surfaces they lie on: of bodies 1 and 0
+     * none does. */
     const float scales[] = {0.001f, 1000, 1e6f};
     for (int k = 0; k < 3; ++k) {
         p = make_pile(scales[k]);
@@ -257,7 +263,8 @@ START_TEST(every_unit_gives_the_same_answer) {
             const vox_penetration* e = &expected[i];
             if (e->mesh_a != p.ids[1] || e->mesh_b != p.ids[0]) continue;
             uint64_t j = 0;
-            while (j < count && (other[j].mesh_a != e->mesh_a || other[j].vertex != e->vertex || other[j].mesh_b != e->mesh_b))
+            while (j < count && (other[j].mesh_a != e->mesh_a || other[j].vertex != e->vertex ||
+                                 other[j].mesh_b != e->mesh_b))
                 ++j;
             ck_assert_uint_lt(j, count);
             ck_assert_int_eq(other[j].state, e->state);
@@ -309,13 +316,15 @@ START_TEST(strides_and_copies) {
         const body* from = &p.bodies[b];
         strided[b] = (float*)malloc(sizeof(float) * 5 * from->vertex_count);
         for (uint32_t v = 0; v < from->vertex_count; ++v)
-            for (int i = 0; i < 5; ++i) strided[b][5 * v + (uint32_t)i] = i < 3 ? from->positions[3 * v + (uint32_t)i] : NAN;
+            for (int i = 0; i < 5; ++i)
+                strided[b][5 * v + (uint32_t)i] = i < 3 ? from->positions[3 * v + (uint32_t)i] : NAN;
         vox_mesh_desc mesh = body_desc(from);
         mesh.positions = b % 2 ? NULL : strided[b]; /* some arrive later */
         mesh.position_byte_stride = 5 * sizeof(float);
         mesh.flags = (b == 4 ? VOX_MESH_SELF_COLLISION : 0u) | (b % 2 ? 0u : VOX_MESH_COPY_POSITIONS);
         ck_ok(vox_mesh_insert(grid, &mesh, &p.ids[b]));
-        if (b % 2) ck_ok(vox_mesh_bind_positions(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
+        if (b % 2)
+            ck_ok(vox_mesh_bind_positions(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
     }
     ck_ok(vox_grid_step(grid));
     const vox_penetration_view view = penetrations_of(grid);
@@ -403,8 +412,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, arguments, flag, older_programs_have_none, views_follow_the_grid,
-                          no_contacts_no_work, every_unit_gives_the_same_answer, nothing_is_stale,
-                          strides_and_copies, double_positions, tiny_double_positions);
+                   no_contacts_no_work, every_unit_gives_the_same_answer, nothing_is_stale,
+                   strides_and_copies, double_positions, tiny_double_positions);
 }
 
 int main(void) {

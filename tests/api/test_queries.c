@@ -310,7 +310,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, points_by_definition, points_in_double, boxes_by_definition,
-                          as_it_was_when_prepared, many_threads, arguments);
+                   as_it_was_when_prepared, many_threads, arguments);
 }
 
 int main(void) {

@@ -281,7 +281,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, by_definition, ties, self_contact, self_contact_of_one_piece, transform_and_scale,
-                          many_bodies_and_workers);
+                   many_bodies_and_workers);
 }
 
 int main(void) {

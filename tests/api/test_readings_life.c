@@ -447,7 +447,7 @@ static void add_tests(TCase* tests) {
     tcase_add_each(tests, no_surface, after_removal);
     tcase_add_loop_test(tests, after_cuts_of_some, 0, 4);
     tcase_add_each(tests, without_penetrations, copies, bad_arguments, changed_positions, memory, budget,
-                          task_systems);
+                   task_systems);
 }
 
 int main(void) {

@@ -249,8 +249,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, loaded_grid_goes_on_as_the_saved_one, saving_the_loaded_grid_gives_the_same_bytes,
-                          every_engine_takes_it, generations_and_retired_slots, positions_keep_their_bits,
-                          an_empty_grid_and_one_without_positions, arguments, allocation_n_fails);
+                   every_engine_takes_it, generations_and_retired_slots, positions_keep_their_bits,
+                   an_empty_grid_and_one_without_positions, arguments, allocation_n_fails);
 }
 
 int main(void) {

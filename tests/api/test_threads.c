@@ -377,8 +377,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
-                          steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
-                          defective_task_systems, bad_arguments);
+                   steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
+                   defective_task_systems, bad_arguments);
 }
 
 int main(void) {

@@ -397,9 +397,8 @@ int main() {
     tcase_add_test(tests, no_tets_no_topology);
     tcase_add_loop_test(tests, walks_leave_where_the_segment_does, 0, 8);
     tcase_add_each(tests, walks_along_facets_edges_and_through_vertices, walks_that_lead_nowhere,
-                          walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
-                          normals_of_a_box_are_those_of_its_faces,
-                          normals_of_a_tetrahedron_are_those_of_its_faces);
+                   walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
+                   normals_of_a_box_are_those_of_its_faces, normals_of_a_tetrahedron_are_those_of_its_faces);
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 30);
     tcase_add_test(tests, closest_on_the_fold_that_is_entered);
     return run_suite(suite);

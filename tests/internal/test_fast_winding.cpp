@@ -163,6 +163,6 @@ int main() {
     Suite* suite = suite_create("fast engine, winding numbers");
     TCase* tests = add_case(suite, "hits");
     tcase_add_each(tests, winding_culls_compact_bodies, winding_turned_inside_out,
-                          winding_finds_every_contact, winding_sees_exact_contact);
+                   winding_finds_every_contact, winding_sees_exact_contact);
     return run_suite(suite);
 }

@@ -268,7 +268,7 @@ int main() {
     Suite* suite = suite_create("predicates");
     TCase* tests = add_case(suite, "exactness");
     tcase_add_each(tests, orientation_has_the_exact_sign, orientation_sign_follows_its_definition,
-                          filter_decides_clear_cases_alone, locate_is_exact,
-                          barycentric_is_near_the_true_weights, barycentric_of_corners_is_one);
+                   filter_decides_clear_cases_alone, locate_is_exact, barycentric_is_near_the_true_weights,
+                   barycentric_of_corners_is_one);
     return run_suite(suite);
 }

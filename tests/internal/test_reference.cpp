@@ -142,7 +142,9 @@ float quantised(Random& r) { return static_cast<float>(r.below(9)) / 4.0f - 1.0f
 float any_bits(Random& r) { return r.any_finite(); }
 float far_quantised(Random& r) { return -1e6f + static_cast<float>(r.below(16)) / 16.0f; }
 
-Meshes two_blocks(const Vec3d& offset) { return {kuhn_block(2, 2, 2, {0, 0, 0}, 1), kuhn_block(2, 2, 2, offset, 1)}; }
+Meshes two_blocks(const Vec3d& offset) {
+    return {kuhn_block(2, 2, 2, {0, 0, 0}, 1), kuhn_block(2, 2, 2, offset, 1)};
+}
 
 // ---- against brute force --------------------------------------------------------------------------
 
@@ -206,7 +208,8 @@ END_TEST
 
 START_TEST(one_mesh_inside_another) {
     Engine engine;
-    const Meshes scene{kuhn_block(3, 3, 3, {-3, -3, -3}, 2), kuhn_block(1, 1, 1, {0.25, 0.375, 0.3125}, 0.125)};
+    const Meshes scene{kuhn_block(3, 3, 3, {-3, -3, -3}, 2),
+                       kuhn_block(1, 1, 1, {0.25, 0.375, 0.3125}, 0.125)};
     ck_assert_uint_eq(check_scene(engine, scene), 8);
 }
 END_TEST

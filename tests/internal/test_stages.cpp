@@ -320,7 +320,7 @@ int main() {
     Suite* suite = suite_create("stages");
     TCase* tests = add_case(suite, "stages");
     tcase_add_each(tests, tiles_hold_every_tet_once, tiles_are_full_and_compact, stream_finds_the_boxes,
-                          stream_sees_what_is_not_finite, pairs_are_all_that_overlap,
-                          common_sides_are_those_of_the_box_around, sides_of_many_boxes);
+                   stream_sees_what_is_not_finite, pairs_are_all_that_overlap,
+                   common_sides_are_those_of_the_box_around, sides_of_many_boxes);
     return run_suite(suite);
 }

@@ -255,6 +255,6 @@ int main() {
     Suite* suite = suite_create("turning");
     TCase* tests = add_case(suite, "turning");
     tcase_add_each(tests, widths_are_lower_bounds, upright_tets_are_positive, upright_to_the_last,
-                          a_body_too_fast_to_follow, engine_follows_deforming_bodies);
+                   a_body_too_fast_to_follow, engine_follows_deforming_bodies);
     return run_suite(suite);
 }

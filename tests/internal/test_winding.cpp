@@ -402,7 +402,6 @@ int main() {
     Suite* suite = suite_create("winding");
     TCase* tests = add_case(suite, "winding");
     tcase_add_each(tests, components_are_what_is_connected, surface_of_good_meshes, surface_of_bad_meshes,
-                          certificate_of_compact_bodies, certificate_is_sound,
-                          certificate_of_an_inverted_body);
+                   certificate_of_compact_bodies, certificate_is_sound, certificate_of_an_inverted_body);
     return run_suite(suite);
 }

@@ -380,7 +380,6 @@ int main() {
     Suite* suite = suite_create("windows");
     TCase* tests = add_case(suite, "windows");
     tcase_add_each(tests, window_collects_and_bins, lattice_is_monotone, lattice_covers_the_bulk,
-                          windows_of_sparse_space, windows_of_one_place, query_misses_nothing,
-                          query_of_crowds);
+                   windows_of_sparse_space, windows_of_one_place, query_misses_nothing, query_of_crowds);
     return run_suite(suite);
 }

@@ -3,8 +3,8 @@
 
 /* ---- ball of a cubic lattice ---- */
 
-/* The paper's spheres: tets asked for (Table 1), and what the construction gives. Their cell sizes are the matter of
- * tests/api/test_cell_size_tables.c. */
+/* The paper's spheres: tets asked for (Table 1), and what the construction gives. Their cell sizes are the
+ * matter of tests/api/test_cell_size_tables.c. */
 static const struct {
     uint64_t wanted, tets;
 } spheres[] = {{41937, 41946}, {52326, 52302}, {60688, 60691}, {72631, 72637}, {80927, 80928}};

@@ -539,9 +539,9 @@ int main(void) {
     tcase_add_checked_fixture(tests, clear, NULL);
     tcase_add_loop_test(tests, box, 0, 4);
     tcase_add_each(tests, distance_is_exact, kept_distance, cavity, overlapping_parts_join,
-                          orientation_does_not_matter, soup_is_welded, small_hole_is_closed,
-                          open_surfaces_are_refused, nothing_inside, any_place_and_scale, cubes,
-                          progress_and_cancel, old_and_new_structs, bad_arguments);
+                   orientation_does_not_matter, soup_is_welded, small_hole_is_closed,
+                   open_surfaces_are_refused, nothing_inside, any_place_and_scale, cubes, progress_and_cancel,
+                   old_and_new_structs, bad_arguments);
     TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_checked_fixture(large, clear, NULL);
     tcase_add_each(large, sphere, coarser_inside);

@@ -316,6 +316,6 @@ int main(void) {
     tcase_add_checked_fixture(tests, setup, teardown);
     tcase_add_loop_test(tests, one_percent_in_contact, 0, 2);
     tcase_add_each(tests, first_frame_by_hand, the_cell_size_changes_nothing, samples, from_create_to_epsilon,
-                          bad_input);
+                   bad_input);
     return run_suite(suite);
 }

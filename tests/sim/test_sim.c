@@ -264,8 +264,8 @@ int main(int argc, char** argv) {
         tcase_add_test(tests, ten_bodies_rest_stacked);
     } else {
         tcase_add_each(tests, falls_as_the_formula_says, rests_on_the_floor, a_free_body_keeps_its_momentum,
-                              two_bodies_collide_and_part, energy_does_not_grow, friction_follows_coulomb,
-                              three_slabs_rest_stacked);
+                       two_bodies_collide_and_part, energy_does_not_grow, friction_follows_coulomb,
+                       three_slabs_rest_stacked);
     }
     return run_suite(suite);
 }

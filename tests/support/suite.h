@@ -31,8 +31,8 @@ static inline uint64_t hash_of_step(vox_grid* grid) {
     return hash;
 }
 
-/* A case of the suite. CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large" there and
- * under the sanitizers. A slow machine is no failure: there is no timeout. */
+/* A case of the suite. CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large"
+ * there and under the sanitizers. A slow machine is no failure: there is no timeout. */
 static inline TCase* add_tagged_case(Suite* suite, const char* name, const char* tag) {
     TCase* tests = tcase_create(name);
     tcase_set_timeout(tests, 0);
@@ -44,10 +44,10 @@ static inline TCase* add_tagged_case(Suite* suite, const char* name, const char*
 static inline TCase* add_case(Suite* suite, const char* name) { return add_tagged_case(suite, name, ""); }
 
 /* tcase_add_each(tests, a, b, c): tests that run once each. */
-#define tcase_add_each(tests, ...) \
-    do { \
-        const TTest* const each_[] = {__VA_ARGS__}; \
-        for (size_t i_ = 0; i_ < sizeof each_ / sizeof *each_; ++i_) tcase_add_test(tests, each_[i_]); \
+#define tcase_add_each(tests, ...)                                                                           \
+    do {                                                                                                     \
+        const TTest* const each_[] = {__VA_ARGS__};                                                          \
+        for (size_t i_ = 0; i_ < sizeof each_ / sizeof *each_; ++i_) tcase_add_test(tests, each_[i_]);       \
     } while (0)
 
 /* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
