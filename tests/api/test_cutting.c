@@ -306,8 +306,7 @@ static void edit(cut_scene* s) {
 }
 
 static vox_grid_desc edited_desc(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     return desc;
 }

@@ -26,8 +26,7 @@ START_TEST(exact_for_the_doubles_given) {
             }
             ck_ok(vox_grid_step(grid));
             contacts += check_contacts(grid, solids, count, ids, 1);
-            vox_counters counters = {.struct_size = sizeof counters};
-            ck_ok(vox_grid_counters(grid, &counters));
+            vox_counters counters = counters_of(grid);
             exact_tests += counters.exact_tests;
             vox_grid_destroy(grid);
             for (uint32_t m = 0; m < count; ++m) free_solid(&solids[m]);
@@ -79,8 +78,7 @@ START_TEST(less_than_a_float_apart) {
     b.vertex_count = 4;
     b.tets = unit_tet;
     b.tet_count = 1;
-    vox_mesh mesh;
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     for (int round = 0; round < 3; ++round) { /* each is a move that no float shows */
         point[2] = nextafter(at, 0);

@@ -113,8 +113,7 @@ START_TEST(mapped_positions) {
         ck_assert_uint_eq(hash_of_step(copy), moved);
         vox_mesh_desc desc = solid_desc(&a);
         desc.positions = NULL;
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(late, &desc, &mesh));
+        vox_mesh mesh = insert_mesh(late, &desc);
         ck_fails(vox_grid_step(late), VOX_ERROR_INVALID_STATE, "no positions");
         ck_ok(vox_mesh_map_positions(late, mesh, &mapped, &stride));
         for (size_t i = 0; i < size * a.vertex_count; ++i) ck_assert_int_eq(((char*)mapped)[i], 0);

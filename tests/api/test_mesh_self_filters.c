@@ -316,13 +316,10 @@ END_TEST
 /* ---- memory ----------------------------------------------------------------------------------- */
 
 static vox_grid* counted_grid(ledger* l) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = 0;
     desc.allocator = ledger_allocator(l);
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 START_TEST(steps_with_filters_allocate_nothing) {

@@ -24,17 +24,9 @@ static body make_ball(double radius, double cell, double angle, double x) {
     return made;
 }
 
-static vox_grid* new_grid(void) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(NULL, &grid));
-    return grid;
-}
-
 static vox_mesh insert(vox_grid* grid, const body* b) {
     const vox_mesh_desc desc = body_desc(b);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 /* Two balls of radius 1 that overlap by this. Their cells are 0.06. */
@@ -44,7 +36,7 @@ START_TEST(two_balls) {
     const double overlap = overlaps[_i];
     body balls[2] = {make_ball(1, 0.06, 0.3, 2 - overlap), make_ball(1, 0.06, 0, 0)};
     const double centre[2] = {2 - overlap, 0};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     vox_mesh ids[2];
     surface surfaces[2];
     for (int b = 0; b < 2; ++b) {
@@ -83,7 +75,7 @@ END_TEST
 START_TEST(directions_change_smoothly) {
     const double overlap = _i == 0 ? 0.1 : _i == 1 ? 0.3 : 0.5;
     body balls[2] = {make_ball(1, 0.09, 0.3, 2 - overlap), make_ball(1, 0.09, 0, 0)};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     for (int b = 0; b < 2; ++b) {
         const vox_mesh id = insert(grid, &balls[b]);
         ck_assert_uint_eq(vox_mesh_is_valid(grid, id), 1);
@@ -124,7 +116,7 @@ START_TEST(ball_in_a_box) {
     for (int sunk = 0; sunk < 2; ++sunk) {
         if (sunk)
             for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += 2.3f;
-        vox_grid* grid = new_grid();
+        vox_grid* grid = grid_of(NULL);
         const vox_mesh b = insert(grid, &box), a = insert(grid, &ball);
         ck_ok(vox_grid_step(grid));
         check_penetrations(grid);
@@ -158,7 +150,7 @@ static vox_counters work_of(uint32_t n, double cell, double depth) {
     body box = make_box(n, 0.1f, -0.05f * (float)n, -0.05f * (float)n, -0.1f * (float)n);
     body ball = make_ball(0.5, cell, 0.2, 0.017);
     for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += (float)(0.5 - depth);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     insert(grid, &box);
     insert(grid, &ball);
     ck_ok(vox_grid_step(grid));

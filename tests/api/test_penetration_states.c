@@ -3,28 +3,16 @@
 
 static const vector up = {0, 0, 1}, down = {0, 0, -1};
 
-static vox_grid* new_grid(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
-}
-
 static vox_mesh insert(vox_grid* grid, const body* b, uint32_t flags) {
     vox_mesh_desc desc = body_desc(b);
     desc.flags = flags;
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 static vox_mesh insert_arrays(vox_grid* grid, const float* positions, uint64_t vertices, const uint32_t* tets,
                               uint64_t tet_count) {
     const vox_mesh_desc desc = array_desc(positions, vertices, tets, tet_count);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 static void step(vox_grid* grid) {
@@ -57,7 +45,7 @@ START_TEST(one_vertex_in_a_box) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     float positions[12];
     for (int i = 1; i < 20; ++i) {
-        vox_grid* grid = new_grid();
+        vox_grid* grid = engine_grid();
         make_poke(positions, (float)i * 0.01f);
         const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
         step(grid);
@@ -76,7 +64,7 @@ END_TEST
 START_TEST(waves_reach_deep_vertices) {
     /* A narrow block sunk into a wide one: its sides lead through the top face only. */
     body wide = make_box(8, 0.25f, 0, 0, 0), narrow = make_box(6, 0.125f, 0.6f, 0.65f, 1.45f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &wide, 0), a = insert(grid, &narrow, 0);
     step(grid);
     uint32_t surface = 0, propagated = 0;
@@ -100,7 +88,7 @@ START_TEST(the_faces_of_a_box_stay_flat) {
     /* Near an edge, too: normals are not smoothed over it. */
     body box = make_box(3, 1.0f / 3, 0, 0, 0);
     float positions[12] = {0.9f, 0.5f, 0.97f, 0.85f, 0.45f, 1.1f, 0.95f, 0.45f, 1.1f, 0.9f, 0.55f, 1.1f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
@@ -114,7 +102,7 @@ END_TEST
 START_TEST(body_inside_a_body) {
     body outer_box = make_box(6, 0.25f, 0, 0, 0), inner_box = make_box(3, 0.0625f, 0.3f, 0.55f, 0.9f);
     const surface s = surface_of(outer_box.tets, outer_box.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &outer_box, 0), a = insert(grid, &inner_box, 0);
     step(grid);
     ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), inner_box.vertex_count);
@@ -134,7 +122,7 @@ END_TEST
 START_TEST(points_without_edges) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     const float points[6] = {0.5f, 0.5f, 0.9f, 0.1f, 0.4f, 0.5f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, points, 2, NULL, 0);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_ENCLOSED, 1 - (double)points[2], up);
@@ -161,7 +149,7 @@ START_TEST(edges_leave_on_opposite_sides) {
     const float positions[18] = {0.5f, 0.5f, 0.0625f,  0.6f, 0.5f, 0.3625f,  0.4f, 0.5f, 0.3625f,
                                  0.5f, 0.6f, -0.2375f, 0.5f, 0.4f, -0.2375f, 0.5f, 0.5f, 0.9f};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &plate, 0), a = insert_arrays(grid, positions, 5, tets, 2);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -185,7 +173,7 @@ START_TEST(crossing_bars) {
     }
     const surface of_x = surface_of(x_bar.tets, x_bar.tet_count),
                   of_y = surface_of(y_bar.tets, y_bar.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -220,7 +208,7 @@ START_TEST(no_way_through_a_facet_of_three) {
     const float poke[12] = {0.3f, 0.3f, -0.05f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
     const surface s = surface_of(tets, 3);
     ck_assert_uint_eq(s.count, 9);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, solid, 6, tets, 3), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -237,7 +225,7 @@ START_TEST(no_surface_at_all) {
     const float solid[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.25f, 0.25f, 0.25f};
     const uint32_t tets[20] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 3, 4, 0, 2, 3, 4, 1, 2, 3, 4};
     const float poke[12] = {0.3f, 0.3f, 0.3f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, solid, 5, tets, 5), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -253,7 +241,7 @@ END_TEST
 START_TEST(coincident_bodies) {
     body one = make_box(4, 0.25f, 0, 0, 0), other = make_box(4, 0.25f, 0, 0, 0);
     const surface s = surface_of(one.tets, one.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &one, 0), b = insert(grid, &other, 0);
     step(grid);
     ck_assert_uint_eq(penetrations_of(grid).count, 2 * one.vertex_count);
@@ -278,7 +266,7 @@ START_TEST(stacked_boxes_touch) {
     /* Vertices on faces, edges and corners of tetrahedra, all on the plane between two boxes. */
     body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1),
          aligned = make_box(4, 0.25f, 3, 0, 1), under = make_box(4, 0.25f, 3, 0, 0);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
                    d = insert(grid, &under, 0);
     step(grid);
@@ -309,7 +297,7 @@ START_TEST(lattices_that_coincide) {
     /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them.
      */
     body lower = make_box(8, 0.125f, 0, 0, 0), upper = make_box(4, 0.125f, 0.25f, 0.25f, 0.75f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
@@ -336,7 +324,7 @@ START_TEST(on_the_surface_of_a_part_and_inside_another) {
     memcpy(positions + 3 * 27, high.positions, sizeof positions / 2);
     for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
     const float point[3] = {0.55f, 0.6f, 1};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80),
                    a = insert_arrays(grid, point, 1, NULL, 0);
     step(grid);
@@ -361,11 +349,11 @@ static void swap_corners(body* b, uint32_t from, uint32_t every) {
 START_TEST(winding_does_not_matter) {
     body plain = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.1f, 0.15f, 1.3f);
     body wound = make_box(6, 0.25f, 0, 0, 0);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &plain, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t every = 1; every <= 3; ++every) { /* all of them, and mixed */
-        vox_grid* again = new_grid();
+        vox_grid* again = engine_grid();
         swap_corners(&wound, 0, every);
         ck_assert_uint_eq(insert(again, &wound, 0), b);
         ck_assert_uint_eq(insert(again, &upper, 0), a);
@@ -394,7 +382,7 @@ START_TEST(doubled_tets) {
     memcpy(twice + 4 * box.tet_count, box.tets, 4 * sizeof(uint32_t) * box.tet_count);
     float positions[12];
     make_poke(positions, 0.3f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, twice, 2 * box.tet_count),
                    a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
@@ -416,7 +404,7 @@ START_TEST(flat_tets_on_the_surface) {
         const uint32_t flat[8] = {v, v + 1, v + 5, v + 6, v, v + 1, v + 1, v + 7};
         memcpy(tets + 4 * (n + 2 * i), flat, sizeof flat);
     }
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, tets, n + 8);
     body upper = make_box(6, 0.125f, 0.12f, 0.11f, 0.93f);
     const vox_mesh a = insert(grid, &upper, 0);
@@ -442,7 +430,7 @@ START_TEST(inverted_tets) {
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
         box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
     const surface s = surface_of(box.tets, box.tet_count), t = surface_of(upper.tets, upper.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, VOX_MESH_SELF_COLLISION), a = insert(grid, &upper, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -511,7 +499,7 @@ static body make_fold(void) {
 
 START_TEST(self_fold) {
     body bar = make_fold();
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &bar, VOX_MESH_SELF_COLLISION);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -548,7 +536,7 @@ START_TEST(one_vertex_in_two_bodies) {
     body low = make_box(4, 0.25f, 0, 0, 0), wide = make_box(4, 0.5f, -0.5f, -0.5f, -1.05f);
     float positions[12];
     make_poke(positions, 0.2f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &low, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1),
                    c = insert(grid, &wide, 0);
     step(grid);

@@ -4,18 +4,6 @@
 
 #include "support/depth_checks.h"
 
-static vox_grid* grid_of(const vox_grid_desc* desc) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(desc, &grid));
-    return grid;
-}
-
-static vox_grid_desc engine_desc(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
-    return desc;
-}
-
 /* Bodies that meet in many ways: stacked, crossing, one inside another, coincident, and one with itself. */
 enum { pile_size = 7 };
 typedef struct pile {
@@ -171,8 +159,7 @@ START_TEST(no_contacts_no_work) {
     const vox_grid_desc desc = engine_desc();
     vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc a = body_desc(&one), b = body_desc(&other);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     const vox_counters counters = counters_of(grid);
@@ -392,8 +379,7 @@ START_TEST(tiny_double_positions) {
             vox_mesh_desc mesh = body_desc(from);
             mesh.positions = positions[b];
             mesh.position_format = VOX_FORMAT_DOUBLE3;
-            vox_mesh id = 0;
-            ck_ok(vox_mesh_insert(grid, &mesh, &id));
+            insert_mesh(grid, &mesh);
         }
         ck_ok(vox_grid_step(grid));
         const vox_penetration_view view = penetrations_of(grid);

@@ -60,18 +60,11 @@ static inline uint64_t count_state(const vox_grid* grid, vox_mesh a, vox_penetra
     return count;
 }
 
-static inline vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
-}
-
 /* What holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in their order, with
  * finite numbers and a unit direction. */
 static inline void check_penetrations(const vox_grid* grid) {
     const vox_penetration_view view = penetrations_of(grid);
-    vox_contact_view contacts = {NULL, 0, 0, 0};
-    ck_ok(vox_grid_contacts(grid, &contacts));
+    vox_contact_view contacts = contacts_of(grid);
     ck_assert_uint_eq(view.epoch, contacts.epoch);
     uint64_t next = 0;
     for (uint64_t i = 0; i < contacts.count; ++i) {

@@ -23,6 +23,31 @@
                       #call, vox_last_error(), (words)); \
     } while (0)
 
+static inline vox_grid* grid_of(const vox_grid_desc* desc) {
+    vox_grid* grid = NULL;
+    ck_ok(vox_grid_create(desc, &grid));
+    return grid;
+}
+
+static inline vox_mesh insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
+    vox_mesh mesh = VOX_NULL_MESH;
+    ck_ok(vox_mesh_insert(grid, desc, &mesh));
+    return mesh;
+}
+
+static inline vox_contact_view contacts_of(const vox_grid* grid) {
+    vox_contact_view view = {NULL, 99, 0, 0}; /* a count that is not written shows */
+    ck_ok(vox_grid_contacts(grid, &view));
+    return view;
+}
+
+static inline vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters;
+    counters.struct_size = sizeof counters;
+    ck_ok(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
 /* Steps the grid; the hash of the contacts that it found. */
 static inline uint64_t hash_of_step(vox_grid* grid) {
     uint64_t hash = 0;
@@ -54,6 +79,15 @@ static inline TCase* add_case(Suite* suite, const char* name) { return add_tagge
 static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
 static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
+static inline vox_grid_desc engine_desc(void) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    return desc;
+}
+static inline vox_grid* engine_grid(void) {
+    const vox_grid_desc desc = engine_desc();
+    return grid_of(&desc);
+}
 
 static inline void add_tagged_for_each_engine(Suite* suite, void (*add_tests)(TCase*), const char* tag) {
     static const char* const names[] = {"reference", "fast"};
