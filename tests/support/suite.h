@@ -36,7 +36,7 @@ static inline vox_mesh insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
 }
 
 static inline vox_contact_view contacts_of(const vox_grid* grid) {
-    vox_contact_view view = {NULL, 99, 0, 0}; /* a count that is not written shows */
+    vox_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
     ck_ok(vox_grid_contacts(grid, &view));
     return view;
 }
