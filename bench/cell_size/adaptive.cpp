@@ -140,8 +140,8 @@ struct Phase {
 constexpr Phase phases[] = {{"contact", 60}, {"inflated", 80}, {"sinking", 60},
                             {"cut", 50},     {"added", 70},    {"removed", 50}};
 
-// Where a grid's memory lies makes per cents alone: so the fixed sizes go round among their grids, and of so
-// many grids that choose, the middle time counts.
+// The addresses of a grid's memory alone change times by per cents. So the fixed sizes go round among their
+// grids, and of this many grids that choose, the middle time counts.
 constexpr int choosing = 3;
 
 // From a quarter of an edge to four.

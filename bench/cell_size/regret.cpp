@@ -80,7 +80,7 @@ public:
         return descs;
     }
 
-    // Seconds of a step at this cell size (0: the grid's own choice), in the mean over the frames of a turn.
+    // Seconds of a step at this cell size (0: the grid's own choice), averaged over the frames of a turn.
     // A turn always has the same frames; its first step is not counted.
     double turn(double cell_size) {
         must(vox_grid_set_cell_size(grid_, cell_size));
@@ -292,7 +292,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
     row.uniform_loss = model.uniform_loss;
 
-    // All sizes in one grid: another one's memory lies elsewhere, and that alone makes per cents.
+    // All sizes in one grid: memory at other addresses alone changes times by per cents.
     Grid grid(engine, scene, 0); // contacts alone
     grid.set_turn(grid.turn(model.cell_size));
     curve = sweep(grid, sweep_sizes(scene, settings.sizes), model.cell_size);

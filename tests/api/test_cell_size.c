@@ -115,7 +115,7 @@ START_TEST(unused_vertices_do_not_widen_the_bounds) {
 }
 END_TEST
 
-/* Zero volume is told exactly: a flat tet, one that names a vertex twice, and one flat but for the last bit.
+/* Zero volume is found exactly: a flat tet, one that names a vertex twice, and one flat but for the last bit.
  */
 START_TEST(degenerate_tets_are_counted) {
     float positions[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.3f, 0.3f, 0, 0, 0, 0, 0, 0, 0};
@@ -340,7 +340,7 @@ START_TEST(extremes_stay_finite) {
             CLOSE(found.stats.mean_edge, 2 * sqrt(2) * (double)sizes[i]);
             CLOSE(found.stats.mean_volume / sizes[i] / sizes[i], 8.0 / 3 * (double)sizes[i]);
             ck_assert_double_ge(found.cell_size,
-                                found.stats.mean_edge / 4); /* the limit for dear particles */
+                                found.stats.mean_edge / 4); /* the limit for expensive particles */
             ck_assert_double_lt(found.zone_min, found.cell_size);
             ck_assert_double_gt(found.zone_max, found.cell_size);
             ck_assert_double_finite(found.zone_max);

@@ -430,7 +430,7 @@ START_TEST(weights_are_plain_numbers) {
     ck_assert_double_lt(measured.reference_visit_cell, 1e5);
 
     saved = measured;
-    saved.reference_visit_cell *= 8; /* a visit is dear: larger cells */
+    saved.reference_visit_cell *= 8; /* a visit is expensive: larger cells */
     pair p = make_pair(0.5f);
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = VOX_COST_MODEL_REFERENCE;

@@ -200,7 +200,7 @@ START_TEST(off_and_on) {
         ck_ok(vox_grid_contacts(grid, &view));
         ck_assert(view.count == 1 && view.data[0].tet == tet);
     }
-    /* Cut and mended between two steps: the pair persists. */
+    /* Cut and restored between two steps: the pair persists. */
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
     ck_ok(vox_grid_step(grid));

@@ -117,9 +117,8 @@ START_TEST(allocation_n_fails) {
 }
 END_TEST
 
-/* What an edit takes is in proportion to it: in a body of 40,000 tets, a thousand small ones take less
- * memory, all that was ever taken counted, than making anything of the whole body anew would, even a few
- * times. */
+/* An edit takes memory in proportion to its size: in a body of 40,000 tets, a thousand small edits together
+ * request less memory than preparing the whole body a few times would. */
 START_TEST(edits_cost_what_they_change) {
     ledger l;
     body box = make_box(20, 0.25f, 0, 0, 0);

@@ -4,7 +4,7 @@
 #include "scenes/bodies.h"
 #include "support/suite.h"
 
-/* Counts what is held, checks that it comes back as it was given, and fails at the call it is told to. */
+/* Counts what is held, checks that it comes back as it was given, and fails at a chosen call. */
 typedef struct ledger {
     size_t bytes;
     size_t blocks;
@@ -224,7 +224,7 @@ START_TEST(reserved_room) {
 
     const uint64_t calls = l.calls, bytes = l.bytes;
     for (int i = 0; i < 98; ++i) ck_ok(vox_mesh_insert(grid, &empty, &mesh));
-    ck_assert_uint_eq(l.calls, calls); /* empty meshes need nothing but their slots */
+    ck_assert_uint_eq(l.calls, calls); /* empty meshes need only their slots */
     ck_ok(vox_grid_reserve(grid, 1, 1));
     ck_assert_uint_eq(l.bytes, bytes);
     ck_fails(vox_grid_reserve(grid, VOX_MAX_MESHES + 1, 0), VOX_ERROR_LIMIT, "mesh_count is 1048577");

@@ -1,4 +1,4 @@
-/* Filters of whole pairs, and what a filter may be. That of single vertices and tetrahedra:
+/* Filters of whole pairs, and what a filter may be. Those of single vertices and tetrahedra:
  * test_mesh_self_filters.c. */
 #include <math.h>
 

@@ -208,7 +208,7 @@ START_TEST(every_word_turned_hostile) {
             vox_grid* grid = NULL;
             desc.allocator = ledger_allocator(&l);
             put(f.bytes + at, 4, values[v]);
-            if (at >= 16 && at < 24) { /* the size, which seal() would mend */
+            if (at >= 16 && at < 24) { /* the size, which seal() would correct */
                 if (values[v] != old) refused(f, VOX_ERROR_FORMAT, "snapshot: ");
                 continue;
             }

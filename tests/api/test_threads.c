@@ -328,7 +328,7 @@ START_TEST(budget_that_ends_in_a_task) {
 END_TEST
 
 START_TEST(defective_task_systems) {
-    /* A scheduler that loses work or lies is told so; nothing is silently missing. */
+    /* A scheduler that loses work or reports wrong ranges gets an error; nothing is silently missing. */
     static const char* const words[] = {"items", "worker 4 of 4", "items"};
     scheduler s;
     make_bodies();

@@ -1,4 +1,4 @@
-// The bodies of scenes/ as the arrays that the stages take, and more that is done to them.
+// The bodies of scenes/ as the arrays that the stages take, and operations on them.
 #pragma once
 
 #include "base/scene.hpp"
@@ -65,7 +65,7 @@ inline Mesh jittered(Mesh mesh, Random& random, double amount) {
     return mesh;
 }
 
-// Both in one mesh.
+// Puts the vertices and tets of `other` behind those of `mesh`.
 inline void append(Mesh& mesh, const Mesh& other) {
     const auto first = std::uint32_t(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());

@@ -1,4 +1,4 @@
-// Which tets may have turned over: widths against their definition, what is told to be upright against exact
+// Which tets may have turned over: widths against their definition, what is reported as positive against exact
 // orientation, and the engine over many steps of bodies that deform, a little or until they are a knot.
 #include "internal/fast_checks.hpp"
 #include "internal/stage_checks.hpp"

@@ -1,4 +1,4 @@
-/* Scenes for the tests of readings, and what a reading has to say by brute force over every triangle of every
+/* Scenes for the tests of readings, and the expected readings by brute force over every triangle of every
  * surface. */
 #ifndef VOX_TESTS_READING_CHECKS_H
 #define VOX_TESTS_READING_CHECKS_H

@@ -1,4 +1,4 @@
-/* What every Check program here begins and ends with. */
+/* What the Check programs share: checks of results, grids and meshes in one call, cases, one case an engine. */
 #ifndef VOX_TESTS_SUITE_H
 #define VOX_TESTS_SUITE_H
 
