@@ -27,7 +27,7 @@ static inline void free_solid(solid* s) {
     s->tets = NULL;
 }
 
-/* Without overflow, and the same on every machine, which hypot() need not be. */
+/* Without overflow, and the same on every machine, which hypot() need not give. */
 static inline double vector_length(double x, double y, double z) {
     const double a = fabs(x), b = fabs(y), c = fabs(z);
     const double most = a < b ? (b < c ? c : b) : (a < c ? c : a);

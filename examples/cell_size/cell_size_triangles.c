@@ -10,9 +10,9 @@
  *     static triangles in one voxel                       t(d) = p d^2 / A_t * (1 + s/d)^2
  *     cost                                                n v(d) (visit + test t(d))
  *
- * A voxel of the surface holds a patch of about d^2, and a triangle of area A_t and box side s is in all voxels
- * that it crosses; p is the part of the voxels near the object that hold any surface. Multiplied out, the cost
- * is a table of powers of d, and needs no code at all. */
+ * A voxel of the surface holds a patch of about d^2, and a triangle of area A_t and box side s is in all
+ * voxels that it crosses; p is the part of the voxels near the object that hold any surface. Multiplied out,
+ * the cost is a table of powers of d, and needs no code at all. */
 #include "example.h"
 
 int main(void) {

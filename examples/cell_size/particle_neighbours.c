@@ -10,8 +10,8 @@
  *     particles  rho (2h + d)^3     in these rows
  *     surprises  (2h/d + 2) m       loops over rows whose end the processor guesses wrong
  *
- * A loop takes floor(2h/d) + 1 rows, or one more with a chance of f = 2h/d - floor(2h/d); m is the lesser of f
- * and 1 - f.
+ * A loop takes floor(2h/d) + 1 rows, or one more with a chance of f = 2h/d - floor(2h/d); m is the lesser of
+ * f and 1 - f.
  *
  * The last term was added when a clock said that cells of exactly the radius do better than the first two
  * allow. What each costs is fitted to the times at a few cell sizes; the least cost is found by
