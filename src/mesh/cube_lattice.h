@@ -13,8 +13,8 @@ typedef struct cube_cut {
     uint8_t tets[2][6][4];
 } cube_cut;
 
-/* Six tetrahedra around the diagonal from corner 0 to corner 7, one for each order of the axes (Kuhn). The
- * facets of neighbouring cubes match without alternating. */
+/* Six tetrahedra around the diagonal from corner 0 to corner 7, one for each order of the axes (Kuhn); every
+ * other one is inverted. Neighbouring cubes share facets without alternating. */
 static const cube_cut kuhn_cut = {
     6,
     {{{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}},
