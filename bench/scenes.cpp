@@ -28,8 +28,8 @@ std::vector<float> frame_positions(const Solid& solid, const Pose& pose, std::si
     return positions;
 }
 
-// Three waves across a body of the given radius, moved by `offset`; each frame they run on a little, vertices
-// by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
+// Three waves across a body of the given radius, moved by `offset`. In each frame they advance a little, and
+// vertices by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
 Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0.01) {
     return [=](const Vec3& p, std::size_t frame) {
         return waved({offset.x + p.x, offset.y + p.y, offset.z + p.z}, p, amplitude * radius, pi / radius,
@@ -43,7 +43,7 @@ Pose beside(double radius, std::size_t body, double distance, double amplitude =
                      : waves(radius, {distance, 0.01 * radius, 0.02 * radius}, 0.9, amplitude);
 }
 
-// f falls from f(low) to f(high): where it passes `target`.
+// Where f, which falls from f(low) to f(high), passes `target`.
 double bisect(double low, double high, double target, const std::function<double(double)>& f) {
     for (int i = 0; i < 20 && high - low > 1e-4 * high; ++i) {
         const double middle = (low + high) / 2;
@@ -114,7 +114,7 @@ Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
     });
 }
 
-// A body alone, whose waves run on from frame to frame.
+// One body, whose waves advance from frame to frame.
 Scene alone(Solid solid, double radius, bool shuffled, double amplitude = 0.01) {
     if (shuffled) shuffle(solid, 1);
     const Pose pose = waves(radius, {0, 0, 0}, 0, amplitude);

@@ -41,13 +41,13 @@ struct Scene {
     void pose(std::size_t frame);
 };
 
-// Where a vertex is in a frame.
+// The position of a vertex in a frame.
 using Pose = std::function<Vec3(const Vec3& rest, std::size_t frame)>;
 
 // Adds a body with its frames.
 void add(Scene& scene, const Solid& solid, const Pose& pose, bool self_collision = false);
 
-// Over the six edges of each tetrahedron.
+// The mean over the six edges of each tetrahedron.
 double mean_edge(std::span<const Body> bodies);
 
 struct SceneMaker {

@@ -2,7 +2,7 @@
 // two balls in contact are inflated tenfold, sink into each other, are cut in half, a fine ball is added and
 // removed. Writes a line of times for each step; bench/cell_size/adaptive.py makes the picture.
 //
-// All grids make each step once, one after the other, so that each finds the caches as the one before left
+// All grids make each step once, one after the other, so that each finds the caches as the previous one left
 // them.
 #include "bodies.hpp"
 #include "program.hpp"

@@ -10,9 +10,7 @@
 
 static uint64_t state = 1;
 
-static double random_double(double min, double max) {
-    return min + (max - min) * ((double)(random_next(&state) >> 11) * 0x1p-53);
-}
+static double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
 static vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) {
     return insert_mesh(grid, desc);

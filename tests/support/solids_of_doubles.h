@@ -12,9 +12,7 @@
 
 static uint64_t state = 1;
 
-static inline double random_double(double min, double max) {
-    return min + (max - min) * ((double)(random_next(&state) >> 11) * 0x1p-53);
-}
+static inline double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
 /* ---- bodies of doubles ---------------------------------------------------------------------------------- */
 
