@@ -1,8 +1,7 @@
-// Bodies for the scenes, undeformed.
+// Bodies for the scenes, undeformed: those of scenes/solids.h, and files.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,20 +11,17 @@ struct Vec3 {
     double x, y, z;
 };
 
-// Lattice constant 1 where it is made from a lattice.
 struct Solid {
     std::vector<Vec3> positions;
     std::vector<std::uint32_t> tets; // 4 * tet_count, positive
 };
 
-// nx * ny * nz cubes of the body-centred cubic lattice from the origin on, 12 tetrahedra a cube inside; those
-// whose centroid `keep` refuses are left out. Inner vertices are moved by up to `jitter` on each axis.
-Solid lattice_solid(int nx, int ny, int nz, const std::function<bool(const Vec3&)>& keep, double jitter,
-                    std::uint64_t seed);
+// A beam of nx * ny * nz cubes of the body-centred cubic lattice, from the origin on.
+Solid lattice_beam(int nx, int ny, int nz, double jitter, std::uint64_t seed);
 
-// A ball of about `tets` tetrahedra around the origin, and its radius.
-double ball_radius(double tets);
+// A ball of about `tets` tetrahedra around the origin; the lattice's edge is 1.
 Solid lattice_ball(double tets, std::uint64_t seed);
+double ball_radius(double tets);
 
 // Reads a mesh file; throws std::runtime_error when that fails or when this build has no readers.
 Solid read_solid(const std::string& path);
@@ -33,18 +29,7 @@ Solid read_solid(const std::string& path);
 // Gives vertices and tetrahedra random numbers.
 void shuffle(Solid& solid, std::uint64_t seed);
 
-double signed_volume(const Solid& solid, std::size_t tet);
-
-// Uniform in [-1, 1): splitmix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators",
-// 2014).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits();
-    double uniform();
-
-private:
-    std::uint64_t state_;
-};
+// `point` moved by three sine waves that run through the body; `rest` is where the point is at rest.
+Vec3 waved(const Vec3& point, const Vec3& rest, double amplitude, double wave_number, double phase);
 
 } // namespace bench

@@ -1,4 +1,4 @@
-// What the driver sees of everything it times: a vox engine, a peer or a floor.
+// The interface of everything that is timed: a vox engine, a peer or a floor.
 #pragma once
 
 #include "scenes.hpp"

@@ -1,4 +1,4 @@
-// What no method can be faster than: F1, one pass over all positions for their minimum and maximum, and F2,
+// Floors, which no method can beat: F1, one pass over all positions for their minimum and maximum, and F2,
 // the box of every tetrahedron. Four floats at a time in the vector types of GCC and clang.
 #include "entrant.hpp"
 

@@ -1,10 +1,10 @@
 // The benchmark: vox's engines, other libraries and two floors on the same scenes in one process. First all
-// of them must find the same contacts in every frame; then they take turns, so that what disturbs the machine
-// disturbs them alike, and medians are compared.
+// of them must find the same contacts in every frame. Then they take turns, so that a disturbance of the
+// machine affects them equally, and medians are compared.
 #include "entrant.hpp"
 #include "results.hpp"
 #include "scenes.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <CLI/CLI.hpp>
 
@@ -31,7 +31,7 @@ struct Options {
     bool list = false;
 };
 
-// How time grows with size: vox and the floors alone.
+// For the growth of time with size: only vox and the floors.
 constexpr double growth_sizes[] = {1e4, 3e4, 1e5, 3e5, 1e6, 2e6, 5e6};
 const std::vector<std::string> growth_scenes = {"overlap-1", "self", "overlap-50"};
 
@@ -75,8 +75,8 @@ std::size_t check(Scene& scene, std::vector<Running>& running) {
     return count;
 }
 
-// In turns. A turn is some consecutive frames, so that fast entrants find their own data in the caches as
-// they would in a simulation that does little else; slow ones, which overflow the caches anyway, get one
+// Times the entrants in turns. A turn has some consecutive frames, so that fast entrants find their own data
+// in the caches, as in a simulation that does little else. Slow ones overflow the caches anyway and get one
 // frame.
 void time(Scene& scene, std::vector<Running>& running, const Options& options) {
     constexpr std::size_t frames_in_turn = 4, least_steps = 3;
@@ -127,7 +127,7 @@ bool run(const SceneMaker& maker, double tets, const std::vector<EntrantMaker>& 
     return agree;
 }
 
-// One core for the whole process: nobody, libraries with threads of their own included, runs on two.
+// Keeps the whole process on one core, also libraries that start threads of their own.
 void stay_on_one_core() {
 #if defined(__linux__)
     const int core = sched_getcpu();

@@ -1,4 +1,5 @@
-// How the programs here fail: a call of the library by an exception, the program by a line of text.
+// Failures: a failed call of the library becomes an exception, and an exception ends the program with a line
+// of text.
 #pragma once
 
 #include <vox/vox.h>

@@ -1,5 +1,7 @@
 #include "results.hpp"
 
+#include "timing.h"
+
 #include <vox/vox.h>
 
 #include <algorithm>
@@ -44,12 +46,7 @@ std::string ratio(double value) {
 
 } // namespace
 
-double Result::median() const {
-    std::vector<double> sorted = seconds;
-    std::ranges::sort(sorted);
-    const std::size_t n = sorted.size();
-    return n == 0 ? 0 : (sorted[(n - 1) / 2] + sorted[n / 2]) / 2;
-}
+double Result::median() const { return ::median(seconds); }
 
 double Result::fastest() const { return seconds.empty() ? 0 : std::ranges::min(seconds); }
 

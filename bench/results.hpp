@@ -1,4 +1,4 @@
-// What was measured, and how it is told: a table for the reader, rows for the file.
+// What was measured, and how it is reported: a table for the reader, rows for the file.
 #pragma once
 
 #include "entrant.hpp"

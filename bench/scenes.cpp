@@ -1,9 +1,7 @@
 #include "scenes.hpp"
 
-#include "bodies.hpp"
 #include "program.hpp"
-
-#include <vox/vox.h>
+#include "scenes/random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +16,6 @@ constexpr double pi = std::numbers::pi;
 
 // ---- placing and deforming ------------------------------------------------------------------------
 
-using Pose = std::function<Vec3(const Vec3& rest, std::size_t frame)>;
-
 std::vector<float> frame_positions(const Solid& solid, const Pose& pose, std::size_t frame) {
     std::vector<float> positions;
     positions.reserve(3 * solid.positions.size() + 1);
@@ -32,24 +28,12 @@ std::vector<float> frame_positions(const Solid& solid, const Pose& pose, std::si
     return positions;
 }
 
-void add(Scene& scene, const Solid& solid, const Pose& pose, bool self = false) {
-    Body body;
-    for (std::size_t frame = 0; frame < frame_count; ++frame)
-        body.frames.push_back(frame_positions(solid, pose, frame));
-    body.positions = body.frames[0];
-    body.tets = solid.tets;
-    body.self_collision = self;
-    scene.bodies.push_back(std::move(body));
-}
-
-// Three waves across a body of the given radius, moved by `offset`; each frame they run on a little, vertices
-// by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
+// Three waves across a body of the given radius, moved by `offset`. In each frame they advance a little, and
+// vertices by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
 Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0.01) {
     return [=](const Vec3& p, std::size_t frame) {
-        const double a = amplitude * radius, k = pi / radius, run = 0.1 * static_cast<double>(frame) + phase;
-        return Vec3{offset.x + p.x + a * std::sin(k * p.y + run),
-                    offset.y + p.y + a * std::sin(k * p.z + run + 1),
-                    offset.z + p.z + a * std::sin(k * p.x + run + 2)};
+        return waved({offset.x + p.x, offset.y + p.y, offset.z + p.z}, p, amplitude * radius, pi / radius,
+                     0.1 * static_cast<double>(frame) + phase);
     };
 }
 
@@ -59,20 +43,7 @@ Pose beside(double radius, std::size_t body, double distance, double amplitude =
                      : waves(radius, {distance, 0.01 * radius, 0.02 * radius}, 0.9, amplitude);
 }
 
-double mean_edge(const Scene& scene) {
-    double sum = 0;
-    for (const Body& body : scene.bodies)
-        for (std::size_t t = 0; t < body.tets.size(); t += 4)
-            for (std::size_t i = 0; i < 4; ++i)
-                for (std::size_t j = 0; j < i; ++j) {
-                    const float* a = &body.positions[3 * body.tets[t + i]];
-                    const float* b = &body.positions[3 * body.tets[t + j]];
-                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
-                }
-    return sum / (6 * static_cast<double>(scene.tet_count()));
-}
-
-// f falls from f(low) to f(high): where it passes `target`.
+// Where f, which falls from f(low) to f(high), passes `target`.
 double bisect(double low, double high, double target, const std::function<double(double)>& f) {
     for (int i = 0; i < 20 && high - low > 1e-4 * high; ++i) {
         const double middle = (low + high) / 2;
@@ -143,7 +114,7 @@ Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
     });
 }
 
-// A body alone, whose waves run on from frame to frame.
+// One body, whose waves advance from frame to frame.
 Scene alone(Solid solid, double radius, bool shuffled, double amplitude = 0.01) {
     if (shuffled) shuffle(solid, 1);
     const Pose pose = waves(radius, {0, 0, 0}, 0, amplitude);
@@ -163,15 +134,15 @@ Scene one_ball(double tets, bool shuffled) {
 Scene many_balls(double tets, bool shuffled, double tets_each) {
     const int n = std::max(2, static_cast<int>(std::lround(std::cbrt(tets / tets_each))));
     const double radius = ball_radius(tets_each), spacing = 1.93 * radius;
-    Random random(7);
+    std::uint64_t random = 7;
     Scene scene;
     for (int i = 0; i < n * n * n; ++i) {
         Solid ball = lattice_ball(tets_each, static_cast<std::uint64_t>(i));
         if (shuffled) shuffle(ball, static_cast<std::uint64_t>(i));
         const double off = 0.05 * radius;
-        const Vec3 place{spacing * (i % n) + off * random.uniform(),
-                         spacing * (i / n % n) + off * random.uniform(),
-                         spacing * (i / n / n) + off * random.uniform()};
+        const Vec3 place{spacing * (i % n) + off * random_symmetric(&random),
+                         spacing * (i / n % n) + off * random_symmetric(&random),
+                         spacing * (i / n / n) + off * random_symmetric(&random)};
         add(scene, ball, waves(radius, place, 0.9 * i));
     }
     return scene;
@@ -193,8 +164,7 @@ Scene coil(double tets, bool shuffled) {
     const double length_in_widths = 2 * pi * bend * turns;
     const int width = std::max(2, static_cast<int>(std::lround(std::cbrt(tets / (12 * length_in_widths)))));
     const int length = static_cast<int>(std::lround(tets / (12.0 * width * width)));
-    Solid beam = lattice_solid(
-        width, width, length, [](const Vec3&) { return true; }, 0.08, 5);
+    Solid beam = lattice_beam(width, width, length, 0.08, 5);
     if (shuffled) shuffle(beam, 5);
     const Pose wind = [=](const Vec3& p, std::size_t frame) {
         const double w = width, angle = p.z / (bend * w), radius = bend * w + p.y - w / 2;
@@ -241,6 +211,39 @@ Scene file_self(const std::string& path, bool shuffled) {
 
 } // namespace
 
+vox_mesh_desc Body::desc() const {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    if (self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
+    desc.positions = positions.data();
+    desc.vertex_count = vertex_count();
+    desc.tets = tets.data();
+    desc.tet_count = tet_count();
+    return desc;
+}
+
+void add(Scene& scene, const Solid& solid, const Pose& pose, bool self_collision) {
+    Body body;
+    for (std::size_t frame = 0; frame < frame_count; ++frame)
+        body.frames.push_back(frame_positions(solid, pose, frame));
+    body.positions = body.frames[0];
+    body.tets = solid.tets;
+    body.self_collision = self_collision;
+    scene.bodies.push_back(std::move(body));
+}
+
+double mean_edge(std::span<const Body> bodies) {
+    double sum = 0, count = 0;
+    for (const Body& body : bodies)
+        for (std::size_t t = 0; t < body.tets.size(); t += 4)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = 0; j < i; ++j, count += 1) {
+                    const float* a = &body.positions[3 * body.tets[t + i]];
+                    const float* b = &body.positions[3 * body.tets[t + j]];
+                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
+                }
+    return sum / count;
+}
+
 std::size_t Scene::vertex_count() const {
     std::size_t count = 0;
     for (const Body& body : bodies) count += body.vertex_count();
@@ -263,7 +266,7 @@ void Scene::pose(std::size_t frame) {
 
 Scene pair_from_file(const std::string& path, double share) {
     Scene scene = file_pair(path, false, share);
-    scene.mean_edge = mean_edge(scene);
+    scene.mean_edge = mean_edge(scene.bodies);
     return scene;
 }
 
@@ -298,7 +301,7 @@ std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
         maker.make = [name = maker.name, make = maker.make](double tets, bool shuffled) {
             Scene scene = make(tets, shuffled);
             scene.name = name;
-            scene.mean_edge = mean_edge(scene);
+            scene.mean_edge = mean_edge(scene.bodies);
             return scene;
         };
     return makers;

@@ -1,9 +1,14 @@
 // The benchmark's scenes: deforming bodies made from a size and a seed, or read from a folder of meshes.
 #pragma once
 
+#include "bodies.hpp"
+
+#include <vox/vox.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +25,7 @@ struct Body {
 
     std::size_t vertex_count() const { return positions.size() / 3; }
     std::size_t tet_count() const { return tets.size() / 4; }
+    vox_mesh_desc desc() const; // positions are borrowed
 };
 
 struct Scene {
@@ -34,6 +40,15 @@ struct Scene {
     // entrants read.
     void pose(std::size_t frame);
 };
+
+// The position of a vertex in a frame.
+using Pose = std::function<Vec3(const Vec3& rest, std::size_t frame)>;
+
+// Adds a body with its frames.
+void add(Scene& scene, const Solid& solid, const Pose& pose, bool self_collision = false);
+
+// The mean over the six edges of each tetrahedron.
+double mean_edge(std::span<const Body> bodies);
 
 struct SceneMaker {
     std::string name;

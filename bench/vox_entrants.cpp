@@ -1,7 +1,7 @@
 // The engines of vox through its C interface, as a user would call them.
 #include "entrant.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 
@@ -45,12 +45,7 @@ public:
 
     void setup(const Scene& scene) override {
         for (const Body& body : scene.bodies) {
-            vox_mesh_desc desc = vox_default_mesh_desc();
-            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
-            desc.positions = body.positions.data();
-            desc.vertex_count = body.vertex_count();
-            desc.tets = body.tets.data();
-            desc.tet_count = body.tet_count();
+            const vox_mesh_desc desc = body.desc();
             meshes_.emplace_back();
             must(vox_mesh_insert(grid_, &desc, &meshes_.back()));
         }

@@ -1,12 +1,12 @@
 // A long run of a grid that chooses its cell size itself, beside grids of the same bodies with fixed sizes:
 // two balls in contact are inflated tenfold, sink into each other, are cut in half, a fine ball is added and
-// removed. Writes a line of times for each step; bench/adaptive.py makes the picture.
+// removed. Writes a line of times for each step; bench/cell_size/adaptive.py makes the picture.
 //
-// All grids make each step once, one after the other, so that each finds the caches as the one before left
+// All grids make each step once, one after the other, so that each finds the caches as the previous one left
 // them.
 #include "bodies.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 
@@ -40,14 +40,14 @@ struct Ball {
 
     // Waves run through it, so that it never rests.
     void pose(double inflation, int step) {
-        const double a = 0.01 * radius, k = std::numbers::pi / radius, run = 0.1 * step;
         for (std::size_t v = 0; v < solid.positions.size(); ++v) {
             const Vec3 &p = solid.positions[v], q{scale * p.x, scale * p.y, scale * p.z};
-            const double moved[3] = {place.x + q.x + a * std::sin(k * q.y + run),
-                                     place.y + q.y + a * std::sin(k * q.z + run + 1),
-                                     place.z + q.z + a * std::sin(k * q.x + run + 2)};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                positions[3 * v + axis] = static_cast<float>(inflation * moved[axis]);
+            const Vec3 moved = waved({place.x + q.x, place.y + q.y, place.z + q.z}, q, 0.01 * radius,
+                                     std::numbers::pi / radius, 0.1 * step);
+            float* to = &positions[3 * v];
+            to[0] = static_cast<float>(inflation * moved.x);
+            to[1] = static_cast<float>(inflation * moved.y);
+            to[2] = static_cast<float>(inflation * moved.z);
         }
     }
 };
@@ -140,8 +140,8 @@ struct Phase {
 constexpr Phase phases[] = {{"contact", 60}, {"inflated", 80}, {"sinking", 60},
                             {"cut", 50},     {"added", 70},    {"removed", 50}};
 
-// Where a grid's memory lies makes per cents alone: so the fixed sizes go round among their grids, and of so
-// many grids that choose, the middle time counts.
+// The addresses of a grid's memory alone change times by per cents. So the fixed sizes go round among their
+// grids, and of this many grids that choose, the middle time counts.
 constexpr int choosing = 3;
 
 // From a quarter of an edge to four.

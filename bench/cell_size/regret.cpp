@@ -1,6 +1,7 @@
 // Regret: how much longer a step takes with the cell size that a rule chooses than with the best one of a
 // fine sweep. Both engines, many scenes; the rules are the library's own cost models, a grid that chooses by
-// itself, the paper's formula, the mean edge and the median box side. bench/regret.py makes tables of it.
+// itself, the paper's formula, the mean edge and the median box side. bench/cell_size/regret.py makes tables
+// of it.
 //
 // The best of forty noisy times is too good to be true (the winner's curse), and every rule then seems to
 // lose by the noise. So the sweep only names the candidates: its curve is smoothed, and the sizes around its
@@ -13,7 +14,7 @@
 #include "cell_size/unlike.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
-#include "stopwatch.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 
@@ -34,12 +35,6 @@
 namespace bench {
 namespace {
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n == 0 ? 0 : n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
 // ---- scenes ---------------------------------------------------------------------------------------
 
 std::vector<SceneMaker> all_scenes(const std::string& meshes) {
@@ -58,18 +53,6 @@ std::vector<SceneMaker> all_scenes(const std::string& meshes) {
                           }});
     }
     return makers;
-}
-
-double mean_edge(const Body& body) {
-    double sum = 0;
-    for (std::size_t t = 0; t < body.tets.size(); t += 4)
-        for (std::size_t i = 0; i < 4; ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const float* a = &body.positions[3 * body.tets[t + i]];
-                const float* b = &body.positions[3 * body.tets[t + j]];
-                sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
-            }
-    return sum / (6 * static_cast<double>(body.tet_count()));
 }
 
 // ---- timing ---------------------------------------------------------------------------------------
@@ -93,19 +76,11 @@ public:
 
     static std::vector<vox_mesh_desc> descs(const Scene& scene) {
         std::vector<vox_mesh_desc> descs;
-        for (const Body& body : scene.bodies) {
-            vox_mesh_desc desc = vox_default_mesh_desc();
-            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
-            desc.positions = body.positions.data();
-            desc.vertex_count = body.vertex_count();
-            desc.tets = body.tets.data();
-            desc.tet_count = body.tet_count();
-            descs.push_back(desc);
-        }
+        for (const Body& body : scene.bodies) descs.push_back(body.desc());
         return descs;
     }
 
-    // Seconds of a step at this cell size (0: the grid's own choice), in the mean over the frames of a turn.
+    // Seconds of a step at this cell size (0: the grid's own choice), averaged over the frames of a turn.
     // A turn always has the same frames; its first step is not counted.
     double turn(double cell_size) {
         must(vox_grid_set_cell_size(grid_, cell_size));
@@ -180,8 +155,8 @@ constexpr double hopeless = 5;
 std::vector<double> sweep_sizes(const Scene& scene, double sizes) {
     double finest = scene.mean_edge, coarsest = scene.mean_edge;
     for (const Body& body : scene.bodies) {
-        finest = std::min(finest, mean_edge(body));
-        coarsest = std::max(coarsest, mean_edge(body));
+        finest = std::min(finest, mean_edge({&body, 1}));
+        coarsest = std::max(coarsest, mean_edge({&body, 1}));
     }
     const double ratio = std::pow(most / least, 1 / (sizes - 1));
     std::vector<double> list;
@@ -317,7 +292,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
     row.uniform_loss = model.uniform_loss;
 
-    // All sizes in one grid: another one's memory lies elsewhere, and that alone makes per cents.
+    // All sizes in one grid: memory at other addresses alone changes times by per cents.
     Grid grid(engine, scene, 0); // contacts alone
     grid.set_turn(grid.turn(model.cell_size));
     curve = sweep(grid, sweep_sizes(scene, settings.sizes), model.cell_size);

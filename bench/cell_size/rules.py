@@ -25,6 +25,8 @@ def vox(*arguments):
 
 
 def main():
+    if len(sys.argv) not in (3, 6):
+        sys.exit(__doc__)
     program, mesh, *offset = sys.argv[1:]
     suggestion = vox(program, "suggest", mesh)
     mean_edge = suggestion["rules"]["mean_edge"]

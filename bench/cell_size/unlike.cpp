@@ -1,35 +1,19 @@
 #include "cell_size/unlike.hpp"
 
-#include "bodies.hpp"
-
 #include <cmath>
 #include <numbers>
 
 namespace bench {
 namespace {
 
-// Frames of a body that stands at `place` and waves a little.
+// A body that stands at `place` and waves a little.
 void add(Scene& scene, const Solid& solid, double scale, const Vec3& place, double radius,
-         bool self = false) {
-    Body body;
-    for (int frame = 0; frame < 4; ++frame) {
-        std::vector<float> positions;
-        for (const Vec3& p : solid.positions) {
-            const double a = 0.01 * radius, k = std::numbers::pi / radius, run = 0.1 * frame;
-            positions.push_back(
-                static_cast<float>(place.x + scale * p.x + a * std::sin(k * scale * p.y + run)));
-            positions.push_back(
-                static_cast<float>(place.y + scale * p.y + a * std::sin(k * scale * p.z + run + 1)));
-            positions.push_back(
-                static_cast<float>(place.z + scale * p.z + a * std::sin(k * scale * p.x + run + 2)));
-        }
-        positions.push_back(0);
-        body.frames.push_back(std::move(positions));
-    }
-    body.positions = body.frames[0];
-    body.tets = solid.tets;
-    body.self_collision = self;
-    scene.bodies.push_back(std::move(body));
+         bool self_collision = false) {
+    const Pose pose = [=](const Vec3& p, std::size_t frame) {
+        return waved({place.x + scale * p.x, place.y + scale * p.y, place.z + scale * p.z}, p, 0.01 * radius,
+                     std::numbers::pi / radius * scale, 0.1 * static_cast<double>(frame));
+    };
+    bench::add(scene, solid, pose, self_collision);
 }
 
 // A ball whose tetrahedra get smaller towards its centre: edges are in proportion to the distance from it to
@@ -71,20 +55,6 @@ Scene unlike_pair(double tets, double ratio) {
     return scene;
 }
 
-// Over the six edges of each tetrahedron.
-double mean_edge(const Scene& scene) {
-    double sum = 0, count = 0;
-    for (const Body& body : scene.bodies)
-        for (std::size_t t = 0; t < body.tets.size(); t += 4)
-            for (std::size_t i = 0; i < 4; ++i)
-                for (std::size_t j = 0; j < i; ++j, count += 1) {
-                    const float* a = &body.positions[3 * body.tets[t + i]];
-                    const float* b = &body.positions[3 * body.tets[t + j]];
-                    sum += std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
-                }
-    return sum / count;
-}
-
 } // namespace
 
 std::vector<SceneMaker> unlike_scenes() {
@@ -93,7 +63,7 @@ std::vector<SceneMaker> unlike_scenes() {
         makers.push_back({name, title, true, [=](double tets, bool) {
                               Scene scene = make(tets);
                               scene.name = name;
-                              scene.mean_edge = mean_edge(scene);
+                              scene.mean_edge = mean_edge(scene.bodies);
                               return scene;
                           }});
     };

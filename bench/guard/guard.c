@@ -1,6 +1,6 @@
 /* One small scene, stepped a few times; guard.py counts the instructions of vox_grid_step. The data are the
- * same bit for bit on every machine (tests/portability/scenes.h). */
-#include "portability/scenes.h"
+ * same bit for bit on every machine (scenes/scenes.h). */
+#include "scenes/scenes.h"
 
 int main(int argc, char** argv) {
     static scene s;

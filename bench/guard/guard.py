@@ -4,9 +4,9 @@
     guard.py PROGRAM          fails when a scene takes over 5 % more instructions than the baseline
     guard.py --renew PROGRAM  writes the baseline of this compiler
 
-PROGRAM is guard.c, built optimised. Counts do not depend on how busy the machine is, so that a small change shows where
-times would not tell; they say nothing about caches, and a change that trades instructions for misses fools them. Valgrind
-has no AVX-512: what is counted is the AVX2 code. The counts belong to a compiler's major version (the key in
+PROGRAM is guard.c, built optimised. Counts do not depend on how busy the machine is, so that they show small changes
+which times would hide. They say nothing about caches, so a change that trades instructions for misses is misjudged.
+Valgrind has no AVX-512: what is counted is the AVX2 code. The counts belong to a compiler's major version (the key in
 baseline.json); exit status 77 says that there is no baseline to compare with.
 """
 

@@ -1,4 +1,4 @@
-// Boost.Geometry's R-tree over the vertices at risk of each body, packed anew in each step; for each
+// Boost.Geometry's R-tree over the vertices at risk of each body, packed in each step; for each
 // tetrahedron the vertices in its box.
 #include "peers/peer.hpp"
 

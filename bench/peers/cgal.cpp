@@ -1,4 +1,4 @@
-// CGAL's box_intersection_d: streamed segment trees over the boxes at risk, made anew for each pair of
+// CGAL's box_intersection_d: streamed segment trees over the boxes at risk, built for each pair of
 // bodies. Zomorodian, Edelsbrunner, "Fast software for box intersections", IJCGA 12, 2002.
 #include "peers/peer.hpp"
 

@@ -1,5 +1,5 @@
 // Embree 3, rtcCollide: bounding volume hierarchies over user geometry, one over the vertices and one over
-// the tetrahedra of each body. `rebuild` makes them anew in each step, over the primitives at risk; `refit`
+// the tetrahedra of each body. `rebuild` builds them in each step, over the primitives at risk; `refit`
 // makes them once and moves their boxes.
 #include "peers/peer.hpp"
 

@@ -1,4 +1,4 @@
-// nanoflann: a k-d tree over the vertices at risk of each body, made anew in each step; for each tetrahedron
+// nanoflann: a k-d tree over the vertices at risk of each body, built in each step; for each tetrahedron
 // the vertices in the ball around its box, then in the box.
 #include "peers/peer.hpp"
 

@@ -14,7 +14,7 @@
 namespace bench {
 namespace {
 
-// Bytes that malloc has given out; 0 where it does not tell.
+// Bytes that malloc has given out; 0 where it does not say.
 std::size_t allocated() {
 #if defined(__GLIBC__)
     const auto info = mallinfo2();

@@ -52,7 +52,7 @@ protected:
     Box tet_box(std::size_t body, std::size_t tet) const;
     const Box& body_box(std::size_t body) const { return boxes_[body]; }
     // The vertices and tetrahedra of a body that can be in contact: those in the box around its overlaps with
-    // its partners, or all when it collides with itself. For structures that are made anew in every step.
+    // its partners, or all when it collides with itself. For structures that are built in every step.
     void vertices_at_risk(std::size_t body, std::vector<std::uint32_t>& vertices) const;
     void tets_at_risk(std::size_t body, std::vector<std::uint32_t>& tets, std::vector<Box>& boxes) const;
 

@@ -1,9 +1,9 @@
 /* What an edit costs: so many tetrahedra at a time are switched off, given other corners, and switched on
  * again, in a body with self-collision, with and without the step that follows. Mean processor time of one
- * edit in microseconds: now and then one that makes things anew is among them. Beside it what a new insertion
+ * edit in microseconds: some of them rebuild what they usually repair. Beside it what a new insertion
  * of the body takes. Usage: bench_cutting [largest], thousands of tetrahedra, 1000 by default. */
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "timing.h"
 
 enum { most_changed = 1000, kinds = 3 };

@@ -8,8 +8,8 @@
 // a machine only adds. Between steps the bodies move, so that no step profits from the last one's data more
 // than in a simulation.
 #include "internal/fast_scenes.hpp"
-#include "processor_time.hpp"
 #include "program.hpp"
+#include "timing.h"
 
 #include <vox/vox.h>
 

@@ -10,8 +10,8 @@
 #include "grid/contacts.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/fast_scenes.hpp"
-#include "processor_time.hpp"
 #include "reference/engine.hpp"
+#include "timing.h"
 
 #include <cmath>
 #include <cstdio>
@@ -33,18 +33,23 @@ struct Case {
     double amplitude = 0;
 };
 
+// Adds a ball to the scene; its radius sets the waves.
+Mesh& add_ball(Case& made, double tets, Random& random, double& radius) {
+    Mesh& mesh = made.meshes.emplace_back(ball(tets, &radius));
+    jitter(mesh, 0.1, random);
+    made.wave_length = 2 * radius;
+    made.amplitude = 0.02 * radius;
+    return mesh;
+}
+
 Case balls_apart(double tets, double distance) {
     Case made;
     Random random{1};
     double radius = 0;
     for (int i = 0; i < 2; ++i) {
-        Mesh mesh = ball(tets / 2, &radius);
-        jitter(mesh, 0.1, random);
+        Mesh& mesh = add_ball(made, tets / 2, random, radius);
         move(mesh, 1, i * distance * radius, i * 0.123, i * 0.271);
-        made.meshes.push_back(std::move(mesh));
     }
-    made.wave_length = 2 * radius;
-    made.amplitude = 0.02 * radius;
     return made;
 }
 
@@ -52,11 +57,8 @@ Case one_ball(double tets) {
     Case made;
     Random random{1};
     double radius = 0;
-    made.meshes.push_back(ball(tets, &radius));
-    jitter(made.meshes[0], 0.1, random);
+    add_ball(made, tets, random, radius);
     made.self = true;
-    made.wave_length = 2 * radius;
-    made.amplitude = 0.02 * radius;
     return made;
 }
 
@@ -68,15 +70,11 @@ Case many_balls(double count, double each) {
     for (int k = 0; k < side; ++k)
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i) {
-                Mesh mesh = ball(each, &radius);
-                jitter(mesh, 0.1, random);
+                Mesh& mesh = add_ball(made, each, random, radius);
                 const double apart = 1.93 * radius, off = 0.05 * radius;
                 move(mesh, 1, i * apart + random.uniform(-off, off), j * apart + random.uniform(-off, off),
                      k * apart + random.uniform(-off, off));
-                made.meshes.push_back(std::move(mesh));
             }
-    made.wave_length = 2 * radius;
-    made.amplitude = 0.02 * radius;
     return made;
 }
 

@@ -8,7 +8,7 @@
 #include "fast/decide.hpp"
 #include "fast/stages.hpp"
 #include "internal/fast_scenes.hpp"
-#include "processor_time.hpp"
+#include "timing.h"
 
 #include <cstdio>
 #include <cstdlib>

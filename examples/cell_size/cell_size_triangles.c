@@ -4,11 +4,15 @@
  *
  * A static world of triangles is entered into all voxels that they cross. In every frame each of the n
  * triangles of a moving object looks into the voxels of its box and is tested against the triangles that it
- * finds there. voxels of a moving triangle with a box of side s    v(d) = (s/d + 1)^3 static triangles in one
- * voxel                       t(d) = p A d^2 / A_t * (1 + s/d)^2 since a voxel of the surface holds a patch
- * of about d^2, and a triangle of area A_t and box side s is in all voxels that it crosses; p is the part of
- * the voxels near the object that hold any surface. cost(d) = n v(d) (visit + test t(d)) Multiplied out, that
- * is a table of powers of d, and no code at all. */
+ * finds there:
+ *
+ *     voxels of a moving triangle with a box of side s    v(d) = (s/d + 1)^3
+ *     static triangles in one voxel                       t(d) = p d^2 / A_t * (1 + s/d)^2
+ *     cost                                                n v(d) (visit + test t(d))
+ *
+ * A voxel of the surface holds a patch of about d^2, and a triangle of area A_t and box side s is in all
+ * voxels that it crosses; p is the part of the voxels near the object that hold any surface. Multiplied out,
+ * the cost is a table of powers of d, and needs no code at all. */
 #include "example.h"
 
 int main(void) {

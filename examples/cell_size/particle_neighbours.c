@@ -3,13 +3,15 @@
  * Interactive Applications", SCA 2003).
  *
  * Particles are sorted into cells, x fastest; each one then looks through the rows of cells that meet the
- * cube around it. For cells of edge d, radius h and rho particles a unit of volume, that is for each
- * particle, in the mean,
+ * cube around it. For cells of edge d, radius h and rho particles a unit of volume, the average for each
+ * particle is
  *
  *     rows       (2h/d + 1)^2       a row of cells along x is one range of particles
  *     particles  rho (2h + d)^3     in these rows
- *     surprises  (2h/d + 2) m       loops over rows whose end could not be foretold: they are floor(2h/d) + 1
- * rows long, or one more with a chance of f = 2h/d - floor(2h/d); m is the lesser of f and 1 - f
+ *     surprises  (2h/d + 2) m       loops over rows whose end the processor guesses wrong
+ *
+ * A loop takes floor(2h/d) + 1 rows, or one more with a chance of f = 2h/d - floor(2h/d); m is the lesser of
+ * f and 1 - f.
  *
  * The last term was added when a clock said that cells of exactly the radius do better than the first two
  * allow. What each costs is fitted to the times at a few cell sizes; the least cost is found by
@@ -33,10 +35,8 @@ static void fill(void) {
     uint32_t state = 1;
     for (int i = 0; i < count; ++i) {
         const int place[3] = {i % side, i / side % side, i / side / side};
-        for (int axis = 0; axis < 3; ++axis) {
-            state = state * 1664525u + 1013904223u;
-            position[i][axis] = (float)place[axis] + (float)(state >> 8) / (float)(1 << 24);
-        }
+        for (int axis = 0; axis < 3; ++axis)
+            position[i][axis] = (float)place[axis] + (float)(random_quick(&state) >> 8) / (float)(1 << 24);
     }
 }
 
@@ -99,7 +99,7 @@ static work find_neighbours(double d) {
  * ends, of cells of edge d, and of length. */
 static double cells_along(double d) { return (2 * radius - radius * radius / side) / d + 1; }
 static double length_along(double d) {
-    /* Each end reaches d/2 beyond, in the mean, but not beyond the world. */
+    /* Each end reaches d/2 beyond on average, but not beyond the world. */
     const double reach = radius + d / 2 < side ? radius + d / 2 : side;
     return 2 * reach - reach * reach / side;
 }

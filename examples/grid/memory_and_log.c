@@ -1,4 +1,4 @@
-/* Memory and log: a grid that lives in memory of one's own, under a budget, and tells what it does. */
+/* Memory and log: a grid that lives in memory of one's own, under a budget, and logs what it does. */
 #include "example.h"
 
 typedef struct arena {

@@ -19,7 +19,7 @@ int main(void) {
             float p[3] = {0, 0, 0};
             for (int corner = 0; corner < 4; ++corner)
                 for (int axis = 0; axis < 3; ++axis)
-                    p[axis] += c->barycentric[corner] * holder->positions[cube_tets[c->tet][corner]][axis];
+                    p[axis] += c->barycentric[corner] * holder->positions[holder->tets[c->tet][corner]][axis];
             printf("  vertex %u of mesh %u in tet %u of mesh %u, at (%g, %g, %g)\n", (unsigned)c->vertex,
                    (unsigned)c->mesh_a, (unsigned)c->tet, (unsigned)c->mesh_b, p[0], p[1], p[2]);
         }

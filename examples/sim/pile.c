@@ -24,10 +24,7 @@ typedef struct scene {
 } scene;
 
 /* Numbers in [-1, 1) that are the same on every machine. */
-static double scatter(uint32_t* seed) {
-    *seed = *seed * 1664525u + 1013904223u;
-    return (double)(*seed >> 8) / 8388608.0 - 1;
-}
+static double scatter(uint32_t* seed) { return (double)(random_quick(seed) >> 8) / 8388608.0 - 1; }
 
 /* Inserts `mesh`, turned by `tilt` about x and `turn` about z, at (x, y, z). Takes the mesh. */
 static vox_mesh drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, double x, double y, double z,

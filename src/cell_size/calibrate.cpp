@@ -10,6 +10,7 @@
 
 #include "base/clock.hpp"
 #include "fast/engine.hpp"
+#include "mesh/cube_lattice.h"
 #include "reference/engine.hpp"
 
 #include <algorithm>
@@ -72,30 +73,18 @@ struct Block {
     std::vector<Vec3f> positions;
     std::vector<Tet> tets;
 
-    Block(std::uint32_t n, float corner) {
+    Block(std::uint32_t n, float corner) : positions((n + 1) * (n + 1) * (n + 1)), tets(6 * n * n * n) {
+        write_lattice_positions(n, n, n, &positions[0].x);
+        write_lattice_tets(&kuhn_cut, n, n, n, tets[0].v);
         std::uint32_t state = 1;
         const auto jitter = [&] {
             state = state * 1664525u + 1013904223u;
             return static_cast<float>(state >> 16) * (0.2f / 65536) - 0.1f;
         };
-        for (std::uint32_t k = 0; k <= n; ++k)
-            for (std::uint32_t j = 0; j <= n; ++j)
-                for (std::uint32_t i = 0; i <= n; ++i) {
-                    const float x = jitter(), y = jitter(), z = jitter();
-                    positions.push_back({corner + static_cast<float>(i) + x, static_cast<float>(j) + y,
-                                         static_cast<float>(k) + z});
-                }
-        const std::uint32_t step[3] = {1, n + 1, (n + 1) * (n + 1)};
-        for (std::uint32_t k = 0; k < n; ++k)
-            for (std::uint32_t j = 0; j < n; ++j)
-                for (std::uint32_t i = 0; i < n; ++i) {
-                    const std::uint32_t v = i * step[0] + j * step[1] + k * step[2];
-                    std::uint32_t axes[3] = {0, 1, 2};
-                    do {
-                        const std::uint32_t first = v + step[axes[0]], second = first + step[axes[1]];
-                        tets.push_back({{v, first, second, second + step[axes[2]]}});
-                    } while (std::next_permutation(axes, axes + 3));
-                }
+        for (Vec3f& p : positions) {
+            const float x = jitter(), y = jitter(), z = jitter();
+            p = {corner + p.x + x, p.y + y, p.z + z};
+        }
     }
 };
 

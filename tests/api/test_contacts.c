@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 typedef struct scene {
@@ -15,9 +15,8 @@ typedef struct scene {
 } scene;
 
 static scene new_scene(const vox_mesh_desc* a, const vox_mesh_desc* b, double cell_size) {
-    vox_grid_desc desc = vox_default_grid_desc();
+    vox_grid_desc desc = engine_desc();
     scene s = {NULL, 0, 0};
-    desc.engine = suite_engine;
     desc.cell_size = cell_size;
     ck_ok(vox_grid_create(&desc, &s.grid));
     if (a) ck_ok(vox_mesh_insert(s.grid, a, &s.a));
@@ -26,9 +25,8 @@ static scene new_scene(const vox_mesh_desc* a, const vox_mesh_desc* b, double ce
 }
 
 static vox_contact_view stepped(vox_grid* grid) {
-    vox_contact_view view = {NULL, 0, 0, 0};
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.byte_stride, sizeof(vox_contact));
     return view;
 }
@@ -205,8 +203,6 @@ START_TEST(settings_do_not_change_contacts) {
             for (int hash = VOX_HASH_MIXED; hash <= VOX_HASH_PAPER; ++hash)
                 for (int world = 0; world < 2; ++world) {
                     vox_grid_desc desc = vox_default_grid_desc();
-                    vox_grid* grid = NULL;
-                    vox_mesh mesh = 0;
                     if (storage == VOX_STORAGE_DENSE && sizes[i] != 0 && sizes[i] < 0.01) continue; /* see below */
                     desc.engine = suite_engine;
                     desc.cell_size = sizes[i];
@@ -215,8 +211,8 @@ START_TEST(settings_do_not_change_contacts) {
                     desc.hash_table_size = world ? 7 : 0; /* a table so small that every list is long */
                     for (int axis = 0; axis < 3 && world; ++axis)
                         desc.world_min[axis] = -0.125, desc.world_max[axis] = 0.25; /* most lies outside */
-                    ck_ok(vox_grid_create(&desc, &grid));
-                    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+                    vox_grid* grid = grid_of(&desc);
+                    vox_mesh mesh = insert_mesh(grid, &a);
                     ck_ok(vox_mesh_insert(grid, &b, &mesh));
                     const vox_contact_view view = stepped(grid);
                     if (!expected) expected = hash_of(grid), count = view.count;
@@ -227,13 +223,11 @@ START_TEST(settings_do_not_change_contacts) {
                 }
     /* Dense cells that no memory holds: an error with numbers, and the grid stays usable. */
     vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
     desc.engine = VOX_ENGINE_REFERENCE;
     desc.cell_size = 1e-6;
     desc.storage = VOX_STORAGE_DENSE;
-    ck_ok(vox_grid_create(&desc, &grid));
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_grid* grid = grid_of(&desc);
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     const vox_result result = vox_grid_step(grid);
     ck_assert(result == VOX_ERROR_BUDGET || result == VOX_ERROR_LIMIT);
@@ -335,8 +329,7 @@ START_TEST(non_finite_positions) {
                 ck_ok(vox_grid_epoch(s.grid, &before));
                 other.positions[15 + axis] = bad[i];
                 ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, words);
-                vox_contact_view view = {NULL, 0, 9, 0};
-                ck_ok(vox_grid_contacts(s.grid, &view));
+                vox_contact_view view = contacts_of(s.grid);
                 ck_assert_uint_eq(view.count, 0); /* the previous contacts are gone */
                 ck_ok(vox_grid_epoch(s.grid, &after));
                 ck_assert_uint_eq(after, before + 1);
@@ -384,8 +377,7 @@ START_TEST(huge_coordinates) {
             ck_assert_uint_gt(view.count, 0);
             if (!expected) expected = hash_of(s.grid);
             ck_assert_uint_eq(hash_of(s.grid), expected);
-            vox_counters counters = {.struct_size = sizeof counters};
-            ck_ok(vox_grid_counters(s.grid, &counters));
+            vox_counters counters = counters_of(s.grid);
             ck_assert_uint_lt(counters.peak_bytes, 4u << 20);
             vox_grid_destroy(s.grid);
         }
@@ -402,8 +394,7 @@ START_TEST(sliver_a_thousand_edges_long) {
     uint64_t expected = 0;
     for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
         scene s = {NULL, 0, 0};
-        vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = suite_engine;
+        vox_grid_desc desc = engine_desc();
         desc.cell_size = 0.125;
         desc.storage = (vox_storage)storage;
         desc.byte_budget = 8u << 20;
@@ -474,8 +465,7 @@ START_TEST(flat_and_repeated_tets_hold_nothing) {
     const vox_mesh_desc a = array_desc(point, 1, NULL, 0), b = array_desc(corners, 5, tets, 2);
     scene s = new_scene(&a, &b, 0.5);
     ck_assert_uint_eq(stepped(s.grid).count, 0);
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(s.grid, &counters));
+    vox_counters counters = counters_of(s.grid);
     /* The fast engine meets the flat one only: the point is not in the other's box. */
     ck_assert_uint_eq(counters.skipped_degenerate, suite_engine == VOX_ENGINE_REFERENCE ? 2 : 1);
     vox_grid_destroy(s.grid);
@@ -486,10 +476,10 @@ START_TEST(removal_between_steps) {
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     scene s = new_scene(&a, &b, 0);
-    vox_contact_view view = stepped(s.grid), kept = {NULL, 0, 0, 0};
+    vox_contact_view view = stepped(s.grid);
     const uint64_t count = view.count, hash = hash_of(s.grid);
     ck_ok(vox_mesh_remove(s.grid, s.a));
-    ck_ok(vox_grid_contacts(s.grid, &kept));
+    vox_contact_view kept = contacts_of(s.grid);
     ck_assert_uint_eq(kept.count, count); /* until the next step */
     ck_assert_uint_eq(hash_of(s.grid), hash);
     ck_assert_uint_eq(stepped(s.grid).count, 0);
@@ -510,9 +500,8 @@ START_TEST(counters_and_profile) {
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     scene s = new_scene(&a, &b, 0.25);
     const vox_contact_view view = stepped(s.grid);
-    vox_counters c = {.struct_size = sizeof c};
     vox_profile p = {.struct_size = sizeof p};
-    ck_ok(vox_grid_counters(s.grid, &c));
+    vox_counters c = counters_of(s.grid);
     ck_ok(vox_grid_profile(s.grid, &p));
     ck_assert_uint_eq(c.meshes, 2);
     ck_assert_uint_eq(c.vertices, box.vertex_count + other.vertex_count);
@@ -578,24 +567,12 @@ START_TEST(stage_times_add_up) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, inside_and_on_the_boundary);
-    tcase_add_test(tests, shared_boundary_gives_one_contact);
-    tcase_add_test(tests, overlapping_tets);
-    tcase_add_test(tests, self_contact);
-    tcase_add_test(tests, both_directions_in_canonical_order);
-    tcase_add_test(tests, hash_tells_contacts_apart);
-    tcase_add_test(tests, strided_copied_rebound);
-    tcase_add_test(tests, unbound_positions);
-    tcase_add_test(tests, non_finite_positions);
-    tcase_add_test(tests, nothing_at_all);
-    tcase_add_test(tests, huge_coordinates);
-    tcase_add_test(tests, sliver_a_thousand_edges_long);
-    tcase_add_test(tests, scaled_and_far_copies);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, flat_and_repeated_tets_hold_nothing);
-    tcase_add_test(tests, removal_between_steps);
-    tcase_add_test(tests, counters_and_profile);
-    tcase_add_test(tests, stage_times_add_up);
+    tcase_add_each(tests, inside_and_on_the_boundary, shared_boundary_gives_one_contact, overlapping_tets,
+                   self_contact, both_directions_in_canonical_order, hash_tells_contacts_apart,
+                   strided_copied_rebound, unbound_positions, non_finite_positions, nothing_at_all,
+                   huge_coordinates, sliver_a_thousand_edges_long, scaled_and_far_copies, coincident_bodies,
+                   flat_and_repeated_tets_hold_nothing, removal_between_steps, counters_and_profile,
+                   stage_times_add_up);
 }
 
 static void add_long_tests(TCase* tests) {

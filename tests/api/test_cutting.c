@@ -165,7 +165,7 @@ static void remove_vertices(cut_scene* s, cut_mesh* m) {
     for (uint32_t i = 0; i < count; ++i) m->gone[vertices[i]] = 1;
 }
 
-/* All anew: a box, or other tets over the same vertices. */
+/* Replaces everything: a box, or other tets over the same vertices. */
 static void set_topology(cut_scene* s, cut_mesh* m) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     float* rest = NULL;
@@ -231,7 +231,7 @@ static void move_some(cut_scene* s, cut_mesh* m) {
             m->positions[i] = (float)(m->positions[i] + random_float(&s->random, -0.01f, 0.01f));
 }
 
-/* Calls that fail; that they changed nothing is for the comparison to tell. */
+/* Calls that fail. The comparison shows that they changed nothing. */
 static void bad_calls(cut_scene* s, cut_mesh* m) {
     const uint32_t beyond_tets[2] = {0, m->tets}, beyond[4] = {0, 0, 0, m->vertices};
     uint32_t first = no_number;
@@ -306,8 +306,7 @@ static void edit(cut_scene* s) {
 }
 
 static vox_grid_desc edited_desc(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     return desc;
 }

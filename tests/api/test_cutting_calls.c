@@ -2,34 +2,19 @@
  * alone, what else sees it. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
-
-static vox_grid* make_grid(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
-}
-
-static vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
-}
 
 /* ---- arguments ---- */
 
 START_TEST(arguments) {
     const uint32_t zero[4] = {0, 0, 0, 0}, five[1] = {5}, corners[4] = {0, 1, 2, 8};
     uint32_t first = 77;
-    vox_mesh mesh = 0;
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_grid* grid = make_grid();
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_grid* grid = engine_grid();
+    vox_mesh mesh = insert_mesh(grid, &desc);
 
     ck_fails(vox_mesh_set_topology(NULL, mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_mesh_set_tets_enabled(NULL, mesh, zero, 1, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -138,11 +123,10 @@ START_TEST(nothing_to_do) {
     body box = make_box(2, 1, 0, 0, 0), other = make_box(2, 1, 0.75f, 0.5f, 0.25f);
     vox_mesh_desc desc = body_desc(&box), more = body_desc(&other);
     const vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_mesh mesh = 0, second = 0;
     uint32_t first = 0;
-    vox_grid* grid = make_grid();
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_mesh_insert(grid, &more, &second));
+    vox_grid* grid = engine_grid();
+    vox_mesh mesh = insert_mesh(grid, &desc);
+    insert_mesh(grid, &more);
     for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
     const vox_counters before = counters_of(grid);
     ck_assert_uint_eq(before.moved_meshes, suite_engine == VOX_ENGINE_FAST ? 0 : 2);
@@ -169,12 +153,11 @@ END_TEST
 START_TEST(smaller_struct) {
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
-    vox_grid* grid = make_grid();
+    vox_grid* grid = engine_grid();
     const float place[3] = {0.5f, 0.5f, 0.5f};
     uint32_t first = 0;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     vox_vertices_desc vertices;
     memset(&vertices, 0xff, sizeof vertices);
     ck_ok(vox_vertices_desc_init(&vertices, 40));
@@ -193,14 +176,12 @@ START_TEST(off_and_on) {
     body box = make_box(2, 1, 0, 0, 0);
     const float point[3] = {0.5f, 0.5f, 0.5f}; /* in the middle tet of the first cube */
     vox_mesh_desc desc = body_desc(&box), sensor = array_desc(point, 1, NULL, 0);
-    vox_mesh solid = 0, probe = 0;
-    vox_contact_view view;
     vox_touch_view events;
-    vox_grid* grid = make_grid();
-    ck_ok(vox_mesh_insert(grid, &desc, &solid));
-    ck_ok(vox_mesh_insert(grid, &sensor, &probe));
+    vox_grid* grid = engine_grid();
+    vox_mesh solid = insert_mesh(grid, &desc);
+    insert_mesh(grid, &sensor);
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, 1);
     const uint32_t tet = view.data[0].tet;
     for (int round = 0; round < 3; ++round) {
@@ -219,7 +200,7 @@ START_TEST(off_and_on) {
         ck_ok(vox_grid_contacts(grid, &view));
         ck_assert(view.count == 1 && view.data[0].tet == tet);
     }
-    /* Cut and mended between two steps: the pair persists. */
+    /* Cut and restored between two steps: the pair persists. */
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
     ck_ok(vox_grid_step(grid));
@@ -233,17 +214,16 @@ END_TEST
 START_TEST(topology_keeps_what_is_not_topology) {
     body box = make_box(2, 1, 0, 0, 0), other = make_box(1, 1, 0.25f, 0.25f, 0.25f);
     vox_mesh_desc desc = body_desc(&box), more = body_desc(&other);
-    vox_mesh a = 0, b = 0, c = 0;
     uint64_t user_data = 0;
     vox_touch_view events;
     vox_filter filter = vox_default_filter();
-    vox_grid* grid = make_grid();
+    vox_grid* grid = engine_grid();
     desc.user_data = 41;
     filter.category = 6;
     desc.filter = &filter;
-    ck_ok(vox_mesh_insert(grid, &desc, &a));
-    ck_ok(vox_mesh_insert(grid, &more, &b));
-    ck_ok(vox_mesh_insert(grid, &more, &c));
+    vox_mesh a = insert_mesh(grid, &desc);
+    vox_mesh b = insert_mesh(grid, &more);
+    vox_mesh c = insert_mesh(grid, &more);
     ck_ok(vox_grid_set_pair_enabled(grid, a, c, 0));
     const double up[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.125};
     ck_ok(vox_mesh_set_transform(grid, a, up));
@@ -290,15 +270,14 @@ START_TEST(growing_from_nothing) {
     /* Vertex by vertex and tet by tet, from an empty mesh, in positions of its own. */
     body box = make_box(2, 1, 0, 0, 0);
     vox_mesh_desc desc = vox_default_mesh_desc(), whole = body_desc(&box);
-    vox_mesh grown = 0, probe = 0;
     uint64_t hash = 0, expected = 0, stride = 0;
     void* mapped = NULL;
-    vox_grid* grid = make_grid();
-    vox_grid* other = make_grid();
+    vox_grid* grid = engine_grid();
+    vox_grid* other = engine_grid();
     body small = make_box(2, 0.5f, 0.25f, 0.375f, 0.125f);
     vox_mesh_desc moving = body_desc(&small);
-    ck_ok(vox_mesh_insert(grid, &desc, &grown));
-    ck_ok(vox_mesh_insert(grid, &moving, &probe));
+    vox_mesh grown = insert_mesh(grid, &desc);
+    vox_mesh probe = insert_mesh(grid, &moving);
     ck_ok(vox_mesh_insert(other, &whole, &grown));
     ck_ok(vox_mesh_insert(other, &moving, &probe));
     expected = hash_of_step(other);
@@ -342,8 +321,7 @@ START_TEST(sliver_that_came_turns_over) {
                       ((10 * m + 10) * m + 10) * 4 + 2 + 2 * m + 2 * m * m); /* 1, 2, 4, 7 of 8 */
     vox_mesh_desc desc = body_desc(&box);
     vox_contact_view view;
-    vox_mesh mesh = 0;
-    vox_grid* grid = make_grid();
+    vox_grid* grid = engine_grid();
     memcpy(positions, box.positions, 3 * sizeof(float) * p);
     for (int i = 0; i < 3; ++i) {
         const float facet = (positions[3 * a + i] + positions[3 * b + i] + positions[3 * c + i]) / 3;
@@ -352,7 +330,7 @@ START_TEST(sliver_that_came_turns_over) {
     desc.positions = positions;
     desc.vertex_count = p + 1;
     desc.flags = VOX_MESH_SELF_COLLISION;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     for (int i = 0; i < 3; ++i) {
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_contacts(grid, &view));
@@ -386,17 +364,15 @@ START_TEST(positions_of_its_own) {
     /* An empty mesh that copies positions: the array given with the first vertices is not read any more. */
     vox_mesh_desc desc = vox_default_mesh_desc(), solid = array_desc(unit_tet_positions, 4, unit_tet, 1);
     vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_mesh mesh = 0, other = 0;
     uint32_t first = 0, copy_of = 0;
     uint64_t stride = 0;
     void* mapped = NULL;
     double place[3] = {0.125, 0.25, 0.125};
-    vox_contact_view view;
-    vox_grid* grid = make_grid();
+    vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.position_format = VOX_FORMAT_DOUBLE3;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_mesh_insert(grid, &solid, &other));
+    vox_mesh mesh = insert_mesh(grid, &desc);
+    insert_mesh(grid, &solid);
     vertices.count = 1;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
              "needs 1 more");
@@ -410,7 +386,7 @@ START_TEST(positions_of_its_own) {
         ck_assert_uint_eq(first, i);
     }
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, 100);
     ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
     ck_assert_uint_eq(stride, 24);
@@ -434,13 +410,12 @@ END_TEST
 START_TEST(queries_and_suggestions_see_it) {
     body box = make_box(3, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
     vox_point_hit hit;
     vox_surface_hit closest;
     uint64_t count = 0;
     const double middle[3] = {1.5, 1.5, 1.5};
-    vox_grid* grid = make_grid();
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_grid* grid = engine_grid();
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_prepare_queries(grid));
     ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
     ck_assert_uint_eq(count, 1);
@@ -490,11 +465,10 @@ START_TEST(cell_size_follows_a_cut) {
         corners[4 * large.tet_count + i] = small.tets[i] + large.vertex_count;
     for (uint32_t i = 0; i < small.tet_count; ++i) fine[i] = large.tet_count + i;
     vox_mesh_desc desc = array_desc(positions, vertices, corners, tets);
-    vox_mesh mesh = 0;
     double before = 0, after = 0;
-    vox_grid* grid = make_grid();
+    vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_SELF_COLLISION;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_cell_size(grid, &before));
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, fine, small.tet_count, 0));
@@ -514,16 +488,9 @@ START_TEST(cell_size_follows_a_cut) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, nothing_to_do);
-    tcase_add_test(tests, smaller_struct);
-    tcase_add_test(tests, off_and_on);
-    tcase_add_test(tests, topology_keeps_what_is_not_topology);
-    tcase_add_test(tests, growing_from_nothing);
-    tcase_add_test(tests, sliver_that_came_turns_over);
-    tcase_add_test(tests, positions_of_its_own);
-    tcase_add_test(tests, queries_and_suggestions_see_it);
-    tcase_add_test(tests, cell_size_follows_a_cut);
+    tcase_add_each(tests, arguments, nothing_to_do, smaller_struct, off_and_on,
+                   topology_keeps_what_is_not_topology, growing_from_nothing, sliver_that_came_turns_over,
+                   positions_of_its_own, queries_and_suggestions_see_it, cell_size_follows_a_cut);
 }
 
 int main(void) {

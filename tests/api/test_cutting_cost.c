@@ -2,22 +2,19 @@
  * winding numbers goes on for. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/ledger.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 static vox_grid* make_grid(ledger* l) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     if (l) {
         memset(l, 0, sizeof *l);
         desc.allocator = ledger_allocator(l);
     }
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 /* ---- edits ---- */
@@ -58,14 +55,13 @@ static vox_result run_edit(vox_grid* grid, vox_mesh mesh, const body* box, const
 /* Two bodies that overlap; the last vertex of the first is of no tet. */
 static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_mesh* mesh) {
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
-    vox_mesh second = 0;
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
     a.filter = &filter;
     ck_ok(vox_mesh_insert(grid, &a, mesh));
-    ck_ok(vox_mesh_insert(grid, &b, &second));
+    insert_mesh(grid, &b);
 }
 
 START_TEST(allocation_n_fails) {
@@ -121,14 +117,12 @@ START_TEST(allocation_n_fails) {
 }
 END_TEST
 
-/* What an edit takes is in proportion to it: in a body of 40,000 tets, a thousand small ones take less
- * memory, all that was ever taken counted, than making anything of the whole body anew would, even a few
- * times. */
+/* An edit takes memory in proportion to its size: in a body of 40,000 tets, a thousand small edits together
+ * request less memory than preparing the whole body a few times would. */
 START_TEST(edits_cost_what_they_change) {
     ledger l;
     body box = make_box(20, 0.25f, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
     uint64_t random = 5;
     vox_filter filter = vox_default_filter();
     vox_grid* grid = make_grid(&l);
@@ -136,7 +130,7 @@ START_TEST(edits_cost_what_they_change) {
     filter.self_rings = 1;
     desc.filter = &filter;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     const uint64_t whole = 16ull * box.tet_count; /* the tets alone */
     for (int round = 0; round < 1000; ++round) {
@@ -171,13 +165,12 @@ END_TEST
 START_TEST(compact_body) {
     body box = make_box(22, 0.25f, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    vox_mesh mesh = 0;
     uint64_t random = 9;
     uint8_t* off = (uint8_t*)calloc(box.tet_count, 1);
     uint32_t* kept = (uint32_t*)malloc(4 * sizeof(uint32_t) * box.tet_count);
     vox_grid* grid = make_grid(NULL);
     desc.flags = VOX_MESH_SELF_COLLISION;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     for (int round = 0; round < 12; ++round) {
         for (int i = 0; i < 4; ++i) { /* a few cubes off or on, and vertices into the body or back */
@@ -196,18 +189,15 @@ START_TEST(compact_body) {
         for (uint32_t t = 0; t < box.tet_count; ++t)
             if (!off[t]) memcpy(kept + 4 * count++, box.tets + 4 * t, 4 * sizeof(uint32_t));
         vox_mesh_desc rest = array_desc(box.positions, box.vertex_count, kept, count);
-        vox_mesh id = 0;
-        vox_contact_view mine, expected;
-        vox_grid* other = NULL;
         vox_grid_desc other_desc = vox_default_grid_desc();
         rest.flags = VOX_MESH_SELF_COLLISION;
         other_desc.engine = round % 2 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
-        ck_ok(vox_grid_create(&other_desc, &other));
-        ck_ok(vox_mesh_insert(other, &rest, &id));
+        vox_grid* other = grid_of(&other_desc);
+        insert_mesh(other, &rest);
         ck_ok(vox_grid_step(other));
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &mine));
-        ck_ok(vox_grid_contacts(other, &expected));
+        vox_contact_view mine = contacts_of(grid);
+        vox_contact_view expected = contacts_of(other);
         ck_assert_uint_eq(mine.count, expected.count);
         for (uint64_t i = 0; i < mine.count; ++i) {
             const uint32_t* was = box.tets + 4 * mine.data[i].tet;
@@ -232,13 +222,11 @@ START_TEST(two_tets_on_one_side) {
     body box = make_box(22, 0.25f, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_mesh mesh = 0;
-    vox_contact_view view;
     float positions[15];
     uint32_t first = 0, first_tet = 0, named[8];
     vox_grid* grid = make_grid(NULL);
     desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     memcpy(positions, unit_tet_positions, 9 * sizeof(float));
     memcpy(positions + 9, apices, sizeof apices);
@@ -249,7 +237,7 @@ START_TEST(two_tets_on_one_side) {
     for (int i = 0; i < 8; ++i) named[i] = first + corners[i];
     ck_ok(vox_mesh_append_tets(grid, mesh, named, 2, &first_tet));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, 1);
     ck_assert(view.data[0].vertex == first + 4 && view.data[0].tet == first_tet);
     vox_grid_destroy(grid);
@@ -258,9 +246,7 @@ START_TEST(two_tets_on_one_side) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, allocation_n_fails);
-    tcase_add_test(tests, edits_cost_what_they_change);
-    tcase_add_test(tests, compact_body);
+    tcase_add_each(tests, allocation_n_fails, edits_cost_what_they_change, compact_body);
     tcase_add_loop_test(tests, two_tets_on_one_side, 0, 5);
 }
 

@@ -3,26 +3,21 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/ledger.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 static vox_grid* new_grid(uint32_t flags) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = flags;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 static vox_mesh insert(vox_grid* grid, const body* b, uint64_t user_data) {
     vox_mesh_desc desc = body_desc(b);
-    vox_mesh mesh = 0;
     desc.user_data = user_data;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 static void shift(body* b, float x) {
@@ -52,12 +47,6 @@ static vox_pair_view pairs_of(const vox_grid* grid) {
     memset(&view, 0, sizeof view);
     ck_ok(vox_grid_pairs(grid, &view));
     ck_assert_uint_eq(view.byte_stride, sizeof(vox_pair));
-    return view;
-}
-
-static vox_contact_view contacts_of(const vox_grid* grid) {
-    vox_contact_view view = {NULL, 0, 0, 0};
-    ck_ok(vox_grid_contacts(grid, &view));
     return view;
 }
 
@@ -507,12 +496,10 @@ END_TEST
 
 START_TEST(steady_state_allocates_nothing) {
     ledger l = {0};
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = VOX_GRID_CONTACT_EVENTS;
     desc.allocator = ledger_allocator(&l);
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     ck_ok(vox_grid_reserve(grid, 3, 20000)); /* the first steps too have room for pairs and events */
     body boxes[3] = {make_box(4, 0.25f, 0, 0, 0), make_box(4, 0.25f, 0.3f, 0.3f, 0.2f),
                      make_box(4, 0.25f, 0.6f, 0.4f, 0.5f)};
@@ -571,14 +558,9 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, begin_persist_end);
-    tcase_add_test(tests, removal_ends_once_with_the_old_ids);
-    tcase_add_test(tests, clear_ends_with_the_next_step);
-    tcase_add_test(tests, failed_steps_lose_nothing);
-    tcase_add_test(tests, filters_end_and_begin);
-    tcase_add_test(tests, every_event_has_its_pair);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, begin_persist_end, removal_ends_once_with_the_old_ids,
+                   clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
+                   every_event_has_its_pair, steady_state_allocates_nothing, arguments);
 }
 
 int main(void) {

@@ -3,14 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
-
-static vox_grid* new_grid(void) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(NULL, &grid));
-    return grid;
-}
 
 /* ---- words and numbers ---- */
 
@@ -59,9 +53,8 @@ START_TEST(struct_sizes) {
     ck_assert_double_eq(desc->cell_size, 0);
     for (size_t i = old; i < sizeof bytes; ++i) ck_assert_uint_eq(bytes[i], 0xab);
     desc->cell_size = 0.25;
-    vox_grid* grid = NULL;
     double cell_size = 0;
-    ck_ok(vox_grid_create(desc, &grid)); /* the 0xab world and allocator behind it are not read */
+    vox_grid* grid = grid_of(desc); /* the 0xab world and allocator behind it are not read */
     ck_ok(vox_grid_cell_size(grid, &cell_size));
     ck_assert_double_eq(cell_size, 0.25);
     vox_grid_destroy(grid);
@@ -136,15 +129,15 @@ START_TEST(grid_desc_fields) {
 END_TEST
 
 START_TEST(null_arguments) {
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
-    vox_mesh mesh = 0, other = 77;
+    vox_mesh other = 77;
     double number = 5;
     uint64_t count = 5;
     vox_contact_view view = {NULL, 1, 2, 3};
     vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
     vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
 
     const vox_result bad = VOX_ERROR_INVALID_ARGUMENT;
     ck_fails(vox_grid_clear(NULL), bad, "grid is null");
@@ -200,7 +193,7 @@ START_TEST(null_arguments) {
 END_TEST
 
 START_TEST(mesh_desc_fields) {
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     vox_mesh mesh = 77;
     uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
 #define REFUSED(change, code, words) \
@@ -221,9 +214,8 @@ START_TEST(mesh_desc_fields) {
     REFUSED((desc.tets = tets, desc.tet_count = 2), VOX_ERROR_INVALID_MESH, "tet 1 names vertex 4 of 4");
     REFUSED(desc.vertex_count = 0, VOX_ERROR_INVALID_MESH, "tet 0 names vertex 0 of 0");
 #undef REFUSED
-    vox_counters counters = {.struct_size = sizeof counters};
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_counters(grid, &counters));
+    vox_counters counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, 0);
     vox_grid_destroy(grid);
 }
@@ -232,12 +224,12 @@ END_TEST
 /* ---- mesh ids ---- */
 
 START_TEST(ids) {
-    vox_grid* grid = new_grid();
-    vox_grid* foreign = new_grid();
+    vox_grid* grid = grid_of(NULL);
+    vox_grid* foreign = grid_of(NULL);
     const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
-    vox_mesh a = 0, b = 0, c = 0, elsewhere = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &a));
-    ck_ok(vox_mesh_insert(grid, &desc, &b));
+    vox_mesh elsewhere = 0;
+    vox_mesh a = insert_mesh(grid, &desc);
+    vox_mesh b = insert_mesh(grid, &desc);
     for (int i = 0; i < 3; ++i) ck_ok(vox_mesh_insert(foreign, &desc, &elsewhere));
     ck_assert_uint_ne(a, VOX_NULL_MESH);
     ck_assert_uint_lt(a, b);
@@ -253,7 +245,7 @@ START_TEST(ids) {
     }
     ck_ok(vox_mesh_remove(grid, a));
     ck_fails(vox_mesh_remove(grid, a), VOX_ERROR_INVALID_HANDLE, "stale");
-    ck_ok(vox_mesh_insert(grid, &desc, &c)); /* takes a's slot, not a's id */
+    vox_mesh c = insert_mesh(grid, &desc); /* takes a's slot, not a's id */
     ck_assert_uint_ne(c, a);
     ck_assert_uint_lt(c, b);
     ck_assert_uint_eq(vox_mesh_is_valid(grid, a), 0);
@@ -266,17 +258,17 @@ START_TEST(ids) {
 END_TEST
 
 START_TEST(generations_run_out) {
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     const vox_mesh_desc desc = vox_default_mesh_desc();
-    vox_mesh first = 0, mesh = 0, last = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &first));
+    vox_mesh mesh = 0;
+    vox_mesh first = insert_mesh(grid, &desc);
     ck_ok(vox_mesh_remove(grid, first));
     for (uint32_t use = 2; use <= VOX_MAX_GENERATIONS; ++use) {
         ck_ok(vox_mesh_insert(grid, &desc, &mesh));
         ck_assert_uint_lt(mesh - first, VOX_MAX_GENERATIONS); /* still the first slot */
         ck_ok(vox_mesh_remove(grid, mesh));
     }
-    ck_ok(vox_mesh_insert(grid, &desc, &last)); /* the slot is retired: another one */
+    vox_mesh last = insert_mesh(grid, &desc); /* the slot is retired: another one */
     ck_assert_uint_gt(last - first, VOX_MAX_GENERATIONS - 1);
     ck_assert_uint_eq(vox_mesh_is_valid(grid, first), 0);
     ck_assert_uint_eq(vox_mesh_is_valid(grid, mesh), 0);
@@ -285,12 +277,11 @@ START_TEST(generations_run_out) {
 END_TEST
 
 START_TEST(user_data) {
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_default_mesh_desc();
     desc.user_data = 0x123456789abcdef0u;
-    vox_mesh mesh = 0;
     uint64_t data = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_mesh_user_data(grid, mesh, &data));
     ck_assert_uint_eq(data, 0x123456789abcdef0u);
     vox_grid_destroy(grid);
@@ -313,15 +304,13 @@ START_TEST(cell_size_is_chosen) {
     desc.engine = VOX_ENGINE_REFERENCE;
     desc.log.write = keep_line;
     desc.log.user = logged;
-    vox_grid* grid = NULL;
     body box = make_box(4, 0.5f, 0, 0, 0);
     vox_mesh_desc mesh_desc = body_desc(&box);
-    vox_mesh mesh = 0;
     double cell_size = -1, again = -1;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     ck_ok(vox_grid_cell_size(grid, &cell_size));
     ck_assert_double_eq(cell_size, 0); /* none yet */
-    ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &mesh_desc);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_cell_size(grid, &cell_size));
 
@@ -359,19 +348,16 @@ START_TEST(cell_size_without_extent) {
     /* Meshes that suggest nothing: the grid still steps. */
     const float point[12] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
     vox_grid_desc grid_desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
     grid_desc.engine = VOX_ENGINE_REFERENCE;
-    ck_ok(vox_grid_create(&grid_desc, &grid));
+    vox_grid* grid = grid_of(&grid_desc);
     ck_ok(vox_grid_step(grid));
     vox_mesh_desc desc = array_desc(point, 4, NULL, 0);
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     desc = array_desc(point, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
     ck_ok(vox_grid_step(grid));
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(grid, &counters));
+    vox_counters counters = counters_of(grid);
     ck_assert_uint_eq(counters.contacts, 0);
     ck_assert_uint_eq(counters.skipped_degenerate, 1);
     vox_grid_destroy(grid);
@@ -380,20 +366,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("grid");
-    TCase* tests = tcase_create("grid");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, version);
-    tcase_add_test(tests, result_names);
-    tcase_add_test(tests, last_error);
-    tcase_add_test(tests, struct_sizes);
-    tcase_add_test(tests, grid_desc_fields);
-    tcase_add_test(tests, null_arguments);
-    tcase_add_test(tests, mesh_desc_fields);
-    tcase_add_test(tests, ids);
-    tcase_add_test(tests, generations_run_out);
-    tcase_add_test(tests, user_data);
-    tcase_add_test(tests, cell_size_is_chosen);
-    tcase_add_test(tests, cell_size_without_extent);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "grid");
+    tcase_add_each(tests, version, result_names, last_error, struct_sizes, grid_desc_fields, null_arguments,
+                   mesh_desc_fields, ids, generations_run_out, user_data, cell_size_is_chosen,
+                   cell_size_without_extent);
     return run_suite(suite);
 }

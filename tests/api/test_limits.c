@@ -2,16 +2,13 @@
  * changes nothing. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static vox_grid* new_grid(uint64_t byte_budget) {
-    vox_grid* grid;
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.byte_budget = byte_budget;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 /* A mesh without positions as yet takes no memory for its vertices. */
@@ -23,9 +20,9 @@ static vox_mesh_desc points(uint64_t count) {
 
 START_TEST(vertices_of_a_grid) {
     vox_grid* grid = new_grid(0);
-    vox_mesh all, mesh = 7;
+    vox_mesh mesh = 7;
     vox_mesh_desc desc = points(VOX_MAX_VERTICES);
-    ck_ok(vox_mesh_insert(grid, &desc, &all));
+    vox_mesh all = insert_mesh(grid, &desc);
     desc = points(1);
     ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
              "holds 2147483647 vertices and cannot take 1 more, the limit is 2147483647");
@@ -72,16 +69,14 @@ END_TEST
 /* 1290^3 cells are fewer than 2^31, and too many bytes; 1291^3 are more. */
 START_TEST(cells_of_dense_storage) {
     for (int more = 0; more < 2; ++more) {
-        vox_grid* grid = NULL;
-        vox_mesh mesh;
         vox_grid_desc desc = vox_default_grid_desc();
         const vox_mesh_desc body = array_desc(unit_tet_positions, 4, unit_tet, 1);
         desc.engine = VOX_ENGINE_REFERENCE;
         desc.storage = VOX_STORAGE_DENSE;
         desc.cell_size = 1;
         for (int axis = 0; axis < 3; ++axis) desc.world_max[axis] = 1290 + more;
-        ck_ok(vox_grid_create(&desc, &grid));
-        ck_ok(vox_mesh_insert(grid, &body, &mesh));
+        vox_grid* grid = grid_of(&desc);
+        insert_mesh(grid, &body);
         if (more)
             ck_fails(vox_grid_step(grid), VOX_ERROR_LIMIT, "1291 x 1291 x 1291 cells");
         else
@@ -94,11 +89,10 @@ START_TEST(cells_of_dense_storage) {
 END_TEST
 
 START_TEST(buckets_and_workers) {
-    vox_grid* grid = NULL;
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = VOX_ENGINE_REFERENCE;
     desc.hash_table_size = VOX_MAX_VERTICES;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     vox_grid_destroy(grid);
     desc.hash_table_size = VOX_MAX_VERTICES + 1ull;
     grid = NULL;
@@ -117,12 +111,10 @@ END_TEST
  * back. */
 START_TEST(buffers_grow) {
     body large = make_box(7, 1, 0, 0, 0), same = make_box(7, 1, 0.3f, 0.3f, 0.3f);
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
+    vox_grid_desc desc = engine_desc();
     vox_mesh mesh;
-    desc.engine = suite_engine;
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     uint64_t expected = 0;
     for (int i = 0; i < 2; ++i) {
         vox_mesh_desc body = body_desc(i ? &same : &large);
@@ -130,7 +122,6 @@ START_TEST(buffers_grow) {
     }
     for (int copies = 1; copies <= 16; copies *= 4) {
         vox_mesh more[16];
-        vox_contact_view contacts;
         vox_penetration_view penetrations;
         vox_contact_event_view events;
         vox_pair_view pairs;
@@ -139,7 +130,7 @@ START_TEST(buffers_grow) {
             ck_ok(vox_mesh_insert(grid, &body, &more[i]));
         }
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &contacts));
+        vox_contact_view contacts = contacts_of(grid);
         ck_ok(vox_grid_penetrations(grid, &penetrations));
         ck_ok(vox_grid_contact_events(grid, &events));
         ck_ok(vox_grid_pairs(grid, &pairs));
@@ -180,22 +171,14 @@ START_TEST(capacities) {
 }
 END_TEST
 
-static void add_tests(TCase* tests) {
-    tcase_add_test(tests, vertices_of_a_grid);
-    tcase_add_test(tests, buffers_grow);
-}
+static void add_tests(TCase* tests) { tcase_add_each(tests, vertices_of_a_grid, buffers_grow); }
 
 int main(void) {
     Suite* suite = suite_create("limits");
     add_for_each_engine(suite, add_tests);
-    TCase* once = tcase_create("one engine");
-    tcase_set_timeout(once, 0);
-    tcase_add_test(once, cells_of_dense_storage);
-    tcase_add_test(once, buckets_and_workers);
-    tcase_add_test(once, capacities);
-    suite_add_tcase(suite, once);
-    TCase* large = tagged_tests("large");
+    TCase* once = add_case(suite, "one engine");
+    tcase_add_each(once, cells_of_dense_storage, buckets_and_workers, capacities);
+    TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_test(large, meshes_of_a_grid);
-    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

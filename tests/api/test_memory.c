@@ -1,10 +1,10 @@
 /* The per-grid allocator, the byte budget, and what a failed allocation leaves behind. */
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
-/* Counts what is held, checks that it comes back as it was given, and fails at the call it is told to. */
+/* Counts what is held, checks that it comes back as it was given, and fails at a chosen call. */
 typedef struct ledger {
     size_t bytes;
     size_t blocks;
@@ -60,15 +60,13 @@ START_TEST(everything_comes_back) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     b.flags = VOX_MESH_COPY_POSITIONS;
-    vox_grid* grid = NULL;
     vox_mesh mesh = 0;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     for (int round = 0; round < 3; ++round) {
         ck_ok(vox_mesh_insert(grid, &a, &mesh));
         ck_ok(vox_mesh_insert(grid, &b, &mesh));
         ck_ok(vox_grid_step(grid));
-        vox_counters counters = {.struct_size = sizeof counters};
-        ck_ok(vox_grid_counters(grid, &counters));
+        vox_counters counters = counters_of(grid);
         ck_assert_uint_eq(counters.bytes, l.bytes); /* what counters say is what the allocator saw */
         ck_ok(vox_grid_clear(grid));
     }
@@ -87,12 +85,10 @@ START_TEST(steady_state_allocates_nothing) {
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     a.flags = VOX_MESH_SELF_COLLISION;
     for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
-        vox_grid* grid = NULL;
-        vox_mesh mesh = 0;
         desc.storage = (vox_storage)storage;
         desc.world_max[0] = desc.world_max[1] = desc.world_max[2] = 2;
-        ck_ok(vox_grid_create(&desc, &grid));
-        ck_ok(vox_mesh_insert(grid, &a, &mesh));
+        vox_grid* grid = grid_of(&desc);
+        vox_mesh mesh = insert_mesh(grid, &a);
         ck_ok(vox_mesh_insert(grid, &b, &mesh));
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_step(grid));
@@ -124,9 +120,8 @@ static vox_result life(const vox_grid_desc* desc, const vox_mesh_desc* a, const 
     if (result == VOX_OK) result = vox_grid_step(grid);
     if (result != VOX_OK) {
         /* Nothing is half done: from here on it works, and gives what it would have given. */
-        vox_contact_view view = {NULL, 0, 9, 0};
         l->fail_at = 0;
-        ck_ok(vox_grid_contacts(grid, &view));
+        vox_contact_view view = contacts_of(grid);
         ck_assert_uint_eq(view.count, 0);
         if (!mesh_a) ck_ok(vox_mesh_insert(grid, a, &mesh_a));
         if (!mesh_b) ck_ok(vox_mesh_insert(grid, b, &mesh_b));
@@ -173,14 +168,11 @@ START_TEST(budget_is_kept) {
     uint64_t expected = 0, needed = 0;
     ck_ok(life(&desc, &a, &b, &l, &expected));
 
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_create(&desc, &grid));
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_grid* grid = grid_of(&desc);
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_counters(grid, &counters));
+    vox_counters counters = counters_of(grid);
     needed = counters.peak_bytes;
     vox_grid_destroy(grid);
 
@@ -214,15 +206,12 @@ START_TEST(reserved_room) {
     vox_grid_desc desc = counted_desc(&l);
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other), empty = vox_default_mesh_desc();
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
-    vox_contact_view view = {NULL, 0, 0, 0};
     uint64_t before = 0, after = 0, epoch = 0, count = 0;
-    ck_ok(vox_grid_create(&desc, &grid));
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_grid* grid = grid_of(&desc);
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     ck_ok(vox_grid_hash(grid, &before));
     epoch = view.epoch, count = view.count;
     ck_ok(vox_grid_reserve(grid, 100, 10000));
@@ -235,7 +224,7 @@ START_TEST(reserved_room) {
 
     const uint64_t calls = l.calls, bytes = l.bytes;
     for (int i = 0; i < 98; ++i) ck_ok(vox_mesh_insert(grid, &empty, &mesh));
-    ck_assert_uint_eq(l.calls, calls); /* empty meshes need nothing but their slots */
+    ck_assert_uint_eq(l.calls, calls); /* empty meshes need only their slots */
     ck_ok(vox_grid_reserve(grid, 1, 1));
     ck_assert_uint_eq(l.bytes, bytes);
     ck_fails(vox_grid_reserve(grid, VOX_MAX_MESHES + 1, 0), VOX_ERROR_LIMIT, "mesh_count is 1048577");
@@ -251,10 +240,9 @@ END_TEST
 
 START_TEST(many_meshes) {
     /* Insertion stays cheap and ids stay unique when meshes come by the thousand. */
-    vox_grid* grid = NULL;
     vox_mesh meshes[3000];
     const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
-    ck_ok(vox_grid_create(NULL, &grid));
+    vox_grid* grid = grid_of(NULL);
     for (int i = 0; i < 3000; ++i) {
         ck_ok(vox_mesh_insert(grid, &desc, &meshes[i]));
         if (i) ck_assert_uint_gt(meshes[i], meshes[i - 1]);
@@ -266,12 +254,8 @@ START_TEST(many_meshes) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, everything_comes_back);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, allocation_n_fails);
-    tcase_add_test(tests, budget_is_kept);
-    tcase_add_test(tests, reserved_room);
-    tcase_add_test(tests, many_meshes);
+    tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
+                   budget_is_kept, reserved_room, many_meshes);
 }
 
 int main(void) {

@@ -85,13 +85,10 @@ END_TEST
 /* Points that no float is: between a facet and the next float on either side. */
 START_TEST(points_in_double) {
     const double in[3] = {0.25, 0.25, 1e-300}, out[3] = {0.25, 0.25, -1e-300}, on[3] = {0.25, 0.25, 0};
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    vox_mesh mesh;
-    desc.engine = suite_engine;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid_desc desc = engine_desc();
+    vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc tet = array_desc(unit_tet_positions, 4, unit_tet, 1);
-    ck_ok(vox_mesh_insert(grid, &tet, &mesh));
+    insert_mesh(grid, &tet);
     ck_ok(vox_grid_prepare_queries(grid));
     uint64_t count = 9;
     ck_ok(vox_grid_query_point(grid, in, UINT64_MAX, NULL, 0, &count));
@@ -160,18 +157,16 @@ static uint64_t count_at(const vox_grid* grid, const double p[3]) {
 START_TEST(as_it_was_when_prepared) {
     const double inside[3] = {0.3, 0.4, 0.6}, far_away[3] = {10.3, 0.4, 0.6};
     body box = make_box(2, 1, 0, 0, 0);
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    vox_mesh mesh, other;
+    vox_grid_desc desc = engine_desc();
+    vox_mesh other;
     uint64_t count = 77;
-    desc.engine = suite_engine;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE, "prepare_queries");
     ck_assert_uint_eq(count, 77);
     ck_ok(vox_grid_prepare_queries(grid)); /* of nothing */
     ck_assert_uint_eq(count_at(grid, inside), 0);
     const vox_mesh_desc body = body_desc(&box);
-    ck_ok(vox_mesh_insert(grid, &body, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &body);
     ck_assert_uint_eq(count_at(grid, inside), 0);
     ck_ok(vox_grid_prepare_queries(grid)); /* before the first step */
     ck_assert_uint_eq(count_at(grid, inside), 1);
@@ -309,12 +304,8 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, points_by_definition);
-    tcase_add_test(tests, points_in_double);
-    tcase_add_test(tests, boxes_by_definition);
-    tcase_add_test(tests, as_it_was_when_prepared);
-    tcase_add_test(tests, many_threads);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, points_by_definition, points_in_double, boxes_by_definition,
+                   as_it_was_when_prepared, many_threads, arguments);
 }
 
 int main(void) {

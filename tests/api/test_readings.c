@@ -20,9 +20,8 @@ static body two_boxes(uint32_t n, float x, float y, float z) {
 static void check_depths(const world* w) {
     vox_penetration_view penetrations;
     vox_reading_view readings;
-    vox_contact_view contacts;
     ck_ok(vox_grid_penetrations(w->grid, &penetrations));
-    ck_ok(vox_grid_contacts(w->grid, &contacts));
+    vox_contact_view contacts = contacts_of(w->grid);
     ck_ok(vox_grid_readings(w->grid, &readings));
     for (uint64_t i = 0, n = 0; i < readings.count; ++i) {
         while (n + 1 < penetrations.count && penetrations.data[n + 1].contact <= i) ++n;
@@ -51,9 +50,8 @@ START_TEST(by_definition) {
         check_depths(&w);
         /* The query for the closest point is the same search. */
         vox_reading_view readings;
-        vox_contact_view contacts;
         ck_ok(vox_grid_readings(w.grid, &readings));
-        ck_ok(vox_grid_contacts(w.grid, &contacts));
+        vox_contact_view contacts = contacts_of(w.grid);
         for (uint64_t i = 0; i < readings.count; ++i) coincident += readings.data[i].distance == 0;
         for (int b = 0; b < w.count; ++b) { /* one mesh at a time can be asked alone: by its category */
             vox_filter filter = vox_default_filter();
@@ -145,9 +143,8 @@ START_TEST(self_contact_of_one_piece) {
     insert(&w, w.grid);
     ck_ok(vox_grid_step(w.grid));
     ck_ok(vox_grid_prepare_readings(w.grid));
-    vox_contact_view contacts;
     vox_reading_view readings;
-    ck_ok(vox_grid_contacts(w.grid, &contacts));
+    vox_contact_view contacts = contacts_of(w.grid);
     ck_ok(vox_grid_readings(w.grid, &readings));
     for (uint64_t i = 0; i < readings.count; ++i) {
         const vox_reading* r = &readings.data[i];
@@ -199,9 +196,8 @@ START_TEST(transform_and_scale) {
         ck_ok(vox_grid_step(w.grid));
         ck_ok(vox_grid_prepare_readings(w.grid));
         vox_reading_view readings;
-        vox_contact_view contacts;
         ck_ok(vox_grid_readings(w.grid, &readings));
-        ck_ok(vox_grid_contacts(w.grid, &contacts));
+        vox_contact_view contacts = contacts_of(w.grid);
         ck_assert_uint_gt(readings.count, 4);
         for (uint64_t i = 0; i < readings.count; ++i) {
             const vox_reading* r = &readings.data[i];
@@ -256,9 +252,8 @@ START_TEST(many_bodies_and_workers) {
     for (uint32_t workers = 1; workers <= 8; workers += workers < 4 ? 1 : 4) {
         vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, workers);
         for (int b = 0; b < n; ++b) {
-            vox_mesh mesh;
             const vox_mesh_desc desc = body_desc(&bodies[b]);
-            ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+            insert_mesh(grid, &desc);
         }
         vox_reading_view view;
         ck_ok(vox_grid_step(grid));
@@ -280,20 +275,14 @@ START_TEST(many_bodies_and_workers) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, by_definition);
-    tcase_add_test(tests, ties);
-    tcase_add_test(tests, self_contact);
-    tcase_add_test(tests, self_contact_of_one_piece);
-    tcase_add_test(tests, transform_and_scale);
-    tcase_add_test(tests, many_bodies_and_workers);
+    tcase_add_each(tests, by_definition, ties, self_contact, self_contact_of_one_piece, transform_and_scale,
+                   many_bodies_and_workers);
 }
 
 int main(void) {
     Suite* suite = suite_create("readings");
     add_for_each_engine(suite, add_tests);
-    TCase* both = tcase_create("both engines");
-    tcase_set_timeout(both, 0);
+    TCase* both = add_case(suite, "both engines");
     tcase_add_test(both, engines_and_workers);
-    suite_add_tcase(suite, both);
     return run_suite(suite);
 }

@@ -442,9 +442,7 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("soak");
-    TCase* tests = tcase_create("soak");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "soak");
     tcase_add_test(tests, soak_life);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

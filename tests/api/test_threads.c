@@ -2,7 +2,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/ledger.h"
 #include "support/suite.h"
 
@@ -119,8 +119,7 @@ static void free_bodies(void) {
 }
 
 static vox_grid* new_scene(const vox_grid_desc* desc) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(desc, &grid));
+    vox_grid* grid = grid_of(desc);
     for (int i = 0; i < 2 + small_bodies; ++i) {
         vox_mesh_desc mesh_desc = body_desc(i < 2 ? &large[i] : &small[i - 2]);
         mesh_desc.flags = i % 3 == 0 ? VOX_MESH_SELF_COLLISION : 0;
@@ -172,8 +171,7 @@ static vox_grid_desc scheduled(vox_engine engine, scheduler* s, int kind, uint32
 START_TEST(same_for_any_task_system) {
     scheduler s;
     vox_counters serial, counters;
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const uint64_t expected = stepped_hash(grid, &serial);
@@ -200,8 +198,7 @@ END_TEST
 
 START_TEST(same_for_any_worker_count) {
     vox_counters serial, counters;
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const uint64_t expected = stepped_hash(grid, &serial);
@@ -293,17 +290,15 @@ END_TEST
 
 START_TEST(budget_that_ends_in_a_task) {
     scheduler s;
-    vox_counters inserted, full;
-    vox_contact_view view;
+    vox_counters full;
     uint32_t failures = 0;
     vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     make_bodies();
     vox_grid* grid = new_scene(&desc);
-    inserted.struct_size = sizeof inserted;
-    ck_ok(vox_grid_counters(grid, &inserted));
+    const uint64_t least = counters_of(grid).peak_bytes;
     const uint64_t expected = stepped_hash(grid, &full);
     vox_grid_destroy(grid);
-    const uint64_t least = inserted.peak_bytes, step_bytes = full.peak_bytes - least;
+    const uint64_t step_bytes = full.peak_bytes - least;
     ck_assert_uint_gt(step_bytes, 100000);
 
     for (uint64_t part = 0; part <= 20; part += 2) {
@@ -319,13 +314,11 @@ START_TEST(budget_that_ends_in_a_task) {
             }
             ++failures;
             ck_assert_int_eq(result, VOX_ERROR_BUDGET);
-            ck_ok(vox_grid_contacts(grid, &view));
-            ck_assert_uint_eq(view.count, 0);
+            ck_assert_uint_eq(contacts_of(grid).count, 0);
         }
         ck_ok(vox_grid_clear(grid)); /* gives up the meshes; now there is room for a small one */
-        vox_mesh mesh = 0;
         const vox_mesh_desc mesh_desc = body_desc(&small[0]);
-        ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+        insert_mesh(grid, &mesh_desc);
         ck_ok(vox_grid_step(grid));
         vox_grid_destroy(grid);
     }
@@ -335,7 +328,7 @@ START_TEST(budget_that_ends_in_a_task) {
 END_TEST
 
 START_TEST(defective_task_systems) {
-    /* A scheduler that loses work or lies is told so; nothing is silently missing. */
+    /* A scheduler that loses work or reports wrong ranges gets an error; nothing is silently missing. */
     static const char* const words[] = {"items", "worker 4 of 4", "items"};
     scheduler s;
     make_bodies();
@@ -376,14 +369,9 @@ START_TEST(bad_arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, same_for_any_task_system);
-    tcase_add_test(tests, same_for_any_worker_count);
-    tcase_add_test(tests, non_finite_is_the_same_vertex);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, budget_that_ends_in_a_task);
-    tcase_add_test(tests, large_bodies_are_shared);
-    tcase_add_test(tests, defective_task_systems);
-    tcase_add_test(tests, bad_arguments);
+    tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
+                   steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
+                   defective_task_systems, bad_arguments);
 }
 
 int main(void) {

@@ -1,4 +1,4 @@
-// The hits of both engines and of every pair decided exactly, and what must be the same of them.
+// Hits of both engines and of brute force in exact arithmetic, and checks that they are the same.
 #pragma once
 
 #include "base/simd.hpp"

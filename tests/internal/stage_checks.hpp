@@ -60,21 +60,10 @@ inline bool holds(vox::Containment where) {
 
 // Tets over vertices at random; coordinates on a lattice of halves where `snapped`.
 inline Mesh soup(Random& r, std::uint32_t vertices, std::uint32_t tets, double extent, bool snapped) {
-    Mesh mesh;
-    const auto coordinate = [&] {
-        const float c = r.uniform(-extent, extent);
+    return vox::test::soup(r, vertices, tets, [=](Random& random) {
+        const float c = random.uniform(-extent, extent);
         return snapped ? std::round(c * 2) / 2 : c;
-    };
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        const float x = coordinate(), y = coordinate(), z = coordinate();
-        mesh.positions.push_back({x, y, z});
-    }
-    for (std::uint32_t t = 0; t < tets; ++t) {
-        vox::Tet tet{};
-        for (std::uint32_t& v : tet.v) v = r.below(vertices);
-        mesh.tets.push_back(tet);
-    }
-    return mesh;
+    });
 }
 
 } // namespace stages

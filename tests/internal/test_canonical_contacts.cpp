@@ -5,6 +5,7 @@
 #include "internal/scenes.hpp"
 #include "support/suite.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
@@ -208,13 +209,9 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("canonical contacts");
-    TCase* tests = tcase_create("contacts");
-    tcase_set_timeout(tests, 0); // a slow machine is no failure
-    tcase_add_test(tests, any_order_of_hits_becomes_canonical);
-    tcase_add_test(tests, interior_hits_hide_boundary_ones);
-    tcase_add_test(tests, weights_have_the_bits_of_the_scalar_function);
-    tcase_add_test(tests, hash_is_as_documented);
-    tcase_add_test(tests, hash_tells_every_field_and_the_order);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "contacts");
+    tcase_add_each(tests, any_order_of_hits_becomes_canonical, interior_hits_hide_boundary_ones,
+                   weights_have_the_bits_of_the_scalar_function, hash_is_as_documented,
+                   hash_tells_every_field_and_the_order);
     return run_suite(suite);
 }

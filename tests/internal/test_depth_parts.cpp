@@ -166,7 +166,7 @@ void expect_exit(const Prepared& p, const Vec3d& from, const Vec3d& to, const Ve
 START_TEST(walks_leave_where_the_segment_does) {
     // Inner vertices are moved at random. Some segments are long, and some leave at once.
     Random random{std::uint64_t(_i) + 1};
-    Mesh box = block(5, 5, 5, {0, 0, 0}, 1);
+    Mesh box = kuhn_block(5, 5, 5, {0, 0, 0}, 1);
     for (Vec3f& v : box.positions)
         if (!outside_box(vec(v) - Vec3d{0.5, 0.5, 0.5}, 4)) // an inner vertex
             v = {v.x + random.uniform(-0.15, 0.15), v.y + random.uniform(-0.15, 0.15),
@@ -186,7 +186,7 @@ END_TEST
 
 START_TEST(walks_along_facets_edges_and_through_vertices) {
     // From points in the interior of a tetrahedron in directions that meet the lattice in every special way.
-    const Prepared p(block(3, 3, 3, {0, 0, 0}, 1));
+    const Prepared p(kuhn_block(3, 3, 3, {0, 0, 0}, 1));
     const Vec3d from[] = {{1.5, 1.25, 1.125}, {1.5, 1.75, 1.375}, {1.375, 1.625, 1.25}};
     int walks = 0;
     for (const Vec3d& start : from)
@@ -205,7 +205,7 @@ START_TEST(walks_along_facets_edges_and_through_vertices) {
 END_TEST
 
 START_TEST(walks_that_lead_nowhere) {
-    const Prepared p(block(3, 3, 3, {0, 0, 0}, 1));
+    const Prepared p(kuhn_block(3, 3, 3, {0, 0, 0}, 1));
     const Vec3d from{1.4, 1.3, 1.1};
     SurfacePoint out{};
     std::uint64_t visited = 0;
@@ -221,7 +221,7 @@ START_TEST(walks_through_inverted_tets) {
     // return false.
     for (int i = 0; i < 200; ++i) {
         Random random{std::uint64_t(i) + 1};
-        Mesh box = block(4, 4, 4, {0, 0, 0}, 1);
+        Mesh box = kuhn_block(4, 4, 4, {0, 0, 0}, 1);
         box.positions[2 * 25 + 2 * 5 + 2] = {random.uniform(0.5, 3.5), random.uniform(0.5, 3.5),
                                              random.uniform(0.5, 3.5)};
         const Prepared p(std::move(box));
@@ -240,7 +240,7 @@ END_TEST
 START_TEST(walks_do_not_go_round) {
     // All five tetrahedra of five vertices. Every facet has one on either side of it, so there is no surface,
     // and a line that leaves one of them is in another, for ever.
-    Mesh box = block(12, 12, 12, {0, 0, 0}, 1);
+    Mesh box = kuhn_block(12, 12, 12, {0, 0, 0}, 1);
     const auto first = static_cast<std::uint32_t>(box.positions.size());
     for (const Vec3f& v : {Vec3f{20, 0, 0}, {24, 0, 0}, {20, 4, 0}, {20, 0, 4}, {23, 3, 3}})
         box.positions.push_back(v);
@@ -266,7 +266,7 @@ END_TEST
 START_TEST(normals_on_a_sphere) {
     // A lattice cube is pushed onto the unit ball. Normals are exact at its corners, and nearly exact between
     // them.
-    Mesh ball = block(12, 12, 12, {-1, -1, -1}, 2.0 / 12);
+    Mesh ball = kuhn_block(12, 12, 12, {-1, -1, -1}, 2.0 / 12);
     for (Vec3f& v : ball.positions) {
         const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), l = length(vec(v));
         const double s = l > 0 ? most / l : 0;
@@ -290,7 +290,7 @@ START_TEST(normals_on_a_sphere) {
 END_TEST
 
 START_TEST(normals_of_a_box_are_those_of_its_faces) {
-    Mesh box = block(3, 3, 3, {0, 0, 0}, 0.7);
+    Mesh box = kuhn_block(3, 3, 3, {0, 0, 0}, 0.7);
     for (std::size_t t = 0; t < box.tets.size(); t += 3) std::swap(box.tets[t].v[0], box.tets[t].v[1]);
     const Prepared p(std::move(box));
     Normals normals(memory());
@@ -331,7 +331,7 @@ START_TEST(closest_of_all_triangles) {
     Mesh mesh = _i % 3 == 0 ? soup(random, 40, 30, [](Random& r) { return r.uniform(0, 1); })
                 : _i % 3 == 1
                     ? soup(random, 60, 80, [](Random& r) { return float(r.below(4)); }) // flat, coincident
-                    : jittered(block(4, 3, 5, {0, 0, 0}, 1), random, 0.2);
+                    : jittered(kuhn_block(4, 3, 5, {0, 0, 0}, 1), random, 0.2);
     const Prepared p(std::move(mesh));
     SurfaceTree tree(memory());
     tree.build(p.solid());
@@ -368,8 +368,8 @@ END_TEST
 START_TEST(closest_on_the_fold_that_is_entered) {
     // Two blocks of one mesh that overlap a little. For a vertex of the upper block in a tetrahedron of the
     // lower one, only the surface of the lower one counts, though that of its own block is closer.
-    Mesh mesh = block(3, 3, 3, {0, 0, 0}, 1);
-    const Mesh upper = block(3, 3, 3, {0.1, 0.2, 2.6}, 1);
+    Mesh mesh = kuhn_block(3, 3, 3, {0, 0, 0}, 1);
+    const Mesh upper = kuhn_block(3, 3, 3, {0.1, 0.2, 2.6}, 1);
     const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
     for (Tet tet : upper.tets) {
         for (std::uint32_t& v : tet.v) v += shift;
@@ -395,20 +395,14 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("parts of the depth stage");
-    TCase* tests = tcase_create("parts");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "parts");
     tcase_add_loop_test(tests, topology_of_anything, 0, 200);
     tcase_add_test(tests, no_tets_no_topology);
     tcase_add_loop_test(tests, walks_leave_where_the_segment_does, 0, 8);
-    tcase_add_test(tests, walks_along_facets_edges_and_through_vertices);
-    tcase_add_test(tests, walks_that_lead_nowhere);
-    tcase_add_test(tests, walks_through_inverted_tets);
-    tcase_add_test(tests, walks_do_not_go_round);
-    tcase_add_test(tests, normals_on_a_sphere);
-    tcase_add_test(tests, normals_of_a_box_are_those_of_its_faces);
-    tcase_add_test(tests, normals_of_a_tetrahedron_are_those_of_its_faces);
+    tcase_add_each(tests, walks_along_facets_edges_and_through_vertices, walks_that_lead_nowhere,
+                   walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
+                   normals_of_a_box_are_those_of_its_faces, normals_of_a_tetrahedron_are_those_of_its_faces);
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 30);
     tcase_add_test(tests, closest_on_the_fold_that_is_entered);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

@@ -387,25 +387,10 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("fast engine");
-    TCase* tests = tcase_create("hits");
-    tcase_set_timeout(tests, 0); // a slow machine is no failure
-    tcase_add_test(tests, two_bodies);
-    tcase_add_test(tests, numbering_does_not_matter);
-    tcase_add_test(tests, snapped_to_a_grid);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, inverted_tets);
-    tcase_add_test(tests, every_size_and_place);
-    tcase_add_test(tests, vertices_far_away);
-    tcase_add_test(tests, slivers);
-    tcase_add_test(tests, odd_meshes);
-    tcase_add_test(tests, random_soups);
-    tcase_add_test(tests, larger_bodies);
-    tcase_add_test(tests, strided_positions);
-    tcase_add_test(tests, non_finite_positions);
-    tcase_add_test(tests, steady_state_allocates_nothing);
-    tcase_add_test(tests, memory_is_bounded);
-    tcase_add_test(tests, outliers_do_not_fill_a_cell);
-    tcase_add_test(tests, clumps_far_apart);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "hits");
+    tcase_add_each(tests, two_bodies, numbering_does_not_matter, snapped_to_a_grid, coincident_bodies,
+                   inverted_tets, every_size_and_place, vertices_far_away, slivers, odd_meshes, random_soups,
+                   larger_bodies, strided_positions, non_finite_positions, steady_state_allocates_nothing,
+                   memory_is_bounded, outliers_do_not_fill_a_cell, clumps_far_apart);
     return run_suite(suite);
 }

@@ -161,12 +161,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("fast engine, winding numbers");
-    TCase* tests = tcase_create("hits");
-    tcase_set_timeout(tests, 0); // a slow machine is no failure
-    tcase_add_test(tests, winding_culls_compact_bodies);
-    tcase_add_test(tests, winding_turned_inside_out);
-    tcase_add_test(tests, winding_finds_every_contact);
-    tcase_add_test(tests, winding_sees_exact_contact);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "hits");
+    tcase_add_each(tests, winding_culls_compact_bodies, winding_turned_inside_out,
+                   winding_finds_every_contact, winding_sees_exact_contact);
     return run_suite(suite);
 }

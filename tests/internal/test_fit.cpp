@@ -114,10 +114,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("fit");
-    TCase* tests = tcase_create("fit");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "fit");
     tcase_add_loop_test(tests, same_as_the_plain_way, 0, 6);
     tcase_add_test(tests, many_points);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

@@ -1,5 +1,5 @@
 // A grid takes all its memory from its own allocator: with no other memory resource at hand it still works.
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 #include <cstring>
@@ -10,8 +10,7 @@ namespace {
 void add_mesh(vox_grid* grid, const body& b) {
     vox_mesh_desc desc = body_desc(&b);
     desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    insert_mesh(grid, &desc);
 }
 
 START_TEST(nothing_from_the_default_resource) {

@@ -73,12 +73,10 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("internal limits");
-    TCase* tests = tcase_create("limits");
+    TCase* tests = add_case(suite, "limits");
     tcase_add_test(tests, counts_of_a_grid);
     if (sizeof(std::size_t) > 4) { // else no array is as long
-        tcase_add_test(tests, contacts_of_a_step);
-        tcase_add_test(tests, tets_with_a_surface);
+        tcase_add_each(tests, contacts_of_a_step, tets_with_a_surface);
     }
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

@@ -269,14 +269,9 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("predicates");
-    TCase* tests = tcase_create("exactness");
-    tcase_set_timeout(tests, 0); // a slow machine is no failure
-    tcase_add_test(tests, orientation_has_the_exact_sign);
-    tcase_add_test(tests, orientation_sign_follows_its_definition);
-    tcase_add_test(tests, filter_decides_clear_cases_alone);
-    tcase_add_test(tests, locate_is_exact);
-    tcase_add_test(tests, barycentric_is_near_the_true_weights);
-    tcase_add_test(tests, barycentric_of_corners_is_one);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "exactness");
+    tcase_add_each(tests, orientation_has_the_exact_sign, orientation_sign_follows_its_definition,
+                   filter_decides_clear_cases_alone, locate_is_exact, barycentric_is_near_the_true_weights,
+                   barycentric_of_corners_is_one);
     return run_suite(suite);
 }

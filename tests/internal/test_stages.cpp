@@ -318,15 +318,9 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("stages");
-    TCase* tests = tcase_create("stages");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, tiles_hold_every_tet_once);
-    tcase_add_test(tests, tiles_are_full_and_compact);
-    tcase_add_test(tests, stream_finds_the_boxes);
-    tcase_add_test(tests, stream_sees_what_is_not_finite);
-    tcase_add_test(tests, pairs_are_all_that_overlap);
-    tcase_add_test(tests, common_sides_are_those_of_the_box_around);
-    tcase_add_test(tests, sides_of_many_boxes);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "stages");
+    tcase_add_each(tests, tiles_hold_every_tet_once, tiles_are_full_and_compact, stream_finds_the_boxes,
+                   stream_sees_what_is_not_finite, pairs_are_all_that_overlap,
+                   common_sides_are_those_of_the_box_around, sides_of_many_boxes);
     return run_suite(suite);
 }

@@ -137,10 +137,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("isosurface stuffing");
-    TCase* tests = tcase_create("stuffing");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "stuffing");
     tcase_add_loop_test(tests, random_lattices, 0, 24);
     tcase_add_loop_test(tests, coarse_inside, 0, 4);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

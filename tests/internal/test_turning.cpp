@@ -1,4 +1,4 @@
-// Which tets may have turned over: widths against their definition, what is told to be upright against exact
+// Which tets may have turned over: widths against their definition, what is reported as positive against exact
 // orientation, and the engine over many steps of bodies that deform, a little or until they are a knot.
 #include "internal/fast_checks.hpp"
 #include "internal/stage_checks.hpp"
@@ -253,13 +253,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("turning");
-    TCase* tests = tcase_create("turning");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, widths_are_lower_bounds);
-    tcase_add_test(tests, upright_tets_are_positive);
-    tcase_add_test(tests, upright_to_the_last);
-    tcase_add_test(tests, a_body_too_fast_to_follow);
-    tcase_add_test(tests, engine_follows_deforming_bodies);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "turning");
+    tcase_add_each(tests, widths_are_lower_bounds, upright_tets_are_positive, upright_to_the_last,
+                   a_body_too_fast_to_follow, engine_follows_deforming_bodies);
     return run_suite(suite);
 }

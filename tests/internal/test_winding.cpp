@@ -3,6 +3,7 @@
 #include "internal/stage_checks.hpp"
 
 #include <map>
+#include <numeric>
 
 #include "support/suite.h" // last: it defines macros with common names
 
@@ -399,14 +400,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("winding");
-    TCase* tests = tcase_create("winding");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, components_are_what_is_connected);
-    tcase_add_test(tests, surface_of_good_meshes);
-    tcase_add_test(tests, surface_of_bad_meshes);
-    tcase_add_test(tests, certificate_of_compact_bodies);
-    tcase_add_test(tests, certificate_is_sound);
-    tcase_add_test(tests, certificate_of_an_inverted_body);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "winding");
+    tcase_add_each(tests, components_are_what_is_connected, surface_of_good_meshes, surface_of_bad_meshes,
+                   certificate_of_compact_bodies, certificate_is_sound, certificate_of_an_inverted_body);
     return run_suite(suite);
 }

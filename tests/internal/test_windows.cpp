@@ -378,15 +378,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("windows");
-    TCase* tests = tcase_create("windows");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, window_collects_and_bins);
-    tcase_add_test(tests, lattice_is_monotone);
-    tcase_add_test(tests, lattice_covers_the_bulk);
-    tcase_add_test(tests, windows_of_sparse_space);
-    tcase_add_test(tests, windows_of_one_place);
-    tcase_add_test(tests, query_misses_nothing);
-    tcase_add_test(tests, query_of_crowds);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "windows");
+    tcase_add_each(tests, window_collects_and_bins, lattice_is_monotone, lattice_covers_the_bulk,
+                   windows_of_sparse_space, windows_of_one_place, query_misses_nothing, query_of_crowds);
     return run_suite(suite);
 }

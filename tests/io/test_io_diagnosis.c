@@ -449,20 +449,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("io_diagnosis");
-    TCase* tests = tcase_create("diagnosis");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, tets);
-    tcase_add_test(tests, closed_and_open_surfaces);
-    tcase_add_test(tests, empty_meshes_and_points);
-    tcase_add_test(tests, signs_are_exact);
-    tcase_add_test(tests, report_sizes);
-    tcase_add_test(tests, bad_arguments);
-    tcase_add_test(tests, no_files);
-    tcase_add_test(tests, content_before_name);
-    tcase_add_test(tests, two_sources);
-    tcase_add_test(tests, surfaces_from_path_and_memory);
-    tcase_add_test(tests, off_variants);
-    tcase_add_test(tests, scenes);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "diagnosis");
+    tcase_add_each(tests, tets, closed_and_open_surfaces, empty_meshes_and_points, signs_are_exact,
+                   report_sizes, bad_arguments, no_files, content_before_name, two_sources,
+                   surfaces_from_path_and_memory, off_variants, scenes);
     return run_suite(suite);
 }

@@ -227,14 +227,12 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("io_hostile");
-    TCase* tests = tcase_create("hostile");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "hostile");
     tcase_add_test(tests, whole);
     tcase_add_loop_test(tests, cut_at_every_byte, 0, sample_count);
     tcase_add_loop_test(tests, bent_bytes, 0, sample_count);
     tcase_add_loop_test(tests, lying_numbers, 0, sample_count);
     tcase_add_loop_test(tests, lying_words, 0, sample_count);
     tcase_add_test(tests, declared_sizes_are_checked_first);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

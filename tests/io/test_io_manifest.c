@@ -110,9 +110,7 @@ END_TEST
 int main(void) {
     need_meshes();
     Suite* suite = suite_create("io_manifest");
-    TCase* tests = tcase_create("bad");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "bad");
     tcase_add_test(tests, manifest);
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

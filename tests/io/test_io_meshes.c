@@ -180,12 +180,7 @@ END_TEST
 int main(void) {
     need_meshes();
     Suite* suite = suite_create("io_meshes");
-    TCase* tests = tcase_create("good");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, ball_in_every_format);
-    tcase_add_test(tests, meshes_as_found);
-    tcase_add_test(tests, paper_models);
-    tcase_add_test(tests, surfaces);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "good");
+    tcase_add_each(tests, ball_in_every_format, meshes_as_found, paper_models, surfaces);
     return run_suite(suite);
 }

@@ -252,14 +252,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("io_write");
-    TCase* tests = tcase_create("write");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "write");
     tcase_add_loop_test(tests, round_trip, 0, way_count);
     tcase_add_loop_test(tests, point_data, 0, way_count);
-    tcase_add_test(tests, surface_alone);
-    tcase_add_test(tests, failing_sink);
-    tcase_add_test(tests, files);
-    tcase_add_test(tests, bad_arguments);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, surface_alone, failing_sink, files, bad_arguments);
     return run_suite(suite);
 }

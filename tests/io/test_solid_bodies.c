@@ -3,8 +3,8 @@
 
 /* ---- ball of a cubic lattice ---- */
 
-/* The paper's spheres: tets asked for (Table 1), and what the construction gives. Their cell sizes are the matter of
- * test_paper_tables.c. */
+/* The paper's spheres: tets asked for (Table 1), and what the construction gives. Their cell sizes are the
+ * matter of tests/api/test_cell_size_tables.c. */
 static const struct {
     uint64_t wanted, tets;
 } spheres[] = {{41937, 41946}, {52326, 52302}, {60688, 60691}, {72631, 72637}, {80927, 80928}};
@@ -240,18 +240,13 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("ready-made bodies");
-    TCase* tests = tcase_create("bodies");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "bodies");
     tcase_add_loop_test(tests, lattice_ball_is_the_papers, 0, 5);
-    tcase_add_test(tests, lattice_ball_of_any_size);
-    tcase_add_test(tests, lattice_ball_is_the_same_again);
+    tcase_add_each(tests, lattice_ball_of_any_size, lattice_ball_is_the_same_again);
     tcase_add_loop_test(tests, stuffed_body, 0, 8);
-    tcase_add_test(tests, box_is_exact);
-    tcase_add_test(tests, bad_arguments);
-    suite_add_tcase(suite, tests);
-    TCase* large = tagged_tests("large");
+    tcase_add_each(tests, box_is_exact, bad_arguments);
+    TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_loop_test(large, stuffed_body, 8, 12);
     tcase_add_loop_test(large, stuffed_body_is_near_its_surface, 0, 4);
-    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

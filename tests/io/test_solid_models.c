@@ -112,15 +112,12 @@ int main(void) {
     }
     fclose(file);
     Suite* suite = suite_create("models to tetrahedra");
-    TCase* tests = tcase_create("models");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "models");
     tcase_add_loop_test(tests, fifty_cells, 0, 1);
     tcase_add_test(tests, self_intersecting);
-    suite_add_tcase(suite, tests);
-    TCase* large = tagged_tests("large");
+    TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_loop_test(large, fifty_cells, 1, 3);
     tcase_add_loop_test(large, half_a_cell, 0, 3);
     tcase_add_test(large, million);
-    suite_add_tcase(suite, large);
     return run_suite(suite);
 }

@@ -535,29 +535,15 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("surface to tetrahedra");
-    TCase* tests = tcase_create("surfaces");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "surfaces");
     tcase_add_checked_fixture(tests, clear, NULL);
     tcase_add_loop_test(tests, box, 0, 4);
-    tcase_add_test(tests, distance_is_exact);
-    tcase_add_test(tests, kept_distance);
-    tcase_add_test(tests, cavity);
-    tcase_add_test(tests, overlapping_parts_join);
-    tcase_add_test(tests, orientation_does_not_matter);
-    tcase_add_test(tests, soup_is_welded);
-    tcase_add_test(tests, small_hole_is_closed);
-    tcase_add_test(tests, open_surfaces_are_refused);
-    tcase_add_test(tests, nothing_inside);
-    tcase_add_test(tests, any_place_and_scale);
-    tcase_add_test(tests, cubes);
-    tcase_add_test(tests, progress_and_cancel);
-    tcase_add_test(tests, old_and_new_structs);
-    tcase_add_test(tests, bad_arguments);
-    suite_add_tcase(suite, tests);
-    TCase* large = tagged_tests("large");
+    tcase_add_each(tests, distance_is_exact, kept_distance, cavity, overlapping_parts_join,
+                   orientation_does_not_matter, soup_is_welded, small_hole_is_closed,
+                   open_surfaces_are_refused, nothing_inside, any_place_and_scale, cubes, progress_and_cancel,
+                   old_and_new_structs, bad_arguments);
+    TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_checked_fixture(large, clear, NULL);
-    tcase_add_test(large, sphere);
-    tcase_add_test(large, coarser_inside);
-    suite_add_tcase(suite, large);
+    tcase_add_each(large, sphere, coarser_inside);
     return run_suite(suite);
 }

@@ -3,8 +3,8 @@
  * every compiler and instruction set, engine, number of workers and format of positions: matrix.py, `./dev
  * hashes`, `./dev portability`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
  * 0..3] [--cell-size FACTOR] */
-#include "portability/scenes.h"
 #include "portability/simd_level.h"
+#include "scenes/scenes.h"
 
 #include <inttypes.h>
 

@@ -23,7 +23,7 @@ static inline void write_log(vox_log_level level, const char* text, void* user) 
     if (strlen(book->text) + strlen(text) + 2 < sizeof book->text) strcat(strcat(book->text, text), "\n");
 }
 
-/* No gravity, no floor: bodies meet nothing but each other. */
+/* No gravity and no floor: bodies meet only each other. */
 static inline vox_sim_desc weightless(void) {
     vox_sim_desc desc = vox_default_sim_desc();
     desc.gravity[2] = 0;

@@ -312,15 +312,10 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("experiment");
-    TCase* tests = tcase_create("experiment");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "experiment");
     tcase_add_checked_fixture(tests, setup, teardown);
     tcase_add_loop_test(tests, one_percent_in_contact, 0, 2);
-    tcase_add_test(tests, first_frame_by_hand);
-    tcase_add_test(tests, the_cell_size_changes_nothing);
-    tcase_add_test(tests, samples);
-    tcase_add_test(tests, from_create_to_epsilon);
-    tcase_add_test(tests, bad_input);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, first_frame_by_hand, the_cell_size_changes_nothing, samples, from_create_to_epsilon,
+                   bad_input);
     return run_suite(suite);
 }

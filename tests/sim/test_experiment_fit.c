@@ -214,15 +214,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("experiment_fit");
-    TCase* tests = tcase_create("experiment_fit");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "experiment_fit");
     tcase_add_loop_test(tests, finds_the_minimum_and_the_zone, 0, 3);
-    tcase_add_test(tests, noise_is_not_followed);
-    tcase_add_test(tests, unit_of_time_and_order_of_points_do_not_matter);
-    tcase_add_test(tests, a_minimum_at_an_end_is_told);
-    tcase_add_test(tests, fit_refuses);
-    tcase_add_test(tests, orders);
-    tcase_add_test(tests, time_of_rounds);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, noise_is_not_followed, unit_of_time_and_order_of_points_do_not_matter,
+                   a_minimum_at_an_end_is_told, fit_refuses, orders, time_of_rounds);
     return run_suite(suite);
 }

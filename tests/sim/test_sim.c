@@ -259,19 +259,13 @@ END_TEST
 
 int main(int argc, char** argv) {
     Suite* suite = suite_create("sim");
-    TCase* tests = tcase_create("motion");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "motion");
     if (argc > 1 && strcmp(argv[1], "heavy") == 0) {
         tcase_add_test(tests, ten_bodies_rest_stacked);
     } else {
-        tcase_add_test(tests, falls_as_the_formula_says);
-        tcase_add_test(tests, rests_on_the_floor);
-        tcase_add_test(tests, a_free_body_keeps_its_momentum);
-        tcase_add_test(tests, two_bodies_collide_and_part);
-        tcase_add_test(tests, energy_does_not_grow);
-        tcase_add_test(tests, friction_follows_coulomb);
-        tcase_add_test(tests, three_slabs_rest_stacked);
+        tcase_add_each(tests, falls_as_the_formula_says, rests_on_the_floor, a_free_body_keeps_its_momentum,
+                       two_bodies_collide_and_part, energy_does_not_grow, friction_follows_coulomb,
+                       three_slabs_rest_stacked);
     }
-    suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

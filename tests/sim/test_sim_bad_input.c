@@ -429,22 +429,10 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("sim_bad_input");
-    TCase* tests = tcase_create("bad input");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, crossing_bars);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, enclosed_body);
-    tcase_add_test(tests, below_the_floor);
-    tcase_add_test(tests, squashed_and_inverted);
-    tcase_add_test(tests, flat_and_inverted_tets_are_counted);
-    tcase_add_test(tests, too_large_a_step_is_cut_down);
-    tcase_add_test(tests, absurd_stiffness_is_cut_down);
-    tcase_add_test(tests, the_same_bits_every_time);
-    tcase_add_test(tests, refuses_bad_settings);
-    tcase_add_test(tests, refuses_bad_bodies);
-    tcase_add_test(tests, refuses_bad_calls);
-    tcase_add_test(tests, structs_may_be_smaller);
-    tcase_add_test(tests, the_grid_is_within_reach);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "bad input");
+    tcase_add_each(tests, crossing_bars, coincident_bodies, enclosed_body, below_the_floor,
+                   squashed_and_inverted, flat_and_inverted_tets_are_counted, too_large_a_step_is_cut_down,
+                   absurd_stiffness_is_cut_down, the_same_bits_every_time, refuses_bad_settings,
+                   refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, the_grid_is_within_reach);
     return run_suite(suite);
 }

@@ -1,12 +1,12 @@
-/* A model of meshes that are cut: plain arrays, from which a new grid without what is off or removed can be
- * made, and the comparison of a grid that went through the edits with that one. */
+/* A model of meshes that are cut: plain arrays. A new grid is made of what the model has left, and the grid that
+ * went through the edits is compared with it. */
 #ifndef VOX_TESTS_CUTTING_MODEL_H
 #define VOX_TESTS_CUTTING_MODEL_H
 
 #include <string.h>
 
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/suite.h"
 
 enum { tet_on, tet_off, tet_removed };
@@ -35,7 +35,7 @@ typedef struct cut_scene {
     uint32_t count;
     vox_contact* was; /* the contacts of the last step */
     uint64_t was_count;
-    uint64_t contacts, penetrations, events, carried; /* that there were in all */
+    uint64_t contacts, penetrations, events, carried; /* sums over all steps */
 } cut_scene;
 
 static inline size_t position_bytes(const cut_mesh* m) {
@@ -50,7 +50,7 @@ static inline void write_positions(const cut_mesh* m, const double* from, uint32
             ((float*)to)[i] = (float)from[i];
 }
 
-/* Shows the grid the positions of the model. */
+/* Gives the grid the positions of the model. */
 static inline void show_positions(cut_scene* s, cut_mesh* m) {
     void* to = m->borrowed;
     uint64_t stride = 0;
@@ -58,7 +58,7 @@ static inline void show_positions(cut_scene* s, cut_mesh* m) {
     write_positions(m, m->positions, m->vertices, to);
 }
 
-/* Takes over a body of the model's kind of positions, all of it on. */
+/* Makes the model a copy of a body with all tets on. */
 static inline void set_model(cut_mesh* m, const body* shape) {
     m->vertices = shape->vertex_count;
     m->tets = shape->tet_count;
@@ -168,7 +168,7 @@ static inline int touch_before(const vox_contact* x, const vox_contact* y) {
     return x->mesh_b < y->mesh_b;
 }
 
-/* Those of `these` that touch and are not among `those`, as events of one kind. Returns how many. */
+/* Checks that the touching pairs among `these` that `those` lack are events of one kind. Returns their number. */
 static inline uint64_t expect_contact_events(const vox_contact* these, uint64_t these_count,
                                              const vox_contact* those, uint64_t those_count,
                                              const vox_contact_event* events, vox_touch kind) {
@@ -220,9 +220,8 @@ static inline void check_cut_events(cut_scene* s, const vox_contact_view* view) 
     s->events += vertices.count;
 }
 
-/* Steps, and compares all there is with what a new grid finds of what is left of the meshes. */
+/* Steps, and compares all results with those of a new grid over what is left of the meshes. */
 static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
-    vox_contact_view mine, fresh;
     vox_penetration_view depths, fresh_depths;
     rest_of_mesh rest[most_cut_meshes];
     cut_scene other;
@@ -234,8 +233,8 @@ static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
         insert_model(&other, &rest[i].mesh);
     }
     ck_ok(vox_grid_step(other.grid));
-    ck_ok(vox_grid_contacts(s->grid, &mine));
-    ck_ok(vox_grid_contacts(other.grid, &fresh));
+    vox_contact_view mine = contacts_of(s->grid);
+    vox_contact_view fresh = contacts_of(other.grid);
     ck_assert_uint_eq(mine.count, fresh.count);
     for (uint64_t i = 0; i < mine.count; ++i) {
         vox_contact c = fresh.data[i];

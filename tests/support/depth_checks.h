@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 typedef struct vector {
@@ -42,7 +42,7 @@ static inline const vox_penetration* penetration_at(vox_penetration_view view, u
     return (const vox_penetration*)(const void*)((const char*)view.data + i * view.byte_stride);
 }
 
-/* That of a vertex in a mesh, or null. */
+/* The penetration of a vertex in a mesh, or null. */
 static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b) {
     const vox_penetration_view view = penetrations_of(grid);
     for (uint64_t i = 0; i < view.count; ++i) {
@@ -60,18 +60,11 @@ static inline uint64_t count_state(const vox_grid* grid, vox_mesh a, vox_penetra
     return count;
 }
 
-static inline vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
-}
-
-/* What holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in their order, with
+/* Checks what holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in their order, with
  * finite numbers and a unit direction. */
 static inline void check_penetrations(const vox_grid* grid) {
     const vox_penetration_view view = penetrations_of(grid);
-    vox_contact_view contacts = {NULL, 0, 0, 0};
-    ck_ok(vox_grid_contacts(grid, &contacts));
+    vox_contact_view contacts = contacts_of(grid);
     ck_assert_uint_eq(view.epoch, contacts.epoch);
     uint64_t next = 0;
     for (uint64_t i = 0; i < contacts.count; ++i) {
@@ -160,7 +153,7 @@ static inline vector way_to(surface s, const float* positions, vector p) {
     return best;
 }
 
-/* That a penetration that takes the closest point of the surface has done so. */
+/* Checks a penetration that takes the closest point of the surface. */
 static inline void check_closest(const vox_penetration* p, vector vertex, surface s, const float* positions,
                                  double unit) {
     const vector way = way_to(s, positions, vertex);

@@ -4,39 +4,25 @@
 
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static inline vox_grid* new_grid(void) {
     static uint32_t grids = 0;
     vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
     desc.worker_count = 1 + grids++ % 3; /* of the fast engine: contacts do not depend on it */
     desc.engine = suite_engine;
     desc.flags = 0;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 static inline vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) {
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, desc);
 }
 
 static inline vox_contact_view stepped(vox_grid* grid) {
-    vox_contact_view view = {NULL, 0, 0, 0};
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
-    return view;
-}
-
-static inline vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters;
-    memset(&counters, 0, sizeof counters);
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
+    return contacts_of(grid);
 }
 
 static inline vox_filter filter_of(const vox_grid* grid, vox_mesh mesh) {

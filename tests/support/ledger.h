@@ -1,4 +1,4 @@
-/* An allocator that keeps count of what a grid takes, and fails when it is told to. */
+/* An allocator that keeps count of what a grid takes, and fails at a chosen call. */
 #ifndef VOX_TESTS_LEDGER_H
 #define VOX_TESTS_LEDGER_H
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/suite.h"
 
 enum { most_bodies = 4 };

@@ -1,4 +1,4 @@
-/* Scenes for the tests of readings, and what a reading has to say by brute force over every triangle of every
+/* Scenes for the tests of readings, and the expected readings by brute force over every triangle of every
  * surface. */
 #ifndef VOX_TESTS_READING_CHECKS_H
 #define VOX_TESTS_READING_CHECKS_H
@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
-#include "support/random.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/suite.h"
 
 /* ---- brute force ---- */
@@ -119,13 +119,11 @@ typedef struct world {
 } world;
 
 static inline vox_grid* new_grid(vox_engine engine, uint32_t flags, uint32_t workers) {
-    vox_grid* grid;
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = engine;
     desc.flags = flags;
     desc.worker_count = workers;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 static inline vox_mesh_desc desc_of(const model* m, int index) {
@@ -321,11 +319,10 @@ static inline int check_reading(const world* w, const vox_contact* contact, cons
 
 /* Checks all readings of the last step; returns how many have a surface. */
 static inline uint64_t check_readings(const world* w, int exact) {
-    vox_contact_view contacts;
     vox_reading_view readings;
     uint64_t surfaces = 0;
     ck_ok(vox_grid_prepare_readings(w->grid));
-    ck_ok(vox_grid_contacts(w->grid, &contacts));
+    vox_contact_view contacts = contacts_of(w->grid);
     ck_ok(vox_grid_readings(w->grid, &readings));
     ck_assert_uint_eq(readings.count, contacts.count);
     ck_assert_uint_eq(readings.epoch, contacts.epoch);

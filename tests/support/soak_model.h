@@ -1,13 +1,13 @@
-/* A model of two grids, one of each engine, through which the same meshes go; what must hold after each step. */
+/* A model of two grids, one of each engine, that hold the same meshes, and checks of what must hold after each step. */
 #ifndef VOX_TESTS_SOAK_MODEL_H
 #define VOX_TESTS_SOAK_MODEL_H
 
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/ledger.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 enum {
@@ -160,7 +160,7 @@ static inline int has_pair(const pair* pairs, uint32_t count, const pair* p) {
     return 0;
 }
 
-/* Those of `these` that are (or are not) in `those`, in order, are the next events of that kind. */
+/* Checks that the next events are of that kind, one for each pair of `these` that is (or is not) in `those`. */
 static inline uint64_t expect_events(soak* s, const vox_touch_event* events, vox_touch kind, const pair* these,
                               uint32_t these_count, const pair* those, uint32_t those_count, int in_both) {
     uint64_t count = 0;
@@ -271,7 +271,7 @@ static inline void check(soak* s) {
     if (s->step % 8 == 0) check_against_fresh(s, &views[0]);
 }
 
-/* What is, was. */
+/* The present state becomes the last one. */
 static inline void remember(soak* s) {
     memcpy(s->was, s->is, sizeof s->is);
     s->was_count = s->is_count;

@@ -5,16 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/oracle.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 static uint64_t state = 1;
 
-static inline double random_double(double min, double max) {
-    return min + (max - min) * ((double)(random_next(&state) >> 11) * 0x1p-53);
-}
+static inline double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
 /* ---- bodies of doubles ---------------------------------------------------------------------------------- */
 
@@ -73,26 +71,15 @@ static inline vox_mesh_desc solid_desc(const solid* s) {
 }
 
 static inline vox_grid* new_grid(uint32_t workers) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.worker_count = workers;
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 static inline vox_mesh insert(vox_grid* grid, const solid* s, uint32_t flags) {
     vox_mesh_desc desc = solid_desc(s);
     desc.flags = flags;
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
-}
-
-static inline vox_contact_view contacts_of(vox_grid* grid) {
-    vox_contact_view view;
-    ck_ok(vox_grid_contacts(grid, &view));
-    return view;
+    return insert_mesh(grid, &desc);
 }
 
 /* The grid's contacts are those of the solids, which were inserted in this order. */

@@ -2,7 +2,7 @@
 #ifndef VOX_TESTS_SUGGEST_SCENES_H
 #define VOX_TESTS_SUGGEST_SCENES_H
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 /* A regular tetrahedron in a unit cube: edge sqrt(2), facet area sqrt(3)/2, volume 1/3, box side 1. */
@@ -20,14 +20,12 @@ static inline vox_suggestion suggest_ok(const vox_suggest_desc* desc, const vox_
 static inline body make_uneven_box(void) {
     body box = make_box(3, 0.25f, -1.5f, 0.5f, 2);
     uint32_t state = 12345;
-    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i) {
-        state = state * 1664525u + 1013904223u;
-        box.positions[i] += (float)(state >> 16) / 65536.0f * 0.125f;
-    }
+    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
+        box.positions[i] += (float)(random_quick(&state) >> 16) / 65536.0f * 0.125f;
     return box;
 }
 
 /* The tests of bad arguments. */
-TCase* argument_tests(void);
+void add_argument_tests(Suite* suite);
 
 #endif

@@ -1,4 +1,4 @@
-/* What every Check program here begins and ends with. */
+/* What the Check programs share: checks of results, grids and meshes in one call, cases, one case an engine. */
 #ifndef VOX_TESTS_SUITE_H
 #define VOX_TESTS_SUITE_H
 
@@ -23,6 +23,31 @@
                       #call, vox_last_error(), (words)); \
     } while (0)
 
+static inline vox_grid* grid_of(const vox_grid_desc* desc) {
+    vox_grid* grid = NULL;
+    ck_ok(vox_grid_create(desc, &grid));
+    return grid;
+}
+
+static inline vox_mesh insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
+    vox_mesh mesh = VOX_NULL_MESH;
+    ck_ok(vox_mesh_insert(grid, desc, &mesh));
+    return mesh;
+}
+
+static inline vox_contact_view contacts_of(const vox_grid* grid) {
+    vox_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
+    ck_ok(vox_grid_contacts(grid, &view));
+    return view;
+}
+
+static inline vox_counters counters_of(const vox_grid* grid) {
+    vox_counters counters;
+    counters.struct_size = sizeof counters;
+    ck_ok(vox_grid_counters(grid, &counters));
+    return counters;
+}
+
 /* Steps the grid; the hash of the contacts that it found. */
 static inline uint64_t hash_of_step(vox_grid* grid) {
     uint64_t hash = 0;
@@ -31,34 +56,51 @@ static inline uint64_t hash_of_step(vox_grid* grid) {
     return hash;
 }
 
+/* A case of the suite. CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large"
+ * there and under the sanitizers. A slow machine is no failure: there is no timeout. */
+static inline TCase* add_tagged_case(Suite* suite, const char* name, const char* tag) {
+    TCase* tests = tcase_create(name);
+    tcase_set_timeout(tests, 0);
+    tcase_set_tags(tests, tag);
+    suite_add_tcase(suite, tests);
+    return tests;
+}
+
+static inline TCase* add_case(Suite* suite, const char* name) { return add_tagged_case(suite, name, ""); }
+
+/* tcase_add_each(tests, a, b, c): tests that run once each. */
+#define tcase_add_each(tests, ...)                                                                           \
+    do {                                                                                                     \
+        const TTest* const each_[] = {__VA_ARGS__};                                                          \
+        for (size_t i_ = 0; i_ < sizeof each_ / sizeof *each_; ++i_) tcase_add_test(tests, each_[i_]);       \
+    } while (0)
+
 /* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
 static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
 static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
+static inline vox_grid_desc engine_desc(void) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = suite_engine;
+    return desc;
+}
+static inline vox_grid* engine_grid(void) {
+    const vox_grid_desc desc = engine_desc();
+    return grid_of(&desc);
+}
 
 static inline void add_tagged_for_each_engine(Suite* suite, void (*add_tests)(TCase*), const char* tag) {
     static const char* const names[] = {"reference", "fast"};
     static void (*const setups[])(void) = {use_reference, use_fast};
     for (int i = 0; i < 2; ++i) {
-        TCase* tests = tcase_create(names[i]);
-        tcase_set_timeout(tests, 0);
-        tcase_set_tags(tests, tag);
+        TCase* tests = add_tagged_case(suite, names[i], tag);
         tcase_add_checked_fixture(tests, setups[i], NULL);
         add_tests(tests);
-        suite_add_tcase(suite, tests);
     }
 }
 
 static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) {
     add_tagged_for_each_engine(suite, add_tests, "");
-}
-
-/* CK_EXCLUDE_TAGS leaves out what would take minutes: "long" under valgrind, "large" there and under the sanitizers. */
-static inline TCase* tagged_tests(const char* tag) {
-    TCase* tests = tcase_create(tag);
-    tcase_set_timeout(tests, 0);
-    tcase_set_tags(tests, tag);
-    return tests;
 }
 
 static inline int run_suite(Suite* suite) {

@@ -172,7 +172,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(self.lines(cut)[:len(again)], again)
         self.assertEqual(len(self.lines(cut)), 1 + 3 * (6 + len(RULES)))
 
-        # --csv begins anew; --resume of no file, and of an empty one, begins.
+        # --csv starts again; --resume of no file, and of an empty one, starts.
         run_json("sweep", *BALL, "--rounds", 1, "--csv", cut)
         self.assertEqual(len(self.lines(cut)), 1 + 6 + len(RULES))
         for name in self.path("new.csv"), self.write("empty.csv", ""):

@@ -24,17 +24,9 @@ static body make_ball(double radius, double cell, double angle, double x) {
     return made;
 }
 
-static vox_grid* new_grid(void) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(NULL, &grid));
-    return grid;
-}
-
 static vox_mesh insert(vox_grid* grid, const body* b) {
     const vox_mesh_desc desc = body_desc(b);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 /* Two balls of radius 1 that overlap by this. Their cells are 0.06. */
@@ -44,7 +36,7 @@ START_TEST(two_balls) {
     const double overlap = overlaps[_i];
     body balls[2] = {make_ball(1, 0.06, 0.3, 2 - overlap), make_ball(1, 0.06, 0, 0)};
     const double centre[2] = {2 - overlap, 0};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     vox_mesh ids[2];
     surface surfaces[2];
     for (int b = 0; b < 2; ++b) {
@@ -61,7 +53,8 @@ START_TEST(two_balls) {
         const int a = p->mesh_a == ids[0] ? 0 : 1, b = 1 - a;
         ck_assert(p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED);
         /* The true distance to the surface, as it is triangulated, ... */
-        const vector at = place(balls[a].positions, p->vertex), way = way_to(surfaces[b], balls[b].positions, at);
+        const vector at = place(balls[a].positions, p->vertex),
+                     way = way_to(surfaces[b], balls[b].positions, at);
         worst_depth = fmax(worst_depth, fabs((double)p->depth / norm(way) - 1));
         worst_angle = fmax(worst_angle, degrees_between(direction_of(p), way));
         /* ... and to the sphere, whose triangles are up to cell^2 / 8 inside it. */
@@ -82,7 +75,7 @@ END_TEST
 START_TEST(directions_change_smoothly) {
     const double overlap = _i == 0 ? 0.1 : _i == 1 ? 0.3 : 0.5;
     body balls[2] = {make_ball(1, 0.09, 0.3, 2 - overlap), make_ball(1, 0.09, 0, 0)};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     for (int b = 0; b < 2; ++b) {
         const vox_mesh id = insert(grid, &balls[b]);
         ck_assert_uint_eq(vox_mesh_is_valid(grid, id), 1);
@@ -116,13 +109,14 @@ START_TEST(directions_change_smoothly) {
 END_TEST
 
 START_TEST(ball_in_a_box) {
-    /* Resting on the inside of nothing: a ball deep in a box of tetrahedra, and one that sinks into its top. */
+    /* Resting on the inside of nothing: a ball deep in a box of tetrahedra, and one that sinks into its top.
+     */
     body box = make_box(10, 0.4f, -2, -2, -2), ball = make_ball(0.5, 0.08, 0.2, 0.1);
     const surface s = surface_of(box.tets, box.tet_count);
     for (int sunk = 0; sunk < 2; ++sunk) {
         if (sunk)
             for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += 2.3f;
-        vox_grid* grid = new_grid();
+        vox_grid* grid = grid_of(NULL);
         const vox_mesh b = insert(grid, &box), a = insert(grid, &ball);
         ck_ok(vox_grid_step(grid));
         check_penetrations(grid);
@@ -150,12 +144,13 @@ END_TEST
 
 /* ---- work ------------------------------------------------------------------------------------- */
 
-/* The counters when a ball of radius 0.5 sinks by `depth` into the middle of the top of a box of n * n * n / 2 cubes. */
+/* The counters when a ball of radius 0.5 sinks by `depth` into the middle of the top of a box of n * n * n /
+ * 2 cubes. */
 static vox_counters work_of(uint32_t n, double cell, double depth) {
     body box = make_box(n, 0.1f, -0.05f * (float)n, -0.05f * (float)n, -0.1f * (float)n);
     body ball = make_ball(0.5, cell, 0.2, 0.017);
     for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += (float)(0.5 - depth);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = grid_of(NULL);
     insert(grid, &box);
     insert(grid, &ball);
     ck_ok(vox_grid_step(grid));
@@ -167,13 +162,15 @@ static vox_counters work_of(uint32_t n, double cell, double depth) {
 }
 
 START_TEST(work_is_that_of_the_colliding_vertices) {
-    /* A body of eight times as many tetrahedra, of which as many are hit: the same work, but for the lattice's parity. */
+    /* A body of eight times as many tetrahedra, of which as many are hit: the same work, but for the
+     * lattice's parity. */
     const vox_counters small = work_of(16, 0.04, 0.1), large = work_of(32, 0.04, 0.1);
     ck_assert_uint_eq(small.penetrations, large.penetrations);
     ck_assert_uint_eq(small.leaving_edges, large.leaving_edges);
     ck_assert_uint_eq(small.edge_tests, large.edge_tests);
     ck_assert_uint_eq(small.closest_tests + large.closest_tests, 0);
-    /* More colliding vertices: no more edges than these have, each through no more tetrahedra than lie on it. */
+    /* More colliding vertices: no more edges than these have, each through no more tetrahedra than lie on it.
+     */
     for (double cell = 0.06; cell > 0.02; cell *= 0.7) {
         const vox_counters work = work_of(16, cell, 0.1);
         ck_assert_uint_gt(work.penetrations, 20);
@@ -185,7 +182,8 @@ START_TEST(work_is_that_of_the_colliding_vertices) {
 END_TEST
 
 START_TEST(searches_are_short) {
-    /* All of a ball inside a box of 20 times as many triangles or of 80 times: hardly more of them are looked at. */
+    /* All of a ball inside a box of 20 times as many triangles or of 80 times: hardly more of them are looked
+     * at. */
     const vox_counters small = work_of(16, 0.1, 1.2), large = work_of(32, 0.1, 1.2);
     ck_assert_uint_gt(small.closest_searches, 100);
     ck_assert_uint_eq(small.closest_searches, large.closest_searches);
@@ -195,13 +193,9 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("depth figures");
-    TCase* tests = tcase_create("figures");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "figures");
     tcase_add_loop_test(tests, two_balls, 0, 4);
     tcase_add_loop_test(tests, directions_change_smoothly, 0, 3);
-    tcase_add_test(tests, ball_in_a_box);
-    tcase_add_test(tests, work_is_that_of_the_colliding_vertices);
-    tcase_add_test(tests, searches_are_short);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, ball_in_a_box, work_is_that_of_the_colliding_vertices, searches_are_short);
     return run_suite(suite);
 }

@@ -27,8 +27,7 @@ START_TEST(loaded_grid_goes_on_as_the_saved_one) {
             ck_ok(vox_mesh_filter(again, s.ids[m], &y));
             ck_assert_int_eq(memcmp(&x, &y, sizeof x), 0);
         }
-        vox_contact_view none = {NULL, 0, 9, 0};
-        ck_ok(vox_grid_contacts(again, &none));
+        vox_contact_view none = contacts_of(again);
         ck_assert_uint_eq(none.count, 0);
 
         ck_ok(vox_grid_step(s.grid));
@@ -96,14 +95,12 @@ START_TEST(every_engine_takes_it) {
 END_TEST
 
 START_TEST(generations_and_retired_slots) {
-    vox_grid* grid = NULL;
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_mesh mesh = 0, kept = 0, first = 0;
+    vox_grid_desc desc = engine_desc();
+    vox_mesh mesh = 0;
     const vox_mesh_desc tet = array_desc(unit_tet_positions, 4, unit_tet, 1);
-    desc.engine = suite_engine;
-    ck_ok(vox_grid_create(&desc, &grid));
-    ck_ok(vox_mesh_insert(grid, &tet, &kept));
-    ck_ok(vox_mesh_insert(grid, &tet, &first));
+    vox_grid* grid = grid_of(&desc);
+    vox_mesh kept = insert_mesh(grid, &tet);
+    vox_mesh first = insert_mesh(grid, &tet);
     ck_ok(vox_mesh_remove(grid, first));
     for (uint32_t use = 1; use < VOX_MAX_GENERATIONS; ++use) {
         ck_ok(vox_mesh_insert(grid, &tet, &mesh));
@@ -111,8 +108,8 @@ START_TEST(generations_and_retired_slots) {
     }
     const file f = save(grid);
     vox_grid* again = load(f, VOX_ENGINE_AUTO);
-    vox_mesh x = 0, y = 1;
-    ck_ok(vox_mesh_insert(grid, &tet, &x));
+    vox_mesh y = 1;
+    vox_mesh x = insert_mesh(grid, &tet);
     ck_ok(vox_mesh_insert(again, &tet, &y));
     ck_assert_uint_eq(x, y);
     ck_assert_uint_ne(x, first); /* the slot is used up */
@@ -130,13 +127,10 @@ START_TEST(positions_keep_their_bits) {
                                       0,           0x3f800000u, 0,           0,           0, 0x3f800000u};
     float positions[12];
     memcpy(positions, bits, sizeof bits);
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
     const vox_mesh_desc desc = array_desc(positions, 4, unit_tet, 1);
-    vox_grid_desc settings = vox_default_grid_desc();
-    settings.engine = suite_engine;
-    ck_ok(vox_grid_create(&settings, &grid));
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_grid_desc settings = engine_desc();
+    vox_grid* grid = grid_of(&settings);
+    insert_mesh(grid, &desc);
     const file f = save(grid);
     const unsigned char* chunk = find_chunk(f, "MESH", 0);
     const unsigned char* end = chunk + chunk_header_bytes + get(chunk + 8, 8);
@@ -155,11 +149,8 @@ START_TEST(positions_keep_their_bits) {
 END_TEST
 
 START_TEST(an_empty_grid_and_one_without_positions) {
-    vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
-    vox_grid_desc settings = vox_default_grid_desc();
-    settings.engine = suite_engine;
-    ck_ok(vox_grid_create(&settings, &grid));
+    vox_grid_desc settings = engine_desc();
+    vox_grid* grid = grid_of(&settings);
     file f = save(grid);
     vox_grid* again = load(f, VOX_ENGINE_AUTO);
     ck_ok(vox_grid_step(again));
@@ -167,7 +158,7 @@ START_TEST(an_empty_grid_and_one_without_positions) {
     free(f.bytes);
 
     const vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     f = save(grid);
     again = load(f, VOX_ENGINE_AUTO);
     ck_fails(vox_grid_step(again), VOX_ERROR_INVALID_STATE, "no positions");
@@ -180,10 +171,9 @@ START_TEST(an_empty_grid_and_one_without_positions) {
 END_TEST
 
 START_TEST(arguments) {
-    vox_grid* grid = NULL;
     uint64_t size = 77;
     unsigned char bytes[16];
-    ck_ok(vox_grid_create(NULL, &grid));
+    vox_grid* grid = grid_of(NULL);
     ck_fails(vox_grid_save(NULL, NULL, 0, &size), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_save(grid, NULL, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_size is null");
     memset(bytes, 7, sizeof bytes);
@@ -248,14 +238,9 @@ START_TEST(allocation_n_fails) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, loaded_grid_goes_on_as_the_saved_one);
-    tcase_add_test(tests, saving_the_loaded_grid_gives_the_same_bytes);
-    tcase_add_test(tests, every_engine_takes_it);
-    tcase_add_test(tests, generations_and_retired_slots);
-    tcase_add_test(tests, positions_keep_their_bits);
-    tcase_add_test(tests, an_empty_grid_and_one_without_positions);
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, allocation_n_fails);
+    tcase_add_each(tests, loaded_grid_goes_on_as_the_saved_one, saving_the_loaded_grid_gives_the_same_bytes,
+                   every_engine_takes_it, generations_and_retired_slots, positions_keep_their_bits,
+                   an_empty_grid_and_one_without_positions, arguments, allocation_n_fails);
 }
 
 int main(void) {

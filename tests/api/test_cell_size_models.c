@@ -20,10 +20,8 @@ static pair make_pair(float h) {
     uint32_t state = 7;
     for (int b = 0; b < 2; ++b) {
         p.boxes[b] = make_box(8, h, b ? 6 * h : 0, b ? 0.3f * h : 0, 0);
-        for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i) {
-            state = state * 1664525u + 1013904223u;
-            p.boxes[b].positions[i] += ((float)(state >> 16) / 65536.0f - 0.5f) * 0.3f * h;
-        }
+        for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i)
+            p.boxes[b].positions[i] += ((float)(random_quick(&state) >> 16) / 65536.0f - 0.5f) * 0.3f * h;
         p.meshes[b] = body_desc(&p.boxes[b]);
     }
     return p;
@@ -150,14 +148,12 @@ START_TEST(the_grid_suggests_by_its_engine) {
     pair p = make_pair(0.5f);
     vox_grid_desc grid_desc = vox_default_grid_desc();
     grid_desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    vox_grid* grid = NULL;
     vox_suggestion found, given;
     found.struct_size = given.struct_size = sizeof found;
-    ck_ok(vox_grid_create(&grid_desc, &grid));
+    vox_grid* grid = grid_of(&grid_desc);
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra");
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(grid, &p.meshes[b], &mesh));
+        insert_mesh(grid, &p.meshes[b]);
     }
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &found));
     vox_suggest_desc desc = vox_default_suggest_desc();
@@ -199,21 +195,14 @@ START_TEST(the_grid_suggests_by_its_engine) {
     ck_assert_double_eq_tol(found.cell_size, given.cell_size, 0.05 * given.cell_size);
 
     ck_fails(vox_grid_suggest_cell_size(NULL, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    vox_mesh unbound = 0;
     vox_mesh_desc no_positions = p.meshes[0];
     no_positions.positions = NULL;
-    ck_ok(vox_mesh_insert(grid, &no_positions, &unbound));
+    insert_mesh(grid, &no_positions);
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_STATE, "no positions");
     vox_grid_destroy(grid);
     free_pair(&p);
 }
 END_TEST
-
-static vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
-}
 
 static double term(const vox_suggestion* s, const char* name) {
     for (uint32_t i = 0; i < s->term_count; ++i)
@@ -225,13 +214,11 @@ static double term(const vox_suggestion* s, const char* name) {
 /* The fast engine does nothing for bodies at rest, and the suggestion knows it from the last step. */
 START_TEST(bodies_at_rest_cost_nothing) {
     pair p = make_pair(0.5f);
-    vox_grid* grid = NULL;
     vox_suggestion moving, resting;
     moving.struct_size = resting.struct_size = sizeof moving;
-    ck_ok(vox_grid_create(NULL, &grid));
+    vox_grid* grid = grid_of(NULL);
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(grid, &p.meshes[b], &mesh));
+        insert_mesh(grid, &p.meshes[b]);
     }
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &moving));
@@ -255,11 +242,10 @@ START_TEST(cut_bodies_are_what_is_left_of_them) {
     pair p = make_pair(0.5f);
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    vox_grid* grid = NULL;
     vox_mesh meshes[2];
     vox_suggestion whole, part;
     whole.struct_size = part.struct_size = sizeof whole;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     for (int b = 0; b < 2; ++b) ck_ok(vox_mesh_insert(grid, &p.meshes[b], &meshes[b]));
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &whole));
     const uint32_t count = p.boxes[0].tet_count;
@@ -313,8 +299,7 @@ START_TEST(several_cell_sizes_where_they_pay) {
     desc.cell_size = found.cell_size;
     ck_ok(vox_grid_create(&desc, &one));
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(several, &meshes[b], &mesh));
+        vox_mesh mesh = insert_mesh(several, &meshes[b]);
         ck_ok(vox_mesh_insert(one, &meshes[b], &mesh));
     }
     ck_ok(vox_grid_step(several));
@@ -363,8 +348,7 @@ START_TEST(an_outlier_does_not_explode_the_grid) {
     ck_ok(vox_grid_create(&desc, &fixed));
     for (int b = 0; b < 2; ++b) {
         p.meshes[b].flags = VOX_MESH_SELF_COLLISION;
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(chosen, &p.meshes[b], &mesh));
+        vox_mesh mesh = insert_mesh(chosen, &p.meshes[b]);
         ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
     }
     ck_ok(vox_grid_step(fixed));
@@ -401,8 +385,7 @@ START_TEST(the_grid_follows_its_bodies) {
     desc.cell_size = 0.7;
     ck_ok(vox_grid_create(&desc, &fixed));
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(grid, &p.meshes[b], &mesh));
+        vox_mesh mesh = insert_mesh(grid, &p.meshes[b]);
         ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
     }
     for (int step = 0; step < 10; ++step) ck_ok(vox_grid_step(grid));
@@ -447,7 +430,7 @@ START_TEST(weights_are_plain_numbers) {
     ck_assert_double_lt(measured.reference_visit_cell, 1e5);
 
     saved = measured;
-    saved.reference_visit_cell *= 8; /* a visit is dear: larger cells */
+    saved.reference_visit_cell *= 8; /* a visit is expensive: larger cells */
     pair p = make_pair(0.5f);
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = VOX_COST_MODEL_REFERENCE;
@@ -560,8 +543,7 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("suggest_models");
-    TCase* tests = tcase_create("suggest_models");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "suggest_models");
     tcase_add_loop_test(tests, a_suggestion_explains_itself, 0, 3);
     tcase_add_loop_test(tests, units_do_not_matter, 0, 3);
     tcase_add_loop_test(tests, self_collision_counts, 0, 3);
@@ -572,10 +554,7 @@ int main(void) {
     tcase_add_loop_test(tests, cut_bodies_are_what_is_left_of_them, 0, 2);
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
-    tcase_add_test(tests, the_grid_follows_its_bodies);
-    tcase_add_test(tests, weights_are_plain_numbers);
-    tcase_add_test(tests, minimum_of_a_function);
-    tcase_add_test(tests, bad_functions_and_bounds);
-    suite_add_tcase(suite, tests);
+    tcase_add_each(tests, the_grid_follows_its_bodies, weights_are_plain_numbers, minimum_of_a_function,
+                   bad_functions_and_bounds);
     return run_suite(suite);
 }

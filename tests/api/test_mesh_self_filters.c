@@ -1,11 +1,11 @@
-/* Filters of self-contact, of vertices and tetrahedra of one mesh, against brute force in exact arithmetic with the
- * filters applied by definition; what they cost. */
+/* Filters of self-contact, of vertices and tetrahedra of one mesh, against brute force in exact arithmetic
+ * with the filters applied by definition; what they cost. */
 #include <math.h>
 
+#include "scenes/random.h"
 #include "support/filter_checks.h"
 #include "support/ledger.h"
 #include "support/oracle.h"
-#include "support/random.h"
 
 /* ---- self-contact, by definition -------------------------------------------------------------- */
 
@@ -43,8 +43,9 @@ static void find_distances(shape* s) {
     }
 }
 
-/* Distance from p to the hull of n points: the least over all faces of the simplex whose closest point, by the normal
- * equations, has weights >= 0. Weight 0 is p's own; degenerate faces are left to their sub-faces. */
+/* Distance from p to the hull of n points: the least over all faces of the simplex whose closest point, by
+ * the normal equations, has weights >= 0. Weight 0 is p's own; degenerate faces are left to their sub-faces.
+ */
 static double simplex_distance(const double p[3], const double points[][3], int n) {
     double best = INFINITY;
     for (int face = 1; face < 1 << n; ++face) {
@@ -101,17 +102,18 @@ static int is_filtered(const shape* s, uint32_t vertex, const uint32_t* tet) {
         p[axis] = (double)s->rest[3 * vertex + axis];
         for (int c = 0; c < 4; ++c) corners[c][axis] = (double)s->rest[3 * tet[c] + axis];
     }
-    return simplex_distance(p, (const double (*)[3])corners, 4) < s->rest_distance;
+    return simplex_distance(p, (const double(*)[3])corners, 4) < s->rest_distance;
 }
 
 /* The contacts that hits amount to without the filtered ones. */
-static size_t filtered_contacts(const shape* shapes, const oracle_contact* hits, size_t count, oracle_contact* out,
-                                uint64_t* dropped) {
+static size_t filtered_contacts(const shape* shapes, const oracle_contact* hits, size_t count,
+                                oracle_contact* out, uint64_t* dropped) {
     size_t kept = 0, left = 0;
     oracle_contact* rest = (oracle_contact*)malloc((count + 1) * sizeof *rest);
     for (size_t i = 0; i < count; ++i) {
         const oracle_contact* h = &hits[i];
-        if (h->mesh_a == h->mesh_b && is_filtered(&shapes[h->mesh_a], h->vertex, shapes[h->mesh_a].tets + 4 * h->tet))
+        if (h->mesh_a == h->mesh_b &&
+            is_filtered(&shapes[h->mesh_a], h->vertex, shapes[h->mesh_a].tets + 4 * h->tet))
             ++*dropped;
         else
             rest[left++] = *h;
@@ -130,8 +132,8 @@ static size_t filtered_contacts(const shape* shapes, const oracle_contact* hits,
     return kept;
 }
 
-/* A box crumpled so that it meets itself; by quarters of its edge when `coarse`, so that vertices fall on faces, edges
- * and corners of tets they are not part of. */
+/* A box crumpled so that it meets itself; by quarters of its edge when `coarse`, so that vertices fall on
+ * faces, edges and corners of tets they are not part of. */
 static shape crumpled(uint32_t n, int coarse, uint64_t* random) {
     body box = make_box(n, 1, 0, 0, 0);
     shape s = {box.positions, NULL, box.tets, box.vertex_count, box.tet_count, 0, 0, NULL};
@@ -164,7 +166,8 @@ START_TEST(self_filters_by_definition) {
             shapes[m] = crumpled(1 + random_below(&random, 3), scene % 2, &random);
             shapes[m].rings = random_below(&random, 4);
             /* Not a distance that a lattice of unit edges has, where rounding would decide. */
-            shapes[m].rest_distance = random_below(&random, 2) ? (double)random_float(&random, 0.01f, 2.5f) : 0;
+            shapes[m].rest_distance =
+                random_below(&random, 2) ? (double)random_float(&random, 0.01f, 2.5f) : 0;
             const shape* s = &shapes[m];
             vox_mesh_desc desc = array_desc(s->positions, s->vertex_count, s->tets, s->tet_count);
             vox_filter filter = vox_default_filter();
@@ -205,12 +208,13 @@ START_TEST(self_filters_by_definition) {
 }
 END_TEST
 
-/* Two tets share the face that a vertex lies on. The lower one is within an edge of the vertex, so with a ring the
- * higher one, which is not, takes its place. */
+/* Two tets share the face that a vertex lies on. The lower one is within an edge of the vertex, so with a
+ * ring the higher one, which is not, takes its place. */
 START_TEST(lowest_tet_that_is_left) {
-    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25f, 0.25f, 1, 0.25f, 0.25f, -1, /* the two tets */
-                               0.25f, 0.25f, 0,                                             /* the vertex */
-                               5, 0, 0, 5, 1, 0};
+    const float positions[] = {0,     0,     0,     1, 0,     0,     0,  1,
+                               0,     0.25f, 0.25f, 1, 0.25f, 0.25f, -1, /* the two tets */
+                               0.25f, 0.25f, 0,                          /* the vertex */
+                               5,     0,     0,     5, 1,     0};
     /* 0: away, joins the vertex to corner 3; 1: above the face, 2: below it */
     const uint32_t tets[] = {5, 6, 7, 3, 0, 1, 2, 3, 0, 1, 2, 4};
     vox_grid* grid = new_grid();
@@ -236,8 +240,8 @@ START_TEST(lowest_tet_that_is_left) {
 }
 END_TEST
 
-/* A body that overlaps itself in the rest pose (two boxes in one mesh) and does not move: no contact at any distance;
- * pressed together further, only what was apart. */
+/* A body that overlaps itself in the rest pose (two boxes in one mesh) and does not move: no contact at any
+ * distance; pressed together further, only what was apart. */
 START_TEST(overlap_in_the_rest_pose) {
     body low = make_box(2, 1, 0, 0, 0), high = make_box(2, 1, 0.25f, 0.25f, 1.75f);
     const uint32_t n = low.vertex_count, m = low.tet_count;
@@ -312,13 +316,10 @@ END_TEST
 /* ---- memory ----------------------------------------------------------------------------------- */
 
 static vox_grid* counted_grid(ledger* l) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    vox_grid* grid = NULL;
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = 0;
     desc.allocator = ledger_allocator(l);
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
+    return grid_of(&desc);
 }
 
 START_TEST(steps_with_filters_allocate_nothing) {
@@ -364,7 +365,8 @@ START_TEST(failing_filters_change_nothing) {
     uint64_t random = 2;
     shape s = crumpled(2, 1, &random);
     body box = make_box(2, 1, 0, 0, 0);
-    const vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count), other = body_desc(&box);
+    const vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count),
+                        other = body_desc(&box);
     vox_grid* grid = counted_grid(&l);
     const vox_mesh mesh = insert(grid, &desc), second = insert(grid, &other);
     const uint64_t count = stepped(grid).count;
@@ -385,7 +387,8 @@ START_TEST(failing_filters_change_nothing) {
     ck_assert_uint_gt(failures, 4);
     const uint64_t filtered = stepped(grid).count;
 
-    /* Nor has a rest pose been taken: here every failing call sees another one, in which all is close to all. */
+    /* Nor has a rest pose been taken: here every failing call sees another one, in which all is close to all.
+     */
     vox_grid* fresh = counted_grid(&fresh_l);
     const size_t bytes = 3 * sizeof(float) * s.vertex_count;
     float* kept = (float*)malloc(bytes);
@@ -419,16 +422,11 @@ START_TEST(failing_filters_change_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, lowest_tet_that_is_left);
-    tcase_add_test(tests, overlap_in_the_rest_pose);
-    tcase_add_test(tests, rest_pose_in_double);
-    tcase_add_test(tests, steps_with_filters_allocate_nothing);
-    tcase_add_test(tests, failing_filters_change_nothing);
+    tcase_add_each(tests, lowest_tet_that_is_left, overlap_in_the_rest_pose, rest_pose_in_double,
+                   steps_with_filters_allocate_nothing, failing_filters_change_nothing);
 }
 
-static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, self_filters_by_definition);
-}
+static void add_long_tests(TCase* tests) { tcase_add_test(tests, self_filters_by_definition); }
 
 int main(void) {
     Suite* suite = suite_create("self filters");

@@ -1,19 +1,8 @@
-/* Penetrations as a whole: arguments, what the flag does, how long views live, and what they do not depend on. */
+/* Penetrations as a whole: arguments, what the flag does, how long views live, and what they do not depend
+ * on. */
 #include <stddef.h>
 
 #include "support/depth_checks.h"
-
-static vox_grid* grid_of(const vox_grid_desc* desc) {
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(desc, &grid));
-    return grid;
-}
-
-static vox_grid_desc engine_desc(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
-    return desc;
-}
 
 /* Bodies that meet in many ways: stacked, crossing, one inside another, coincident, and one with itself. */
 enum { pile_size = 7 };
@@ -170,12 +159,12 @@ START_TEST(no_contacts_no_work) {
     const vox_grid_desc desc = engine_desc();
     vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc a = body_desc(&one), b = body_desc(&other);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     const vox_counters counters = counters_of(grid);
-    ck_assert_uint_eq(counters.contacts + counters.penetrations + counters.leaving_edges + counters.edge_tests, 0);
+    ck_assert_uint_eq(
+        counters.contacts + counters.penetrations + counters.leaving_edges + counters.edge_tests, 0);
     ck_assert_uint_eq(counters.closest_searches + counters.closest_tests, 0);
     vox_grid_destroy(grid);
     free_body(&one);
@@ -186,7 +175,8 @@ END_TEST
 /* ---- what they do not depend on --------------------------------------------------------------- */
 
 /* All penetrations of the pile, copied. The caller frees. */
-static vox_penetration* pile_penetrations(const vox_grid_desc* desc, pile* p, double cell_size, uint64_t* count) {
+static vox_penetration* pile_penetrations(const vox_grid_desc* desc, pile* p, double cell_size,
+                                          uint64_t* count) {
     vox_grid* grid = grid_of(desc);
     insert_pile(grid, p);
     ck_ok(vox_grid_set_cell_size(grid, cell_size));
@@ -208,7 +198,8 @@ START_TEST(every_way_gives_the_same_bits) {
     vox_penetration* expected = pile_penetrations(&plain, &p, 0, &expected_count);
     uint64_t by_state[5] = {0, 0, 0, 0, 0};
     for (uint64_t i = 0; i < expected_count; ++i) ++by_state[expected[i].state];
-    for (int state = 0; state < 5; ++state) ck_assert_msg(by_state[state] > 0, "state %d does not occur", state);
+    for (int state = 0; state < 5; ++state)
+        ck_assert_msg(by_state[state] > 0, "state %d does not occur", state);
 
     for (int engine = VOX_ENGINE_REFERENCE; engine <= VOX_ENGINE_FAST; ++engine)
         for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage)
@@ -217,7 +208,8 @@ START_TEST(every_way_gives_the_same_bits) {
                 desc.engine = (vox_engine)engine;
                 desc.storage = (vox_storage)storage;
                 desc.worker_count = workers;
-                vox_penetration* other = pile_penetrations(&desc, &p, workers == 1 ? 0 : 0.1 * workers, &count);
+                vox_penetration* other =
+                    pile_penetrations(&desc, &p, workers == 1 ? 0 : 0.1 * workers, &count);
                 ck_assert_uint_eq(count, expected_count);
                 ck_assert_mem_eq(other, expected, sizeof *expected * count);
                 free(other);
@@ -247,7 +239,8 @@ START_TEST(every_unit_gives_the_same_answer) {
         free(other);
         free_pile(&p);
     }
-    /* For others coordinates are rounded, which moves vertices off surfaces they lie on: of bodies 1 and 0 none does. */
+    /* For others coordinates are rounded, which moves vertices off surfaces they lie on: of bodies 1 and 0
+     * none does. */
     const float scales[] = {0.001f, 1000, 1e6f};
     for (int k = 0; k < 3; ++k) {
         p = make_pile(scales[k]);
@@ -257,7 +250,8 @@ START_TEST(every_unit_gives_the_same_answer) {
             const vox_penetration* e = &expected[i];
             if (e->mesh_a != p.ids[1] || e->mesh_b != p.ids[0]) continue;
             uint64_t j = 0;
-            while (j < count && (other[j].mesh_a != e->mesh_a || other[j].vertex != e->vertex || other[j].mesh_b != e->mesh_b))
+            while (j < count && (other[j].mesh_a != e->mesh_a || other[j].vertex != e->vertex ||
+                                 other[j].mesh_b != e->mesh_b))
                 ++j;
             ck_assert_uint_lt(j, count);
             ck_assert_int_eq(other[j].state, e->state);
@@ -309,13 +303,15 @@ START_TEST(strides_and_copies) {
         const body* from = &p.bodies[b];
         strided[b] = (float*)malloc(sizeof(float) * 5 * from->vertex_count);
         for (uint32_t v = 0; v < from->vertex_count; ++v)
-            for (int i = 0; i < 5; ++i) strided[b][5 * v + (uint32_t)i] = i < 3 ? from->positions[3 * v + (uint32_t)i] : NAN;
+            for (int i = 0; i < 5; ++i)
+                strided[b][5 * v + (uint32_t)i] = i < 3 ? from->positions[3 * v + (uint32_t)i] : NAN;
         vox_mesh_desc mesh = body_desc(from);
         mesh.positions = b % 2 ? NULL : strided[b]; /* some arrive later */
         mesh.position_byte_stride = 5 * sizeof(float);
         mesh.flags = (b == 4 ? VOX_MESH_SELF_COLLISION : 0u) | (b % 2 ? 0u : VOX_MESH_COPY_POSITIONS);
         ck_ok(vox_mesh_insert(grid, &mesh, &p.ids[b]));
-        if (b % 2) ck_ok(vox_mesh_bind_positions(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
+        if (b % 2)
+            ck_ok(vox_mesh_bind_positions(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
     }
     ck_ok(vox_grid_step(grid));
     const vox_penetration_view view = penetrations_of(grid);
@@ -383,8 +379,7 @@ START_TEST(tiny_double_positions) {
             vox_mesh_desc mesh = body_desc(from);
             mesh.positions = positions[b];
             mesh.position_format = VOX_FORMAT_DOUBLE3;
-            vox_mesh id = 0;
-            ck_ok(vox_mesh_insert(grid, &mesh, &id));
+            insert_mesh(grid, &mesh);
         }
         ck_ok(vox_grid_step(grid));
         const vox_penetration_view view = penetrations_of(grid);
@@ -402,24 +397,15 @@ START_TEST(tiny_double_positions) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, arguments);
-    tcase_add_test(tests, flag);
-    tcase_add_test(tests, older_programs_have_none);
-    tcase_add_test(tests, views_follow_the_grid);
-    tcase_add_test(tests, no_contacts_no_work);
-    tcase_add_test(tests, every_unit_gives_the_same_answer);
-    tcase_add_test(tests, nothing_is_stale);
-    tcase_add_test(tests, strides_and_copies);
-    tcase_add_test(tests, double_positions);
-    tcase_add_test(tests, tiny_double_positions);
+    tcase_add_each(tests, arguments, flag, older_programs_have_none, views_follow_the_grid,
+                   no_contacts_no_work, every_unit_gives_the_same_answer, nothing_is_stale,
+                   strides_and_copies, double_positions, tiny_double_positions);
 }
 
 int main(void) {
     Suite* suite = suite_create("penetrations");
     add_for_each_engine(suite, add_tests);
-    TCase* all = tcase_create("all engines");
-    tcase_set_timeout(all, 0);
+    TCase* all = add_case(suite, "all engines");
     tcase_add_test(all, every_way_gives_the_same_bits);
-    suite_add_tcase(suite, all);
     return run_suite(suite);
 }

@@ -287,18 +287,10 @@ START_TEST(bad_zone_distance) {
 }
 END_TEST
 
-TCase* argument_tests(void) {
-    TCase* tests = tcase_create("arguments");
-    tcase_set_timeout(tests, 0);
+void add_argument_tests(Suite* suite) {
+    TCase* tests = add_case(suite, "arguments");
     tcase_add_test(tests, defaults);
     tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
-    tcase_add_test(tests, bad_enum);
-    tcase_add_test(tests, bad_mesh);
-    tcase_add_test(tests, non_finite_positions);
-    tcase_add_test(tests, nothing_to_measure);
-    tcase_add_test(tests, bad_struct_sizes);
-    tcase_add_test(tests, smaller_structs);
-    tcase_add_test(tests, larger_structs);
-    tcase_add_test(tests, bad_zone_distance);
-    return tests;
+    tcase_add_each(tests, bad_enum, bad_mesh, non_finite_positions, nothing_to_measure, bad_struct_sizes,
+                   smaller_structs, larger_structs, bad_zone_distance);
 }

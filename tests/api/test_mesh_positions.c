@@ -113,8 +113,7 @@ START_TEST(mapped_positions) {
         ck_assert_uint_eq(hash_of_step(copy), moved);
         vox_mesh_desc desc = solid_desc(&a);
         desc.positions = NULL;
-        vox_mesh mesh = 0;
-        ck_ok(vox_mesh_insert(late, &desc, &mesh));
+        vox_mesh mesh = insert_mesh(late, &desc);
         ck_fails(vox_grid_step(late), VOX_ERROR_INVALID_STATE, "no positions");
         ck_ok(vox_mesh_map_positions(late, mesh, &mapped, &stride));
         for (size_t i = 0; i < size * a.vertex_count; ++i) ck_assert_int_eq(((char*)mapped)[i], 0);
@@ -150,10 +149,7 @@ START_TEST(mapped_positions_of_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, bound_in_another_format);
-    tcase_add_test(tests, refused);
-    tcase_add_test(tests, mapped_positions);
-    tcase_add_test(tests, mapped_positions_of_nothing);
+    tcase_add_each(tests, bound_in_another_format, refused, mapped_positions, mapped_positions_of_nothing);
 }
 
 int main(void) {

@@ -1,8 +1,8 @@
 /* A transform a step in place of new positions, exact in its result; and bodies without tetrahedra: points
  * and surfaces that sense or cut others. */
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/random.h"
 #include "support/oracle.h"
-#include "support/random.h"
 #include "support/suite.h"
 
 #include <math.h>
@@ -10,27 +10,14 @@
 
 static uint64_t state = 1;
 
-static double random_double(double min, double max) {
-    return min + (max - min) * ((double)(random_next(&state) >> 11) * 0x1p-53);
-}
-
-static vox_grid* new_grid(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
-}
+static double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
 static vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) {
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, desc);
 }
 
 static uint64_t count_of(vox_grid* grid) {
-    vox_contact_view view;
-    ck_ok(vox_grid_contacts(grid, &view));
+    vox_contact_view view = contacts_of(grid);
     return view.count;
 }
 
@@ -84,7 +71,7 @@ START_TEST(exact_in_its_result) {
         }
         memcpy(moved, wide, 3 * sizeof(double) * n);
         for (uint32_t i = 0; i < 3 * soft.vertex_count; ++i) soft_wide[i] = (double)soft.positions[i];
-        vox_grid *grid = new_grid(), *plain = new_grid();
+        vox_grid *grid = engine_grid(), *plain = engine_grid();
         vox_mesh_desc a = body_desc(&tool), b = body_desc(&soft), c = body_desc(&tool);
         if (doubles) {
             a.positions = wide;
@@ -108,8 +95,7 @@ START_TEST(exact_in_its_result) {
                                              {soft_wide, soft.tets, soft.vertex_count, soft.tet_count, 0}};
             oracle_contact* expected = NULL;
             const size_t count = oracle_contacts_d(meshes, 2, &expected);
-            vox_contact_view view;
-            ck_ok(vox_grid_contacts(grid, &view));
+            vox_contact_view view = contacts_of(grid);
             ck_assert_uint_eq(view.count, count);
             for (size_t i = 0; i < count; ++i) {
                 ck_assert_uint_eq(view.data[i].vertex, expected[i].vertex);
@@ -136,7 +122,7 @@ START_TEST(identity_null_and_other_positions) {
     body a = make_box(3, 0.5f, 0.1f, 0.2f, 0), b = make_box(3, 0.5f, 0, 0, 0),
          c = make_box(3, 0.5f, -7.8f, 0.3f, 0);
     vox_mesh_desc first = body_desc(&a), second = body_desc(&b);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh mesh = insert(grid, &first);
     (void)insert(grid, &second);
     const uint64_t hash = hash_of_step(grid);
@@ -170,7 +156,7 @@ END_TEST
 
 START_TEST(what_does_not_fit) {
     double m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
     const vox_mesh mesh = insert(grid, &desc);
     static const double bad[] = {NAN, INFINITY, -INFINITY};
@@ -218,7 +204,7 @@ START_TEST(over_mapped_positions) {
     static const double aside[12] = {1, 0, 0, 100, 0, 1, 0, 0, 0, 0, 1, 0};
     body a = make_box(2, 0.5f, -100, 0.1f, 0), b = make_box(2, 0.5f, 0.1f, 0, 0);
     vox_mesh_desc first = body_desc(&a), second = body_desc(&b);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh mesh = insert(grid, &first);
     (void)insert(grid, &second);
     void* mapped = NULL;
@@ -259,7 +245,7 @@ START_TEST(cloth_falls_through_a_body) {
     const uint32_t n = 9;
     body box = make_box(4, 0.25f, 0, 0, 0);
     float* cloth = make_cloth(n, 2);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     vox_mesh_desc points = array_desc(cloth, n * n, NULL, 0), solid = body_desc(&box);
     points.flags = VOX_MESH_SELF_COLLISION; /* nothing to collide with */
     const vox_mesh sheet = insert(grid, &points);
@@ -269,8 +255,7 @@ START_TEST(cloth_falls_through_a_body) {
         const float z = 2 - 0.125f * (float)step;
         for (uint32_t v = 0; v < n * n; ++v) cloth[3 * v + 2] = z;
         (void)hash_of_step(grid);
-        vox_contact_view view;
-        ck_ok(vox_grid_contacts(grid, &view));
+        vox_contact_view view = contacts_of(grid);
         if (z < 0 || z > 1) {
             ck_assert_uint_eq(view.count, 0);
             continue;
@@ -302,7 +287,7 @@ END_TEST
 START_TEST(sensors_on_a_tool) {
     body box = make_box(2, 0.5f, 0, 0, 0);
     const double tip[9] = {0, 0, 0, 0, 0, 0.5, 0, 0, 5};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     vox_mesh_desc solid = body_desc(&box), points = vox_default_mesh_desc();
     points.positions = tip;
     points.position_format = VOX_FORMAT_DOUBLE3;
@@ -324,7 +309,7 @@ END_TEST
 /* Points and points, and nothing else: no contacts, and the library chooses some cell size all the same. */
 START_TEST(points_alone) {
     float* cloth = make_cloth(5, 0);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     vox_mesh_desc points = array_desc(cloth, 25, NULL, 0);
     points.flags = VOX_MESH_SELF_COLLISION;
     (void)insert(grid, &points);
@@ -337,13 +322,8 @@ START_TEST(points_alone) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, exact_in_its_result);
-    tcase_add_test(tests, identity_null_and_other_positions);
-    tcase_add_test(tests, what_does_not_fit);
-    tcase_add_test(tests, over_mapped_positions);
-    tcase_add_test(tests, cloth_falls_through_a_body);
-    tcase_add_test(tests, sensors_on_a_tool);
-    tcase_add_test(tests, points_alone);
+    tcase_add_each(tests, exact_in_its_result, identity_null_and_other_positions, what_does_not_fit,
+                   over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
 }
 
 int main(void) {

@@ -12,12 +12,11 @@ static const float one_point[3] = {0.5f, 0.75f, 0.5f};
 
 START_TEST(no_surface) {
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
-    vox_mesh closed, point;
     vox_mesh_desc desc = array_desc(closed_positions, 5, closed_tets, 5);
-    ck_ok(vox_mesh_insert(grid, &desc, &closed));
+    insert_mesh(grid, &desc);
     desc = array_desc(one_point, 1, NULL, 0);
     desc.user_data = 7;
-    ck_ok(vox_mesh_insert(grid, &desc, &point));
+    insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_prepare_readings(grid));
     vox_reading_view view;
@@ -47,9 +46,8 @@ START_TEST(after_removal) {
             ck_ok(vox_mesh_remove(w.grid, w.models[gone].mesh));
             if (!prepared) ck_ok(vox_grid_prepare_readings(w.grid));
             vox_reading_view readings;
-            vox_contact_view contacts;
             ck_ok(vox_grid_readings(w.grid, &readings));
-            ck_ok(vox_grid_contacts(w.grid, &contacts));
+            vox_contact_view contacts = contacts_of(w.grid);
             ck_assert_uint_ge(readings.count, 4);
             uint64_t of_gone = 0, of_other = 0;
             for (uint64_t i = 0; i < readings.count; ++i) {
@@ -98,15 +96,14 @@ START_TEST(after_cuts_of_some) {
     memcpy(tets + 8, probe, sizeof probe);
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
     vox_mesh_desc desc = array_desc(positions, self ? 12 : 8, tets, self ? 3 : 2);
-    vox_mesh mesh = 0, second = 0;
+    vox_mesh second = 0;
     if (self) desc.flags = VOX_MESH_SELF_COLLISION;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &desc);
     desc = array_desc(positions + 24, 1, NULL, 0);
     if (!self) ck_ok(vox_mesh_insert(grid, &desc, &second));
     ck_ok(vox_grid_step(grid));
-    vox_contact_view contacts;
     vox_reading_view readings;
-    ck_ok(vox_grid_contacts(grid, &contacts));
+    vox_contact_view contacts = contacts_of(grid);
     uint64_t at = 0; /* the contacts of the probe */
     while (at < contacts.count && contacts.data[at].vertex != (self ? 8u : 0u)) ++at;
     if (!self)
@@ -152,10 +149,9 @@ START_TEST(copies) {
         world w = random_world(&random, 0);
         ck_ok(vox_grid_step(w.grid));
         ck_ok(vox_grid_prepare_readings(w.grid));
-        vox_contact_view contacts;
         vox_reading_view readings;
         vox_pair_view pairs;
-        ck_ok(vox_grid_contacts(w.grid, &contacts));
+        vox_contact_view contacts = contacts_of(w.grid);
         ck_ok(vox_grid_readings(w.grid, &readings));
         ck_ok(vox_grid_pairs(w.grid, &pairs));
         const size_t room = (size_t)contacts.count + 1;
@@ -317,8 +313,7 @@ START_TEST(memory) {
     vox_grid_destroy(w.grid);
     uint64_t failures = 0;
     for (int done = 0; !done;) {
-        vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = suite_engine;
+        vox_grid_desc desc = engine_desc();
         desc.flags = 0; /* so that the surfaces are made here, too */
         desc.worker_count = 3;
         desc.allocator = ledger_allocator(&l);
@@ -366,8 +361,7 @@ START_TEST(budget) {
     ck_ok(vox_grid_counters(w.grid, &counters));
     ck_assert_uint_gt(counters.peak_bytes, without);
     vox_grid_destroy(w.grid);
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = 0;
     desc.byte_budget = counters.peak_bytes;
     ck_ok(vox_grid_create(&desc, &w.grid));
@@ -380,8 +374,7 @@ START_TEST(budget) {
     insert(&w, w.grid);
     ck_ok(vox_grid_step(w.grid));
     ck_fails(vox_grid_prepare_readings(w.grid), VOX_ERROR_BUDGET, "byte");
-    vox_contact_view view;
-    ck_ok(vox_grid_contacts(w.grid, &view));
+    vox_contact_view view = contacts_of(w.grid);
     ck_assert_uint_gt(view.count, 0);
     end_world(&w);
 }
@@ -408,19 +401,16 @@ static void finish_nothing(void* handle, void* user) {
 START_TEST(task_systems) {
     enum { n = 8 };
     body bodies[n];
-    vox_grid* grid = NULL;
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    vox_grid_desc desc = engine_desc();
     desc.flags = 0;
     desc.worker_count = 2;
     desc.tasks.enqueue = run_in_two;
     desc.tasks.finish = finish_nothing;
-    ck_ok(vox_grid_create(&desc, &grid));
+    vox_grid* grid = grid_of(&desc);
     for (int b = 0; b < n; ++b) {
-        vox_mesh mesh;
         bodies[b] = make_box(4, 1, 3.2f * (float)(b % 2), 3.3f * (float)(b / 2 % 2), 3.4f * (float)(b / 4));
         const vox_mesh_desc body = body_desc(&bodies[b]);
-        ck_ok(vox_mesh_insert(grid, &body, &mesh));
+        insert_mesh(grid, &body);
     }
     vox_reading_view view;
     loses_items = 0;
@@ -444,16 +434,10 @@ START_TEST(task_systems) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, no_surface);
-    tcase_add_test(tests, after_removal);
+    tcase_add_each(tests, no_surface, after_removal);
     tcase_add_loop_test(tests, after_cuts_of_some, 0, 4);
-    tcase_add_test(tests, without_penetrations);
-    tcase_add_test(tests, copies);
-    tcase_add_test(tests, bad_arguments);
-    tcase_add_test(tests, changed_positions);
-    tcase_add_test(tests, memory);
-    tcase_add_test(tests, budget);
-    tcase_add_test(tests, task_systems);
+    tcase_add_each(tests, without_penetrations, copies, bad_arguments, changed_positions, memory, budget,
+                   task_systems);
 }
 
 int main(void) {

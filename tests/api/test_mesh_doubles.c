@@ -1,9 +1,11 @@
-/* Double positions: exact for the doubles given, in every range of them, mixed with floats; and what does not fit. */
+/* Double positions: exact for the doubles given, in every range of them, mixed with floats; and what does not
+ * fit. */
 #include "support/solids_of_doubles.h"
 
 #include <stdio.h>
 
-/* ---- against brute force --------------------------------------------------------------------------------- */
+/* ---- against brute force ---------------------------------------------------------------------------------
+ */
 
 START_TEST(exact_for_the_doubles_given) {
     state = 1;
@@ -24,8 +26,7 @@ START_TEST(exact_for_the_doubles_given) {
             }
             ck_ok(vox_grid_step(grid));
             contacts += check_contacts(grid, solids, count, ids, 1);
-            vox_counters counters = {.struct_size = sizeof counters};
-            ck_ok(vox_grid_counters(grid, &counters));
+            vox_counters counters = counters_of(grid);
             exact_tests += counters.exact_tests;
             vox_grid_destroy(grid);
             for (uint32_t m = 0; m < count; ++m) free_solid(&solids[m]);
@@ -77,8 +78,7 @@ START_TEST(less_than_a_float_apart) {
     b.vertex_count = 4;
     b.tets = unit_tet;
     b.tet_count = 1;
-    vox_mesh mesh;
-    ck_ok(vox_mesh_insert(grid, &a, &mesh));
+    vox_mesh mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     for (int round = 0; round < 3; ++round) { /* each is a move that no float shows */
         point[2] = nextafter(at, 0);
@@ -99,7 +99,8 @@ START_TEST(less_than_a_float_apart) {
 }
 END_TEST
 
-/* ---- against floats ------------------------------------------------------------------------------------- */
+/* ---- against floats -------------------------------------------------------------------------------------
+ */
 
 START_TEST(doubles_of_floats_are_those_floats) {
     state = 3;
@@ -191,7 +192,8 @@ START_TEST(engines_agree_on_large_bodies) {
 }
 END_TEST
 
-/* ---- what does not fit ----------------------------------------------------------------------------------- */
+/* ---- what does not fit -----------------------------------------------------------------------------------
+ */
 
 START_TEST(limits) {
     static const double refused[] = {1e300, -1e39, 0x1.ffffffp127, INFINITY, -INFINITY, NAN};
@@ -240,7 +242,8 @@ START_TEST(limits) {
 }
 END_TEST
 
-/* ---- the steady state, and the cell size ------------------------------------------------------------------ */
+/* ---- the steady state, and the cell size ------------------------------------------------------------------
+ */
 
 START_TEST(steady_state_holds_the_same_memory) {
     solid a = make_solid(6), b = make_solid(6);
@@ -290,28 +293,22 @@ START_TEST(suggested_cell_size) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, floats_and_doubles_in_one_grid);
-    tcase_add_test(tests, less_than_a_float_apart);
-    tcase_add_test(tests, limits);
-    tcase_add_test(tests, steady_state_holds_the_same_memory);
+    tcase_add_each(tests, floats_and_doubles_in_one_grid, less_than_a_float_apart, limits,
+                   steady_state_holds_the_same_memory);
 }
 
 static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, exact_for_the_doubles_given);
-    tcase_add_test(tests, doubles_of_floats_are_those_floats);
-    tcase_add_test(tests, self_contact_of_large_bodies);
+    tcase_add_each(tests, exact_for_the_doubles_given, doubles_of_floats_are_those_floats,
+                   self_contact_of_large_bodies);
 }
 
 int main(void) {
     Suite* suite = suite_create("doubles");
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    TCase* others = tcase_create("both engines, or none");
-    tcase_set_timeout(others, 0);
+    TCase* others = add_case(suite, "both engines, or none");
     tcase_add_test(others, suggested_cell_size);
-    suite_add_tcase(suite, others);
-    TCase* long_tests = tagged_tests("long");
+    TCase* long_tests = add_tagged_case(suite, "long", "long");
     tcase_add_test(long_tests, engines_agree_on_large_bodies);
-    suite_add_tcase(suite, long_tests);
     return run_suite(suite);
 }

@@ -101,7 +101,8 @@ static const defect defects[] = {
     {"CUTS", 0, 16, 8, 1u << 2, VOX_ERROR_FORMAT, "mesh 1: tet 2 is removed, but not off"},
     {"CUTS", 0, 24, 8, 1u << 26, VOX_ERROR_FORMAT, "names vertex 26, which was removed"},
     {"CUTS", 0, 24, 8, 1u << 27, VOX_ERROR_FORMAT, "vertices that are removed past the last one, number 27"},
-    {"CUTS", 0, -8, 8, 24, VOX_ERROR_FORMAT, "1 vertices that are removed of 8 bytes each, it has 0 more bytes"},
+    {"CUTS", 0, -8, 8, 24, VOX_ERROR_FORMAT,
+     "1 vertices that are removed of 8 bytes each, it has 0 more bytes"},
     {"CUTS", 0, -8, 8, 40, VOX_ERROR_FORMAT, "40 bytes, expected 32"},
     {"FILT", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
     {"FILT", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
@@ -207,7 +208,7 @@ START_TEST(every_word_turned_hostile) {
             vox_grid* grid = NULL;
             desc.allocator = ledger_allocator(&l);
             put(f.bytes + at, 4, values[v]);
-            if (at >= 16 && at < 24) { /* the size, which seal() would mend */
+            if (at >= 16 && at < 24) { /* the size, which seal() would correct */
                 if (values[v] != old) refused(f, VOX_ERROR_FORMAT, "snapshot: ");
                 continue;
             }
@@ -240,21 +241,16 @@ START_TEST(every_word_turned_hostile) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, cut_off_and_damaged);
-    tcase_add_test(tests, missing_and_additional_chunks);
+    tcase_add_each(tests, cut_off_and_damaged, missing_and_additional_chunks);
 }
 
-static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, every_word_turned_hostile);
-}
+static void add_long_tests(TCase* tests) { tcase_add_test(tests, every_word_turned_hostile); }
 
 int main(void) {
     Suite* suite = suite_create("hostile snapshots");
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    TCase* hostile = tcase_create("hostile");
-    tcase_set_timeout(hostile, 0);
+    TCase* hostile = add_case(suite, "hostile");
     tcase_add_loop_test(hostile, hostile_numbers, 0, (int)(sizeof defects / sizeof *defects));
-    suite_add_tcase(suite, hostile);
     return run_suite(suite);
 }

@@ -3,28 +3,16 @@
 
 static const vector up = {0, 0, 1}, down = {0, 0, -1};
 
-static vox_grid* new_grid(void) {
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
-    vox_grid* grid = NULL;
-    ck_ok(vox_grid_create(&desc, &grid));
-    return grid;
-}
-
 static vox_mesh insert(vox_grid* grid, const body* b, uint32_t flags) {
     vox_mesh_desc desc = body_desc(b);
     desc.flags = flags;
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 static vox_mesh insert_arrays(vox_grid* grid, const float* positions, uint64_t vertices, const uint32_t* tets,
                               uint64_t tet_count) {
     const vox_mesh_desc desc = array_desc(positions, vertices, tets, tet_count);
-    vox_mesh mesh = 0;
-    ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    return insert_mesh(grid, &desc);
 }
 
 static void step(vox_grid* grid) {
@@ -40,8 +28,8 @@ static void expect(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b
     ck_assert_msg(p->state == state, "vertex %u: state %d, expected %d", vertex, (int)p->state, (int)state);
     ck_assert_msg(fabs((double)p->depth - depth) < 1e-6, "vertex %u: depth %.9g, expected %.9g", vertex,
                   (double)p->depth, depth);
-    ck_assert_msg(degrees_between(direction_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)", vertex,
-                  (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+    ck_assert_msg(degrees_between(direction_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                  vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
 }
 
 /* A tetrahedron that pokes its vertex 0 into the top of the unit box, by `depth`. */
@@ -57,7 +45,7 @@ START_TEST(one_vertex_in_a_box) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     float positions[12];
     for (int i = 1; i < 20; ++i) {
-        vox_grid* grid = new_grid();
+        vox_grid* grid = engine_grid();
         make_poke(positions, (float)i * 0.01f);
         const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
         step(grid);
@@ -76,7 +64,7 @@ END_TEST
 START_TEST(waves_reach_deep_vertices) {
     /* A narrow block sunk into a wide one: its sides lead through the top face only. */
     body wide = make_box(8, 0.25f, 0, 0, 0), narrow = make_box(6, 0.125f, 0.6f, 0.65f, 1.45f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &wide, 0), a = insert(grid, &narrow, 0);
     step(grid);
     uint32_t surface = 0, propagated = 0;
@@ -100,7 +88,7 @@ START_TEST(the_faces_of_a_box_stay_flat) {
     /* Near an edge, too: normals are not smoothed over it. */
     body box = make_box(3, 1.0f / 3, 0, 0, 0);
     float positions[12] = {0.9f, 0.5f, 0.97f, 0.85f, 0.45f, 1.1f, 0.95f, 0.45f, 1.1f, 0.9f, 0.55f, 1.1f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
@@ -114,7 +102,7 @@ END_TEST
 START_TEST(body_inside_a_body) {
     body outer_box = make_box(6, 0.25f, 0, 0, 0), inner_box = make_box(3, 0.0625f, 0.3f, 0.55f, 0.9f);
     const surface s = surface_of(outer_box.tets, outer_box.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &outer_box, 0), a = insert(grid, &inner_box, 0);
     step(grid);
     ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), inner_box.vertex_count);
@@ -122,7 +110,8 @@ START_TEST(body_inside_a_body) {
     ck_assert_uint_eq(counters_of(grid).closest_searches, inner_box.vertex_count);
     ck_assert_uint_eq(counters_of(grid).leaving_edges, 0);
     for (uint32_t v = 0; v < inner_box.vertex_count; ++v)
-        check_closest(penetration_of(grid, a, v, b), place(inner_box.positions, v), s, outer_box.positions, 1);
+        check_closest(penetration_of(grid, a, v, b), place(inner_box.positions, v), s, outer_box.positions,
+                      1);
     vox_grid_destroy(grid);
     free(s.triangles);
     free_body(&outer_box);
@@ -133,7 +122,7 @@ END_TEST
 START_TEST(points_without_edges) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     const float points[6] = {0.5f, 0.5f, 0.9f, 0.1f, 0.4f, 0.5f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, points, 2, NULL, 0);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_ENCLOSED, 1 - (double)points[2], up);
@@ -145,7 +134,8 @@ END_TEST
 
 /* ---- crossing ---- */
 
-/* A plate of 8 x 8 x 1 cubes of edge 1/8, and a tetrahedron whose vertex 0 is in it and whose edges leave on both sides. */
+/* A plate of 8 x 8 x 1 cubes of edge 1/8, and a tetrahedron whose vertex 0 is in it and whose edges leave on
+ * both sides. */
 static body make_plate(void) {
     body plate = make_box(8, 0.125f, 0, 0, 0);
     for (uint32_t v = 0; v < plate.vertex_count; ++v) plate.positions[3 * v + 2] *= 0.125f;
@@ -156,10 +146,10 @@ START_TEST(edges_leave_on_opposite_sides) {
     body plate = make_plate();
     const surface s = surface_of(plate.tets, plate.tet_count);
     /* Two above and two below, as far away: a pair of tetrahedra over a common edge. */
-    const float positions[18] = {0.5f, 0.5f, 0.0625f, 0.6f, 0.5f, 0.3625f, 0.4f, 0.5f, 0.3625f,
+    const float positions[18] = {0.5f, 0.5f, 0.0625f,  0.6f, 0.5f, 0.3625f,  0.4f, 0.5f, 0.3625f,
                                  0.5f, 0.6f, -0.2375f, 0.5f, 0.4f, -0.2375f, 0.5f, 0.5f, 0.9f};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &plate, 0), a = insert_arrays(grid, positions, 5, tets, 2);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -181,8 +171,9 @@ START_TEST(crossing_bars) {
         p[0] += 0.01f, p[1] *= 0.3f, p[2] = 0.3f * p[2] + 0.01f;
         q[0] *= 0.3f, q[1] = 0.7f * q[1] + 0.02f, q[2] *= 0.3f;
     }
-    const surface of_x = surface_of(x_bar.tets, x_bar.tet_count), of_y = surface_of(y_bar.tets, y_bar.tet_count);
-    vox_grid* grid = new_grid();
+    const surface of_x = surface_of(x_bar.tets, x_bar.tet_count),
+                  of_y = surface_of(y_bar.tets, y_bar.tet_count);
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -193,7 +184,8 @@ START_TEST(crossing_bars) {
         ck_assert_float_lt(p->depth, 0.5f); /* half of a bar's width, and a bit */
         if (p->state == VOX_PENETRATION_CROSSING)
             check_closest(p, place(p->mesh_a == a ? x_bar.positions : y_bar.positions, p->vertex),
-                          p->mesh_a == a ? of_y : of_x, p->mesh_a == a ? y_bar.positions : x_bar.positions, 1);
+                          p->mesh_a == a ? of_y : of_x, p->mesh_a == a ? y_bar.positions : x_bar.positions,
+                          1);
     }
     ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 0);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_PROPAGATED], 0);
@@ -208,14 +200,15 @@ START_TEST(crossing_bars) {
 }
 END_TEST
 
-/* Vertex 0 of a small tetrahedron is in the lower of three that share the facet (0, 1, 2); the way up leads through it. */
+/* Vertex 0 of a small tetrahedron is in the lower of three that share the facet (0, 1, 2); the way up leads
+ * through it. */
 START_TEST(no_way_through_a_facet_of_three) {
     const float solid[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3f, 0.3f, -1, 0.3f, 0.3f, 1, 0.4f, 0.2f, 0.5f};
     const uint32_t tets[12] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
     const float poke[12] = {0.3f, 0.3f, -0.05f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
     const surface s = surface_of(tets, 3);
     ck_assert_uint_eq(s.count, 9);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, solid, 6, tets, 3), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -232,7 +225,7 @@ START_TEST(no_surface_at_all) {
     const float solid[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.25f, 0.25f, 0.25f};
     const uint32_t tets[20] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 3, 4, 0, 2, 3, 4, 1, 2, 3, 4};
     const float poke[12] = {0.3f, 0.3f, 0.3f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, solid, 5, tets, 5), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
@@ -248,7 +241,7 @@ END_TEST
 START_TEST(coincident_bodies) {
     body one = make_box(4, 0.25f, 0, 0, 0), other = make_box(4, 0.25f, 0, 0, 0);
     const surface s = surface_of(one.tets, one.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &one, 0), b = insert(grid, &other, 0);
     step(grid);
     ck_assert_uint_eq(penetrations_of(grid).count, 2 * one.vertex_count);
@@ -259,7 +252,8 @@ START_TEST(coincident_bodies) {
         ck_assert_int_eq(p->state, inside ? VOX_PENETRATION_ENCLOSED : VOX_PENETRATION_COINCIDENT);
         check_closest(p, at, s, other.positions, 1);
         const vector from_middle = {at.x - 0.5, at.y - 0.5, at.z - 0.5};
-        if (!inside) ck_assert(inner(direction_of(p), from_middle) > 0.49); /* the normal of a face it is on */
+        if (!inside)
+            ck_assert(inner(direction_of(p), from_middle) > 0.49); /* the normal of a face it is on */
     }
     vox_grid_destroy(grid);
     free(s.triangles);
@@ -270,9 +264,9 @@ END_TEST
 
 START_TEST(stacked_boxes_touch) {
     /* Vertices on faces, edges and corners of tetrahedra, all on the plane between two boxes. */
-    body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1), aligned = make_box(4, 0.25f, 3, 0, 1),
-         under = make_box(4, 0.25f, 3, 0, 0);
-    vox_grid* grid = new_grid();
+    body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1),
+         aligned = make_box(4, 0.25f, 3, 0, 1), under = make_box(4, 0.25f, 3, 0, 0);
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
                    d = insert(grid, &under, 0);
     step(grid);
@@ -282,7 +276,7 @@ START_TEST(stacked_boxes_touch) {
         const vox_penetration* p = penetration_at(view, i);
         ck_assert_int_eq(p->state, VOX_PENETRATION_COINCIDENT);
         const vector out = p->mesh_a == a || p->mesh_a == d ? down : up; /* up: out of the lower one */
-        const int on_edge = p->mesh_a == c || p->mesh_a == d;            /* where it may be another face's normal */
+        const int on_edge = p->mesh_a == c || p->mesh_a == d; /* where it may be another face's normal */
         if (!on_edge) ck_assert(degrees_between(direction_of(p), out) < 0.01);
     }
     for (uint32_t v = 0; v < aligned.vertex_count; ++v) {
@@ -300,9 +294,10 @@ START_TEST(stacked_boxes_touch) {
 END_TEST
 
 START_TEST(lattices_that_coincide) {
-    /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them. */
+    /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them.
+     */
     body lower = make_box(8, 0.125f, 0, 0, 0), upper = make_box(4, 0.125f, 0.25f, 0.25f, 0.75f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
@@ -320,7 +315,8 @@ START_TEST(lattices_that_coincide) {
 END_TEST
 
 START_TEST(on_the_surface_of_a_part_and_inside_another) {
-    /* Two boxes of one mesh that overlap; the point is on the top of the lower one. Its only contact is inside the other. */
+    /* Two boxes of one mesh that overlap; the point is on the top of the lower one. Its only contact is
+     * inside the other. */
     body low = make_box(2, 0.5f, 0, 0, 0), high = make_box(2, 0.5f, 0.1f, 0.2f, 0.3f);
     float positions[3 * 54];
     uint32_t tets[4 * 80];
@@ -328,8 +324,9 @@ START_TEST(on_the_surface_of_a_part_and_inside_another) {
     memcpy(positions + 3 * 27, high.positions, sizeof positions / 2);
     for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
     const float point[3] = {0.55f, 0.6f, 1};
-    vox_grid* grid = new_grid();
-    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80), a = insert_arrays(grid, point, 1, NULL, 0);
+    vox_grid* grid = engine_grid();
+    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80),
+                   a = insert_arrays(grid, point, 1, NULL, 0);
     step(grid);
     ck_assert_uint_eq(counters_of(grid).contacts, 1);
     expect(grid, a, 0, b, VOX_PENETRATION_COINCIDENT, 0, up);
@@ -352,11 +349,11 @@ static void swap_corners(body* b, uint32_t from, uint32_t every) {
 START_TEST(winding_does_not_matter) {
     body plain = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.1f, 0.15f, 1.3f);
     body wound = make_box(6, 0.25f, 0, 0, 0);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &plain, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t every = 1; every <= 3; ++every) { /* all of them, and mixed */
-        vox_grid* again = new_grid();
+        vox_grid* again = engine_grid();
         swap_corners(&wound, 0, every);
         ck_assert_uint_eq(insert(again, &wound, 0), b);
         ck_assert_uint_eq(insert(again, &upper, 0), a);
@@ -385,7 +382,7 @@ START_TEST(doubled_tets) {
     memcpy(twice + 4 * box.tet_count, box.tets, 4 * sizeof(uint32_t) * box.tet_count);
     float positions[12];
     make_poke(positions, 0.3f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, twice, 2 * box.tet_count),
                    a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
@@ -407,7 +404,7 @@ START_TEST(flat_tets_on_the_surface) {
         const uint32_t flat[8] = {v, v + 1, v + 5, v + 6, v, v + 1, v + 1, v + 7};
         memcpy(tets + 4 * (n + 2 * i), flat, sizeof flat);
     }
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, tets, n + 8);
     body upper = make_box(6, 0.125f, 0.12f, 0.11f, 0.93f);
     const vox_mesh a = insert(grid, &upper, 0);
@@ -426,16 +423,14 @@ START_TEST(flat_tets_on_the_surface) {
 END_TEST
 
 START_TEST(inverted_tets) {
-    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, and what claims to be the
-     * closest point is. */
+    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, and what claims to
+     * be the closest point is. */
     body box = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.13f, 0.17f, 0.9f);
     uint32_t random = 1;
-    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i) {
-        random = random * 1664525u + 1013904223u;
-        box.positions[i] += ((float)(random >> 8) / 16777216.0f - 0.5f) * 0.5f;
-    }
+    for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
+        box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
     const surface s = surface_of(box.tets, box.tet_count), t = surface_of(upper.tets, upper.tet_count);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &box, VOX_MESH_SELF_COLLISION), a = insert(grid, &upper, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -465,9 +460,9 @@ END_TEST
 
 enum { fold_cells = 96 };
 
-/* A bar with a cross-section of 1 x 1 in 4 x 4 cubes: along x for 8 units, round a half circle upwards and back, and a bit
- * further. The way back sinks by 0.24 a unit, so that the ends overlap. Sheared a little in y, so that the sides of the two
- * arms do not coincide. */
+/* A bar with a cross-section of 1 x 1 in 4 x 4 cubes: along x for 8 units, round a half circle upwards and
+ * back, and a bit further. The way back sinks by 0.24 a unit, so that the ends overlap. Sheared a little in
+ * y, so that the sides of the two arms do not coincide. */
 static body make_fold(void) {
     body bar = {NULL, NULL, (fold_cells + 1) * 25, fold_cells * 16 * 6};
     bar.positions = (float*)malloc(3 * sizeof(float) * bar.vertex_count);
@@ -494,7 +489,8 @@ static body make_fold(void) {
         for (uint32_t j = 0; j < 4; ++j)
             for (uint32_t k = 0; k < 4; ++k)
                 for (int o = 0; o < 6; ++o, ++t) {
-                    const uint32_t v = i * 25 + j * 5 + k, w = v + stride[order[o][0]], x = w + stride[order[o][1]];
+                    const uint32_t v = i * 25 + j * 5 + k, w = v + stride[order[o][0]],
+                                   x = w + stride[order[o][1]];
                     const uint32_t tet[4] = {v, w, x, v + 31};
                     memcpy(bar.tets + 4 * t, tet, sizeof tet);
                 }
@@ -503,7 +499,7 @@ static body make_fold(void) {
 
 START_TEST(self_fold) {
     body bar = make_fold();
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh a = insert(grid, &bar, VOX_MESH_SELF_COLLISION);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -525,8 +521,8 @@ START_TEST(self_fold) {
         ck_assert_int_eq(p->state, VOX_PENETRATION_SURFACE);
         ck_assert_msg(fabs((double)p->depth - depth) < 1e-5, "vertex %u: depth %g, not %g", p->vertex,
                       (double)p->depth, depth);
-        ck_assert_msg(degrees_between(direction_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)", p->vertex,
-                      (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+        ck_assert_msg(degrees_between(direction_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                      p->vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
     }
     ck_assert_uint_gt(in_middle, 5);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 20);
@@ -540,7 +536,7 @@ START_TEST(one_vertex_in_two_bodies) {
     body low = make_box(4, 0.25f, 0, 0, 0), wide = make_box(4, 0.5f, -0.5f, -0.5f, -1.05f);
     float positions[12];
     make_poke(positions, 0.2f);
-    vox_grid* grid = new_grid();
+    vox_grid* grid = engine_grid();
     const vox_mesh b = insert(grid, &low, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1),
                    c = insert(grid, &wide, 0);
     step(grid);
@@ -553,29 +549,15 @@ START_TEST(one_vertex_in_two_bodies) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, one_vertex_in_a_box);
-    tcase_add_test(tests, waves_reach_deep_vertices);
-    tcase_add_test(tests, the_faces_of_a_box_stay_flat);
-    tcase_add_test(tests, body_inside_a_body);
-    tcase_add_test(tests, points_without_edges);
-    tcase_add_test(tests, edges_leave_on_opposite_sides);
-    tcase_add_test(tests, no_way_through_a_facet_of_three);
-    tcase_add_test(tests, no_surface_at_all);
-    tcase_add_test(tests, coincident_bodies);
-    tcase_add_test(tests, stacked_boxes_touch);
-    tcase_add_test(tests, lattices_that_coincide);
-    tcase_add_test(tests, on_the_surface_of_a_part_and_inside_another);
-    tcase_add_test(tests, winding_does_not_matter);
-    tcase_add_test(tests, doubled_tets);
-    tcase_add_test(tests, flat_tets_on_the_surface);
-    tcase_add_test(tests, self_fold);
-    tcase_add_test(tests, one_vertex_in_two_bodies);
+    tcase_add_each(tests, one_vertex_in_a_box, waves_reach_deep_vertices, the_faces_of_a_box_stay_flat,
+                   body_inside_a_body, points_without_edges, edges_leave_on_opposite_sides,
+                   no_way_through_a_facet_of_three, no_surface_at_all, coincident_bodies, stacked_boxes_touch,
+                   lattices_that_coincide, on_the_surface_of_a_part_and_inside_another,
+                   winding_does_not_matter, doubled_tets, flat_tets_on_the_surface, self_fold,
+                   one_vertex_in_two_bodies);
 }
 
-static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, crossing_bars);
-    tcase_add_test(tests, inverted_tets);
-}
+static void add_long_tests(TCase* tests) { tcase_add_each(tests, crossing_bars, inverted_tets); }
 
 int main(void) {
     Suite* suite = suite_create("penetration states");

@@ -115,7 +115,7 @@ START_TEST(unused_vertices_do_not_widen_the_bounds) {
 }
 END_TEST
 
-/* Zero volume is told exactly: a flat tet, one that names a vertex twice, and one flat but for the last bit.
+/* Zero volume is found exactly: a flat tet, one that names a vertex twice, and one flat but for the last bit.
  */
 START_TEST(degenerate_tets_are_counted) {
     float positions[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.3f, 0.3f, 0, 0, 0, 0, 0, 0, 0};
@@ -340,7 +340,7 @@ START_TEST(extremes_stay_finite) {
             CLOSE(found.stats.mean_edge, 2 * sqrt(2) * (double)sizes[i]);
             CLOSE(found.stats.mean_volume / sizes[i] / sizes[i], 8.0 / 3 * (double)sizes[i]);
             ck_assert_double_ge(found.cell_size,
-                                found.stats.mean_edge / 4); /* the limit for dear particles */
+                                found.stats.mean_edge / 4); /* the limit for expensive particles */
             ck_assert_double_lt(found.zone_min, found.cell_size);
             ck_assert_double_gt(found.zone_max, found.cell_size);
             ck_assert_double_finite(found.zone_max);
@@ -382,23 +382,17 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("suggest");
-    TCase* tests = tcase_create("suggest");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "suggest");
     const int parameter_count = sizeof parameters / sizeof parameters[0];
-    tcase_add_test(tests, one_regular_tet);
-    tcase_add_test(tests, shared_facets_count_once);
+    tcase_add_each(tests, one_regular_tet, shared_facets_count_once);
     tcase_add_loop_test(tests, box_counts, 1, 6);
-    tcase_add_test(tests, bodies_are_measured_together);
-    tcase_add_test(tests, unused_vertices_do_not_widen_the_bounds);
-    tcase_add_test(tests, degenerate_tets_are_counted);
-    tcase_add_test(tests, layout_and_winding_do_not_matter);
+    tcase_add_each(tests, bodies_are_measured_together, unused_vertices_do_not_widen_the_bounds,
+                   degenerate_tets_are_counted, layout_and_winding_do_not_matter);
     tcase_add_loop_test(tests, cell_size_is_the_minimum_of_the_cost, 0, parameter_count);
     tcase_add_test(tests, readings_change_the_answer);
     tcase_add_loop_test(tests, zone_is_where_the_loss_is_small, 0, parameter_count);
     tcase_add_loop_test(tests, any_unit_gives_the_same_answer, 0, 7);
-    tcase_add_test(tests, extremes_stay_finite);
-    tcase_add_test(tests, zone_distance);
-    suite_add_tcase(suite, tests);
-    suite_add_tcase(suite, argument_tests());
+    tcase_add_each(tests, extremes_stay_finite, zone_distance);
+    add_argument_tests(suite);
     return run_suite(suite);
 }

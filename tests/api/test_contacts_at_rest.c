@@ -2,18 +2,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
 #include "support/suite.h"
 
 static uint64_t random_state;
-
-/* splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 */
-static uint32_t below(uint32_t count) {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)((z ^ (z >> 31)) % count);
-}
+static uint32_t below(uint32_t count) { return random_below(&random_state, count); }
 
 enum { most_bodies = 12 };
 
@@ -70,7 +63,7 @@ static void free_scene(scene* s) {
 }
 
 /* Moves a whole body, one vertex of it, or folds some of it. */
-static void move_body(scene* s, int i) {
+static void move_one(scene* s, int i) {
     float* p = s->bodies[i].positions;
     const uint32_t vertices = s->bodies[i].vertex_count, how = below(3);
     const float by = 0.0625f * ((float)below(8) - 3.5f);
@@ -85,20 +78,12 @@ static void move_body(scene* s, int i) {
     moved(s, i);
 }
 
-static vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters;
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_counters(grid, &counters));
-    return counters;
-}
-
 /* Steps, and compares the contacts with those of a new grid over the same meshes in the same order. */
 static vox_counters check_step(scene* s) {
-    vox_contact_view mine, fresh;
     vox_mesh id_of[most_bodies] = {0};
     vox_grid* grid = NULL;
     ck_ok(vox_grid_step(s->grid));
-    ck_ok(vox_grid_contacts(s->grid, &mine));
+    vox_contact_view mine = contacts_of(s->grid);
     ck_ok(vox_grid_create(NULL, &grid));
     uint32_t count = 0;
     for (uint32_t k = 0; k < most_bodies; ++k) { /* in the order of their ids */
@@ -109,13 +94,12 @@ static vox_counters check_step(scene* s) {
                 next = i;
         if (next < 0) break;
         vox_mesh_desc desc = body_desc(&s->bodies[next]);
-        vox_mesh mesh = 0;
         if (s->self[next]) desc.flags = VOX_MESH_SELF_COLLISION;
-        ck_ok(vox_mesh_insert(grid, &desc, &mesh));
+        insert_mesh(grid, &desc);
         id_of[count++] = s->ids[next];
     }
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &fresh));
+    vox_contact_view fresh = contacts_of(grid);
     ck_assert_uint_eq(mine.count, fresh.count);
     for (uint64_t c = 0; c < mine.count; ++c) {
         vox_contact expected = fresh.data[c]; /* slots of the new grid are 0, 1, ... */
@@ -148,7 +132,7 @@ START_TEST(some_move) {
                 if (!s.ids[i]) continue;
                 ++present;
                 if (below(4) != 0) continue;
-                move_body(&s, i);
+                move_one(&s, i);
                 ++moving;
             }
             const vox_counters counters = check_step(&s);
@@ -238,7 +222,7 @@ START_TEST(failed_steps) {
         const float was = *p;
         *p = i % 2 ? NAN : INFINITY;
         moved(&s, i);
-        move_body(&s, (i + 1) % 6); /* and this one moves in the failing step only */
+        move_one(&s, (i + 1) % 6); /* and this one moves in the failing step only */
         for (int again = 0; again < 2; ++again) {
             ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "vertex");
             ck_ok(vox_grid_contacts(s.grid, &view));
@@ -297,7 +281,7 @@ START_TEST(meshes_come_and_go) {
     uint64_t carried = 0;
     for (int step = 0; step < 60; ++step) {
         const int i = (int)below(8);
-        if (below(3) == 0) move_body(&s, (int)below(8));
+        if (below(3) == 0) move_one(&s, (int)below(8));
         if (s.ids[i]) {
             ck_ok(vox_mesh_remove(s.grid, s.ids[i]));
             s.ids[i] = 0;
@@ -388,19 +372,10 @@ END_TEST
 
 int main(void) {
     Suite* suite = suite_create("rest");
-    TCase* tests = tcase_create("rest");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, nothing_moves);
-    tcase_add_test(tests, small_and_hidden_moves);
-    tcase_add_test(tests, failed_steps);
-    tcase_add_test(tests, meshes_come_and_go);
-    tcase_add_test(tests, bound_elsewhere);
-    tcase_add_test(tests, settings_and_marks);
-    tcase_add_test(tests, reference_engine_rests_never);
-    suite_add_tcase(suite, tests);
-    TCase* long_tests = tagged_tests("long");
-    tcase_add_test(long_tests, some_move);
-    tcase_add_test(long_tests, budget_ends_a_step);
-    suite_add_tcase(suite, long_tests);
+    TCase* tests = add_case(suite, "rest");
+    tcase_add_each(tests, nothing_moves, small_and_hidden_moves, failed_steps, meshes_come_and_go,
+                   bound_elsewhere, settings_and_marks, reference_engine_rests_never);
+    TCase* long_tests = add_tagged_case(suite, "long", "long");
+    tcase_add_each(long_tests, some_move, budget_ends_a_step);
     return run_suite(suite);
 }

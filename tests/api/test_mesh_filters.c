@@ -1,8 +1,9 @@
-/* Filters of whole pairs, and what a filter may be. That of single vertices and tetrahedra: test_self_filters.c. */
+/* Filters of whole pairs, and what a filter may be. Those of single vertices and tetrahedra:
+ * test_mesh_self_filters.c. */
 #include <math.h>
 
+#include "scenes/random.h"
 #include "support/filter_checks.h"
-#include "support/random.h"
 
 /* ---- whole pairs ------------------------------------------------------------------------------ */
 
@@ -77,7 +78,8 @@ START_TEST(pair_exceptions) {
         meshes[i] = insert(grid, &desc);
     }
     for (int round = 0; round < 60; ++round) {
-        const uint32_t i = random_below(&random, n), j = random_below(&random, n), on = random_below(&random, 2);
+        const uint32_t i = random_below(&random, n), j = random_below(&random, n),
+                       on = random_below(&random, 2);
         if (i == j) { /* a new mesh in the place of another has no exceptions */
             const vox_mesh_desc desc = body_desc(&boxes[i]);
             ck_ok(vox_mesh_remove(grid, meshes[i]));
@@ -179,7 +181,8 @@ START_TEST(arguments) {
     desc.rest_positions = box.positions;
     desc.rest_position_byte_stride = 4;
     vox_mesh mesh_with_rest = 0;
-    ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_INVALID_ARGUMENT, "rest_position_byte_stride is 4");
+    ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_INVALID_ARGUMENT,
+             "rest_position_byte_stride is 4");
     desc.rest_position_byte_stride = 12;
     mesh_with_rest = insert(grid, &desc);
     ck_ok(vox_mesh_set_filter(grid, mesh_with_rest, &filter));
@@ -187,8 +190,8 @@ START_TEST(arguments) {
     ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_NON_FINITE, "vertex 1");
     ck_fails(vox_mesh_set_filter(grid, other, &filter), VOX_ERROR_NON_FINITE, "vertex 1");
 
-    /* A struct of a smaller size keeps the defaults of what it does not cover; one of a larger size is read as far
-     * as it is known. */
+    /* A struct of a smaller size keeps the defaults of what it does not cover; one of a larger size is read
+     * as far as it is known. */
     struct {
         vox_filter filter;
         uint64_t more;
@@ -216,10 +219,7 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_test(tests, category_mask_and_group);
-    tcase_add_test(tests, pair_exceptions);
-    tcase_add_test(tests, disabled_meshes);
-    tcase_add_test(tests, arguments);
+    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, arguments);
 }
 
 int main(void) {

@@ -10,7 +10,8 @@ static int on_surface(const body* b, uint32_t tet, int facet) {
     for (uint32_t t = 0; t < b->tet_count; ++t) {
         int shared = 0;
         for (int i = 0; i < 3 && t != tet; ++i)
-            for (int c = 0; c < 4; ++c) shared += b->tets[4 * t + c] == b->tets[4 * tet + facet_corners[facet][i]];
+            for (int c = 0; c < 4; ++c)
+                shared += b->tets[4 * t + c] == b->tets[4 * tet + facet_corners[facet][i]];
         if (shared == 3) return 0;
     }
     return 1;
@@ -114,7 +115,8 @@ START_TEST(closest_by_definition) {
             ck_assert_double_le(fabs(sum - 1), 1e-9);
             for (int axis = 0; axis < 3; ++axis) {
                 double at_axis = 0;
-                for (int c = 0; c < 3; ++c) at_axis += hit.barycentric[c] * (double)corners[facet_corners[hit.facet][c]][axis];
+                for (int c = 0; c < 3; ++c)
+                    at_axis += hit.barycentric[c] * (double)corners[facet_corners[hit.facet][c]][axis];
                 ck_assert_double_le(fabs(at_axis - hit.position[axis]), 1e-9);
                 squared += (at_axis - p[axis]) * (at_axis - p[axis]);
             }
@@ -162,7 +164,7 @@ START_TEST(rays_by_definition) {
             float p[3], q[3];
             random_point(&random, scene % 2, p);
             random_point(&random, scene % 2, q);
-            if (i % 10 == 0) memcpy(q, p, sizeof q); /* a point */
+            if (i % 10 == 0) memcpy(q, p, sizeof q);  /* a point */
             if (i % 4 == 1) q[1] = p[1], q[2] = p[2]; /* along an axis */
             const uint64_t mask = i % 3 ? UINT64_MAX : random_next(&random);
             const double from[3] = {(double)p[0], (double)p[1], (double)p[2]};
@@ -186,7 +188,8 @@ START_TEST(rays_by_definition) {
                         if (where != ORACLE_DEGENERATE) enters = fmin(enters, at);
                         if (!(surfaces[b][t] >> facet & 1)) continue;
                         first_facet = fmin(first_facet, at);
-                        if (hit.surface_mesh == w.meshes[b] && hit.surface_tet == t && hit.surface_facet == (uint32_t)facet)
+                        if (hit.surface_mesh == w.meshes[b] && hit.surface_tet == t &&
+                            hit.surface_facet == (uint32_t)facet)
                             of_facet = at;
                     }
                     first_tet = fmin(first_tet, enters);
@@ -213,16 +216,18 @@ START_TEST(rays_by_definition) {
             for (int axis = 0; axis < 3; ++axis) { /* the weights say where, too */
                 double at = 0;
                 for (int c = 0; c < 3; ++c)
-                    at += hit.surface_barycentric[c] * (double)corners[facet_corners[hit.surface_facet][c]][axis];
+                    at += hit.surface_barycentric[c] *
+                          (double)corners[facet_corners[hit.surface_facet][c]][axis];
                 ck_assert_double_le(fabs(at - (from[axis] + hit.surface_t * (to[axis] - from[axis]))), 1e-6);
             }
-            /* Into the tetrahedron when the end the segment comes from is on the other side of the facet than the
-             * fourth corner. */
+            /* Into the tetrahedron when the end the segment comes from is on the other side of the facet than
+             * the fourth corner. */
             const uint32_t* f = facet_corners[hit.surface_facet];
-            const int inner = oracle_orientation(corners[f[0]], corners[f[1]], corners[f[2]], corners[hit.surface_facet]);
+            const int inner =
+                oracle_orientation(corners[f[0]], corners[f[1]], corners[f[2]], corners[hit.surface_facet]);
             const int before = oracle_orientation(corners[f[0]], corners[f[1]], corners[f[2]], p);
             const int after = oracle_orientation(corners[f[0]], corners[f[1]], corners[f[2]], q);
-            const vox_side side = inner == 0 ? VOX_SIDE_NONE
+            const vox_side side = inner == 0                           ? VOX_SIDE_NONE
                                   : before == -inner || after == inner ? VOX_SIDE_ENTERS
                                                                        : VOX_SIDE_LEAVES;
             ck_assert_int_eq(hit.surface_side, side);
@@ -236,10 +241,7 @@ START_TEST(rays_by_definition) {
 }
 END_TEST
 
-static void add_tests(TCase* tests) {
-    tcase_add_test(tests, closest_by_definition);
-    tcase_add_test(tests, rays_by_definition);
-}
+static void add_tests(TCase* tests) { tcase_add_each(tests, closest_by_definition, rays_by_definition); }
 
 int main(void) {
     Suite* suite = suite_create("query surfaces");

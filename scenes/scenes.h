@@ -1,13 +1,13 @@
 /* Scenes that are the same bit for bit on every machine: no function of the C library takes part in their
  * numbers, only additions, products and divisions of doubles. For the portability check and the speed guard.
  */
-#ifndef VOX_TESTS_PORTABILITY_SCENES_H
-#define VOX_TESTS_PORTABILITY_SCENES_H
+#ifndef VOX_SCENES_SCENES_H
+#define VOX_SCENES_SCENES_H
 
-#include "support/bodies.h"
+#include "scenes/bodies.h"
+#include "scenes/waves.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #define MOST_BODIES 125
 
@@ -20,61 +20,6 @@ typedef struct scene {
     float* rest[MOST_BODIES]; /* positions before it */
 } scene;
 
-/* splitmix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014 */
-static inline uint64_t next_random(uint64_t* state) {
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-/* In [-1, 1). */
-static inline double symmetric_random(uint64_t* state) {
-    return (double)(next_random(state) >> 11) / 4503599627370496.0 - 1;
-}
-
-/* Keeps the tets of a box whose cubes lie in a ball of `radius` cubes around its middle, and their vertices.
- */
-static inline body cut_ball(uint32_t radius) {
-    const uint32_t n = 2 * radius, unused = UINT32_MAX;
-    body box = make_box(n, 1, -(float)radius, -(float)radius, -(float)radius);
-    uint32_t* number = (uint32_t*)malloc(sizeof(uint32_t) * box.vertex_count);
-    uint32_t tets = 0, vertices = 0;
-    for (uint32_t v = 0; v < box.vertex_count; ++v) number[v] = unused;
-    for (uint32_t t = 0; t < box.tet_count; ++t) {
-        const uint32_t cube = t / 5;
-        const double x = cube % n + 0.5 - radius, y = cube / n % n + 0.5 - radius,
-                     z = cube / (n * n) + 0.5 - radius;
-        if (x * x + y * y + z * z > (double)radius * radius) continue;
-        memmove(box.tets + 4 * tets, box.tets + 4 * t, 4 * sizeof(uint32_t));
-        for (uint32_t c = 0; c < 4; ++c) number[box.tets[4 * tets + c]] = 0;
-        ++tets;
-    }
-    for (uint32_t v = 0; v < box.vertex_count; ++v) {
-        if (number[v] == unused) continue;
-        memmove(box.positions + 3 * vertices, box.positions + 3 * v, 3 * sizeof(float));
-        number[v] = vertices++;
-    }
-    for (uint32_t i = 0; i < 4 * tets; ++i) box.tets[i] = number[box.tets[i]];
-    free(number);
-    box.vertex_count = vertices;
-    box.tet_count = tets;
-    return box;
-}
-
-static inline void jitter_body(body* b, double amount, uint64_t seed) {
-    for (uint32_t i = 0; i < 3 * b->vertex_count; ++i)
-        b->positions[i] = (float)(b->positions[i] + amount * symmetric_random(&seed));
-}
-
-static inline void move_body(body* b, double x, double y, double z) {
-    for (uint32_t v = 0; v < b->vertex_count; ++v) {
-        b->positions[3 * v] = (float)(b->positions[3 * v] + x);
-        b->positions[3 * v + 1] = (float)(b->positions[3 * v + 1] + y);
-        b->positions[3 * v + 2] = (float)(b->positions[3 * v + 2] + z);
-    }
-}
-
 static inline void add_body(scene* s, body b) {
     s->rest[s->count] = (float*)malloc(3 * sizeof(float) * b.vertex_count);
     memcpy(s->rest[s->count], b.positions, 3 * sizeof(float) * b.vertex_count);
@@ -86,7 +31,7 @@ static inline void make_pair(scene* s, uint32_t radius) {
     s->amplitude = 0.02 * radius;
     s->wave_length = 2.0 * radius;
     for (int i = 0; i < 2; ++i) {
-        body b = cut_ball(radius);
+        body b = make_lattice_ball(&five_cut, radius, radius);
         jitter_body(&b, 0.1, (uint64_t)i + 1);
         move_body(&b, 1.85 * radius * i, 0.123 * i, 0.271 * i);
         add_body(s, b);
@@ -95,7 +40,7 @@ static inline void make_pair(scene* s, uint32_t radius) {
 
 /* One compact ball. */
 static inline void make_self(scene* s, uint32_t radius) {
-    body b = cut_ball(radius);
+    body b = make_lattice_ball(&five_cut, radius, radius);
     jitter_body(&b, 0.1, 3);
     s->self_collision = 1;
     s->amplitude = 0.02 * radius;
@@ -110,9 +55,9 @@ static inline void make_many(scene* s, uint32_t side, uint32_t radius) {
     s->wave_length = 2.0 * radius;
     for (uint32_t i = 0; i < side * side * side; ++i) {
         uint64_t seed = i + 10;
-        body b = cut_ball(radius);
+        body b = make_lattice_ball(&five_cut, radius, radius);
         jitter_body(&b, 0.1, seed);
-        const double x = 0.05 * radius * symmetric_random(&seed), y = 0.05 * radius * symmetric_random(&seed);
+        const double x = 0.05 * radius * random_symmetric(&seed), y = 0.05 * radius * random_symmetric(&seed);
         move_body(&b, apart * (i % side) + x, apart * (i / side % side) + y, apart * (i / side / side));
         add_body(s, b);
     }
@@ -149,8 +94,8 @@ static inline void make_soup(scene* s, uint32_t vertices, uint32_t tets) {
         b.positions = (float*)malloc(3 * sizeof(float) * vertices);
         b.tets = (uint32_t*)malloc(4 * sizeof(uint32_t) * tets);
         for (uint32_t k = 0; k < 3 * vertices; ++k)
-            b.positions[k] = (float)((int32_t)(next_random(&seed) % 17) - 8) * 0.5f;
-        for (uint32_t k = 0; k < 4 * tets; ++k) b.tets[k] = (uint32_t)(next_random(&seed) % vertices);
+            b.positions[k] = (float)((int32_t)(random_next(&seed) % 17) - 8) * 0.5f;
+        for (uint32_t k = 0; k < 4 * tets; ++k) b.tets[k] = (uint32_t)(random_next(&seed) % vertices);
         add_body(s, b);
     }
 }
@@ -161,13 +106,6 @@ static inline void scale_scene(scene* s, double factor) {
     for (uint32_t i = 0; i < s->count; ++i)
         for (uint32_t k = 0; k < 3 * s->bodies[i].vertex_count; ++k)
             s->rest[i][k] = (float)(s->rest[i][k] * factor);
-}
-
-/* A wave from -1 to 1 and back over [0, 1), and so on. */
-static inline double triangle_wave(double x) {
-    double part = x - (double)(int64_t)x;
-    if (part < 0) part += 1;
-    return part < 0.5 ? 4 * part - 1 : 3 - 4 * part;
 }
 
 /* Writes the positions of a frame. */
