@@ -3,7 +3,7 @@
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
 #include "base/simd.hpp"
-#include "fast/sides.hpp"
+#include "fast/broad_phase.hpp"
 #include "internal/fast_scenes.hpp"
 #include "processor_time.hpp"
 
@@ -83,7 +83,7 @@ struct Bodies {
         upright.resize(super_boxes.size());
         moves.resize(blocks.size());
         bad.resize(tiles.tiles.size());
-        fast::follow(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+        fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
                      super_boxes.data(), upright.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.assign(super_boxes.size(), 0.1f);
@@ -175,7 +175,7 @@ std::vector<Stage> stages_of(Bodies& s) {
         {"tile boxes", "tet", tets,
          [&s] {
              std::fill(s.known.begin(), s.known.end(), std::uint8_t{0});
-             fast::tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
+             fast::make_tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
                               s.tile_boxes.data(), s.known.data());
          }},
         {"rest", "vertex", s.vertices,
@@ -209,7 +209,7 @@ std::vector<Stage> stages_of(Bodies& s) {
              const auto supers = s.tiles.super_tile_count();
              fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
                                 s.moves.data(), s.box_a);
-             fast::follow(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
+             fast::track_orientation(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
                           s.super_boxes.data(), s.upright.data());
          }},
         {"orient", "tet", tets,

@@ -906,17 +906,25 @@ typedef struct vox_counters {
 /* Writes the fields that out_counters->struct_size covers (set it first). */
 VOX_API vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters);
 
-/* Nanoseconds of the last successful step, whole and by stage. */
+/* Nanoseconds of the last successful step, whole and by stage. Fields from stream_ns on are the stages of the fast
+ * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
+ * leaves the fields from stream_ns on 0. */
 typedef struct vox_profile {
     uint32_t struct_size;
     uint32_t reserved;
     uint64_t step_ns;
-    uint64_t bin_ns;      /* classify the vertices, recompute the boxes */
-    uint64_t broad_ns;    /* cells and box tests */
-    uint64_t narrow_ns;   /* exact decisions */
-    uint64_t contacts_ns; /* canonical order, barycentric coordinates */
-    uint64_t depth_ns;    /* penetrations */
-    uint64_t events_ns;   /* touching pairs and events */
+    uint64_t bin_ns;         /* classify the vertices, recompute the boxes: stream + winding + windows */
+    uint64_t broad_ns;       /* cells and box tests: broad_phase + query */
+    uint64_t narrow_ns;      /* exact decisions: decide */
+    uint64_t contacts_ns;    /* canonical order, barycentric coordinates */
+    uint64_t depth_ns;       /* penetrations */
+    uint64_t events_ns;      /* touching pairs and events */
+    uint64_t stream_ns;      /* read all positions: boxes, and which meshes moved */
+    uint64_t winding_ns;     /* rule out self-contacts by winding numbers; of the worker that took longest over them */
+    uint64_t broad_phase_ns; /* regions in which meshes may be in contact */
+    uint64_t windows_ns;     /* bin the vertices that lie there */
+    uint64_t query_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
+    uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */
@@ -1091,7 +1099,7 @@ typedef struct vox_cost_weights {
     uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
     double reference_classify_vertex;
     double reference_prepare_tet; /* its box */
-    double reference_visit_cell; /* whose list is as long as the one before; others in proportion */
+    double reference_visit_cell; /* whose list is as long as the one before */
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;
@@ -1103,6 +1111,8 @@ typedef struct vox_cost_weights {
     double fast_visit_row;
     double fast_read_vertex;
     double fast_test_vertex; /* one in a tile's box, against its tets */
+    double reference_changed_list; /* in a visited cell, of another length than the one before */
+    double reference_fetch_vertex; /* passed over, and not read just before */
 } vox_cost_weights;
 
 /* Measures the weights by steps of both engines over a small scene of its own: ten milliseconds or so at the first
@@ -1112,8 +1122,8 @@ VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
 
 /* The weights in use: those calibrated or set last, else those shipped. Any thread. */
 VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
-/* Uses weights that were saved; fields that struct_size does not cover are those shipped. Null: those shipped. Any
- * thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
+/* Uses weights that were saved; fields that struct_size does not cover are those shipped, of the last two in proportion
+ * to reference_visit_cell and reference_read_vertex. Null: those shipped. Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
 VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */

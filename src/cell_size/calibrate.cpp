@@ -99,8 +99,9 @@ struct Block {
 
 struct Scene {
     Scene(std::uint32_t n, float overlap)
-        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)}, meshes{FastMesh(memory()),
-                                                                                 FastMesh(memory())} {
+        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)}, meshes{TiledMesh(memory()),
+                                                                                 TiledMesh(memory())},
+          states{fast::MeshState(memory()), fast::MeshState(memory())} {
         for (std::size_t b = 0; b < 2; ++b) {
             bodies[b].mesh_id = static_cast<std::uint32_t>(b);
             bodies[b].vertex_count = static_cast<std::uint32_t>(blocks[b].positions.size());
@@ -108,7 +109,9 @@ struct Scene {
                                    sizeof(Vec3f)};
             bodies[b].tets = blocks[b].tets;
             bodies[b].self_collision = true; // some of what is prepared is only for that
-            meshes[b].prepare(bodies[b]);
+            make_tiled_mesh(bodies[b], meshes[b]);
+            states[b].update(meshes[b], 1, bodies[b].vertex_count);
+            prepared[b] = {&meshes[b].tiles, &meshes[b].boundary, &states[b]};
         }
     }
     Scene(const Scene&) = delete;
@@ -117,7 +120,9 @@ struct Scene {
     static std::pmr::memory_resource* memory() { return std::pmr::new_delete_resource(); }
 
     std::array<Block, 2> blocks;
-    std::array<FastMesh, 2> meshes;
+    std::array<TiledMesh, 2> meshes;
+    std::array<fast::MeshState, 2> states;
+    std::array<fast::PreparedBody, 2> prepared;
     std::array<Body, 2> bodies;
 };
 
@@ -187,10 +192,12 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
     std::pmr::vector<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
-    std::array<FastMesh*, 2> prepared{&scene.meshes[0], &scene.meshes[1]};
-    const std::array<const Tiles*, 2> tiles{&scene.meshes[0], &scene.meshes[1]};
     for (Body& body : scene.bodies) body.self_collision = true;
-    const FastModel cost(scene.bodies, tiles, {}, thorough, weights, Scene::memory());
+    CellSizeScene described(Scene::memory());
+    described.bodies.assign(scene.bodies.begin(), scene.bodies.end());
+    described.tiles = {&scene.meshes[0].tiles, &scene.meshes[1].tiles};
+    described.prepare(VOX_COST_MODEL_FAST);
+    const FastModel cost(described, weights);
     std::vector<Timing> timings;
     for (const double cell_size : cell_sizes) {
         FastSettings settings;
@@ -198,7 +205,7 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
         settings.winding = false;
         const double time = shortest(4, [&] {
             hits.clear();
-            engine.detect(scene.bodies, prepared, settings, hits, counters, profile);
+            engine.detect(scene.bodies, scene.prepared, settings, hits, counters, profile);
         });
         const FastModel::Counts c = cost.counts(cell_size, FastModel::Alignment::actual);
         const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +

@@ -2,7 +2,7 @@
 
 #include "base/sampling.hpp"
 #include "base/vectors.hpp"
-#include "fast/pairs.hpp"
+#include "fast/broad_phase.hpp"
 
 #include <algorithm>
 #include <cmath>

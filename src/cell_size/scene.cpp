@@ -74,8 +74,7 @@ Box CellSizeScene::own_region(std::size_t b) const noexcept {
     const Body& body = bodies[b];
     if (!body.self_collision || body.tets.empty() || (!cleared.empty() && cleared[b])) return empty_box;
     if (!last_step) return boxes_.bodies[b];
-    const fast::BodyWindow& window = last_step->windows().of[b];
-    return window.bins ? window.own : empty_box;
+    return last_step->windows().of[b].own;
 }
 
 } // namespace vox

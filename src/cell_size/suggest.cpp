@@ -226,9 +226,6 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
 
 vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights,
                             double cell_size) {
-    if (!(cell_size > 0) || !std::isfinite(cell_size))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("cell_size is %.9g, expected a number above 0", cell_size));
     scene.prepare(desc.model);
     const CostTerms terms = predicted_terms(desc, scene, weights, cell_size);
     vox_cost_prediction prediction{};

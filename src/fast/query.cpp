@@ -22,21 +22,6 @@ namespace HWY_NAMESPACE {
 
 using Bytes = hn::CappedTag<std::uint8_t, 64>;
 
-void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions, std::uint32_t first,
-               std::uint32_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known) {
-    for (std::uint32_t t = first; t < last; ++t) {
-        if (known[t]) continue;
-        known[t] = 1;
-        const Tile& tile = tiles.tiles.data()[t];
-        const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
-        const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
-        if (tile.holds_last_vertex)
-            BoxOf(positions, vertices, padded, LoadLastVertex, boxes[t]);
-        else
-            BoxOf(positions, vertices, padded, LoadVertex, boxes[t]);
-    }
-}
-
 // How coordinates of a box along one axis go to 0 .. 255: (c - origin) * scale, cut. Both 0 where that could
 // not be computed: everything is 0 then, which is monotone too.
 struct Scale {
@@ -453,9 +438,80 @@ void query_tiles(const Query& query, std::span<const Source> sources, std::uint3
     VOX_SIMD_DISPATCH(QueryTiles)(query, sources.data(), sources.size(), first, last, scratch, out);
 }
 
-void tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
-                Box* boxes, std::uint8_t* known) {
-    VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, first, last, boxes, known);
+namespace {
+
+// The windows that the tiles in `box` may find points in, those of the body itself first.
+void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t body, const Box& box,
+                  std::pmr::vector<Source>& sources) {
+    sources.clear();
+    const auto add = [&](std::uint32_t a, const Box& region) {
+        const BodyWindow& body_window = windows.of[a];
+        Box both = box;
+        intersect(both, region);
+        if (!body_window.bins || is_empty(both)) return;
+        for_windows(*body_window.bins, body_window.root, both, [&](const Window& window) {
+            Source source{window, region, a};
+            intersect(source.region, window.box);
+            sources.push_back(source);
+        });
+    };
+    add(body, windows.of[body].own);
+    for (const std::uint32_t r : broad.of_b(body)) add(broad.regions[r].a, broad.regions[r].region);
+}
+
+// One stamp a vertex. The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
+void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<std::uint32_t>& stamps,
+                    QueryScratch& scratch) {
+    if (stamps.size() < vertices) stamps.resize(vertices, 0);
+    if ((scratch.tag >> 6) + tiles < 1u << 26) return;
+    std::fill(stamps.begin(), stamps.end(), 0u);
+    scratch.tag = 0;
+}
+
+} // namespace
+
+void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece, StepBoxes& boxes,
+           QueryBuffers& buffers, Findings& out) {
+    const std::uint32_t b = piece.body;
+    const StepBody& body = step.of[b];
+    const bool self = !is_empty(windows.of[b].own), reached = broad.is_reached(b);
+    if (!self && !reached) return;
+    if (!reached && !body.has_super_boxes) make_super_tile_boxes(step, broad, piece, boxes);
+    const Box* super_boxes = boxes.super_tiles.data() + body.first_super;
+    Box box = empty_box;
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) add(box, super_boxes[s]);
+    list_sources(broad, windows, b, box, buffers.sources);
+    if (buffers.sources.empty()) return;
+
+    const Tiles& tiles = *body.tiles;
+    Query tile_query{};
+    tile_query.tiles = &tiles;
+    tile_query.positions = body.positions;
+    tile_query.boxes = boxes.tiles.data() + body.first_tile;
+    tile_query.known = boxes.tile_known.data() + body.first_tile;
+    tile_query.rounded = body.rounded;
+    for (const Source& source : buffers.sources) tile_query.rounded |= step.of[source.body].rounded;
+    if (buffers.scratch.empty()) buffers.scratch.resize(1);
+    QueryScratch& scratch = buffers.scratch[0];
+    scratch.finding_count = 0; // another piece may have failed and left some
+    if (self) prepare_stamps(step.bodies[b].vertex_count, tiles.tiles.size(), buffers.stamps, scratch);
+    std::pmr::vector<Source>& near = buffers.near;
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) {
+        near.clear();
+        for (const Source& source : buffers.sources) {
+            if (!overlap(super_boxes[s], source.region)) continue;
+            if (source.body == b) { // where most of a body is certified, few meet what is left
+                Box met = super_boxes[s];
+                intersect(met, source.region);
+                if (!holds_point(source.window, met)) continue;
+            }
+            near.push_back(source);
+        }
+        if (near.empty()) continue;
+        tile_query.stamps = near[0].body == b ? buffers.stamps.data() : nullptr;
+        query_tiles(tile_query, near, tiles.super_first[s], tiles.super_first[s + 1], scratch, out);
+    }
+    flush(scratch, out);
 }
 
 } // namespace vox::fast

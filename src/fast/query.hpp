@@ -1,13 +1,17 @@
-// Stages 4 and 5: the vertices of a window against the tetrahedra of tiles.
+// The query: the vertices of windows against the tetrahedra of tiles.
 #pragma once
 
 #include "exact/barycentric.hpp"
-#include "fast/window.hpp"
+#include "fast/broad_phase.hpp"
+#include "fast/windows.hpp"
 #include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <tuple>
+#include <vector>
 
 namespace vox::fast {
 
@@ -99,8 +103,20 @@ void query_tiles(const Query& query, std::span<const Source> sources, std::uint3
                  QueryScratch& scratch, Findings& out);
 void flush(QueryScratch& scratch, Findings& out);
 
-// Makes the boxes of the tiles [first, last) that are not known.
-void tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
-                Box* boxes, std::uint8_t* known);
+// The buffers of a worker.
+struct QueryBuffers {
+    explicit QueryBuffers(std::pmr::memory_resource* memory)
+        : sources(memory), near(memory), stamps(memory), scratch(memory) {}
+
+    std::pmr::vector<Source> sources, near; // of a piece of a body, and of a super-tile
+    std::pmr::vector<std::uint32_t> stamps;
+    std::pmr::vector<QueryScratch> scratch; // one, once it is needed
+
+    auto buffers() { return std::tie(sources, near, stamps, scratch); }
+};
+
+// Some super-tiles of a body against the windows of the bodies that reach it.
+void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece, StepBoxes& boxes,
+           QueryBuffers& buffers, Findings& out);
 
 } // namespace vox::fast

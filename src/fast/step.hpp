@@ -1,36 +1,97 @@
-// What the stages of one step of the fast engine share.
+// One step as its stages see it: the bodies, how they are cut into pieces of work, and the boxes the stages make.
+// The blocks, super-tiles and tiles (mesh/tiles.hpp) of all bodies are numbered one body after another.
 #pragma once
 
+#include "base/boxes.hpp"
 #include "base/parallel.hpp"
-#include "fast/engine.hpp"
+#include "base/scene.hpp"
+#include "fast/last_positions.hpp"
+#include "mesh/tiles.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
+#include <memory_resource>
+#include <span>
+#include <vector>
 
 namespace vox {
+struct Boundary;
+}
 
-inline constexpr std::uint32_t piece_blocks = 2048; // of a piece of a body, at most
+namespace vox::fast {
 
-struct FastEngine::Step {
+struct OrientationCache;
+
+// Blocks or super-tiles [first, last) of a body: the unit of work of a stage.
+struct Piece {
+    std::uint32_t body, first, last;
+};
+inline constexpr std::uint32_t piece_blocks = 2048;    // at most
+inline constexpr std::uint32_t piece_super_tiles = 8; // at most
+
+// What a step knows of one of its bodies, beside the Body itself.
+struct StepBody {
+    // Set by who begins the step.
+    const Tiles* tiles;
+    LastPositions* last;           // null: nothing is kept of the body from step to step
+    const Boundary* boundary;      // null: its self-collision is not culled by winding numbers
+    OrientationCache* orientation; // null where `boundary` is
+    bool moved;                    // or may have moved, since the last step; stream() adds what it finds
+
+    // Set by lay_out().
+    bool rounded;   // positions are the nearest floats of the exact ones less Step::origin, else as they are
+    bool has_moves; // stream() makes boxes around displacements
+    std::uint32_t first_block, first_super, first_tile;
+    std::uint32_t first_move; // in StepBoxes::moves, of its first block
+
+    // Set by stream().
+    const float* positions; // packed
+    float* packed;          // where it packs them, unless they are packed floats already
+    // Set by track_orientation().
+    bool has_super_boxes; // made before the broad phase
+};
+
+struct Step {
+    explicit Step(std::pmr::memory_resource* memory) : of(memory), block_pieces(memory), super_pieces(memory) {}
+
     std::span<const Body> bodies;
-    std::span<FastMesh* const> prepared;
-    const FastSettings& settings;
-    std::pmr::vector<Hit>& hits;
-    Vec3d origin{};     // of rounded positions as floats; else zero
-    std::mutex mutex{}; // of hits and degenerate_
+    std::pmr::vector<StepBody> of; // of each of `bodies`
+    std::pmr::vector<Piece> block_pieces, super_pieces;
+    std::size_t block_count = 0, super_count = 0, tile_count = 0;
+    Vec3d origin{}; // subtracted from positions that are rounded
+    Workers* workers = nullptr;
 
-    std::uint32_t worker_count() const noexcept { return settings.workers ? settings.workers->count() : 1; }
+    std::uint32_t worker_count() const noexcept { return workers ? workers->count() : 1; }
 
-    // function(begin, end, worker) for ranges of all items, at once. `work` is that of all items together,
-    // `least` what is worth a task of its own.
+    // Calls function(begin, end, worker) for ranges that make up [0, items). `work` is that of all items together;
+    // a task of its own is given at least `least` of it.
     template <class Function>
     void for_ranges(std::size_t items, std::size_t work, std::size_t least, Function&& function) const {
         if (items == 0) return;
         if (worker_count() == 1 || work <= least) return function(std::size_t{0}, items, std::uint32_t{0});
-        settings.workers->for_ranges(items, std::max<std::size_t>(items * least / work, 1), function);
+        workers->for_ranges(items, std::max<std::size_t>(items * least / work, 1), function);
     }
 };
 
-} // namespace vox
+// Boxes of tiles are made by the first stage that needs them; which are made, `tile_known` says.
+struct StepBoxes {
+    explicit StepBoxes(std::pmr::memory_resource* memory)
+        : bodies(memory), blocks(memory), moves(memory), super_tiles(memory), tiles(memory),
+          super_positive(memory), tile_known(memory) {}
+
+    std::pmr::vector<Box> bodies, blocks;
+    std::pmr::vector<Box> moves; // around displacements of blocks from the reference of OrientationCache
+    std::pmr::vector<Box> super_tiles; // boxes that hold them; empty where the broad phase found them out of reach
+    std::pmr::vector<Box> tiles;
+    std::pmr::vector<std::uint8_t> super_positive; // surely all tets of the super-tile are
+    std::pmr::vector<std::uint8_t> tile_known;
+};
+
+// Begins a step: step.of gets as many bodies, all cleared. The caller then sets the first fields of each.
+void begin_step(std::span<const Body> bodies, Workers* workers, Step& step);
+
+// Chooses the origin, numbers what the bodies consist of, cuts it into pieces and makes room for the boxes.
+void lay_out(Step& step, StepBoxes& boxes);
+
+} // namespace vox::fast

@@ -1,11 +1,18 @@
 // Minimum and maximum of positions, a position a register; and of the bits of all coordinates, for the finite
 // check.
 #include "fast/stream.hpp"
+
+#include "base/error.hpp"
 #include "base/simd.hpp"
+#include "fast/last_positions.hpp"
+#include "fast/winding/orientation.hpp"
+#include "mesh/check.hpp"
 #include "mesh/tiles.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -241,6 +248,90 @@ bool stream_boxes(const float* positions, const float* reference, std::span<cons
                   Box* boxes, Box* moves, Box& all) {
     return VOX_SIMD_DISPATCH(StreamMoves)(positions, reference, first.data(), first.size() - 1, boxes, moves,
                                           all);
+}
+
+namespace {
+
+bool is_in_place(const Step& step, std::size_t body) {
+    return !step.of[body].rounded && is_packed(step.bodies[body].positions);
+}
+
+// Where the packed positions of each body are going to be.
+void place_positions(Step& step, StreamBuffers& buffers) {
+    std::size_t room = 0;
+    for (std::size_t b = 0; b < step.of.size(); ++b)
+        if (!step.of[b].last && !is_in_place(step, b)) room += std::size_t{step.bodies[b].vertex_count} * 3;
+    buffers.packed.resize(room);
+    float* next = buffers.packed.data();
+    for (std::size_t b = 0; b < step.of.size(); ++b) {
+        StepBody& body = step.of[b];
+        const bool in_place = is_in_place(step, b);
+        if (body.last) {
+            body.last->expect(body.rounded);
+            body.packed = body.last->positions.data();
+        } else if (!in_place) {
+            body.packed = next;
+            next += std::size_t{step.bodies[b].vertex_count} * 3;
+        }
+        body.positions =
+            in_place ? reinterpret_cast<const float*>(step.bodies[b].positions.data) : body.packed;
+    }
+}
+
+// The part of a body's vertices that are in some of its blocks. False when one is not finite.
+bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& box, bool& moved) {
+    const StepBody& body = step.of[piece.body];
+    const Positions& positions = step.bodies[piece.body].positions;
+    const std::span<const std::uint32_t> first =
+        std::span(body.tiles->block_first).subspan(piece.first, piece.last - piece.first + 1);
+    const std::uint32_t begin = first.front(), end = first.back();
+    const std::size_t part = piece.first / piece_blocks;
+    const bool in_place = is_in_place(step, piece.body);
+    if (body.rounded)
+        round_positions(positions, step.origin, begin, end, body.packed);
+    else if (!in_place && body.last)
+        moved = !copy_strided(*body.last, part, positions, begin, end);
+    else if (!in_place)
+        for (std::uint32_t v = begin; v < end; ++v) {
+            const Vec3f p = positions.floats(v);
+            std::memcpy(body.packed + std::size_t{v} * 3, &p, sizeof p);
+        }
+    Box* out = boxes.blocks.data() + body.first_block + piece.first;
+    const bool finite = body.has_moves
+                            ? stream_boxes(body.positions, body.orientation->reference.data(), first, out,
+                                           boxes.moves.data() + body.first_move + piece.first, box)
+                            : stream_boxes(body.positions, first, out, box);
+    if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
+    if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);
+    return finite;
+}
+
+} // namespace
+
+void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers) {
+    place_positions(step, buffers);
+    std::atomic<bool> finite{true};
+    buffers.piece_boxes.resize(step.block_pieces.size());
+    buffers.piece_moved.resize(step.block_pieces.size());
+    step.for_ranges(step.block_pieces.size(), step.block_count, piece_blocks,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t p = begin; p < end; ++p) {
+                            bool moved = false;
+                            if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
+                                finite.store(false, std::memory_order_relaxed);
+                            buffers.piece_moved[p] = moved;
+                        }
+                    });
+    if (!finite) {
+        for (const Body& body : step.bodies) check_finite(body);
+        throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");
+    }
+    boxes.bodies.assign(step.bodies.size(), empty_box);
+    for (std::size_t p = 0; p < step.block_pieces.size(); ++p) {
+        const std::uint32_t body = step.block_pieces[p].body;
+        add(boxes.bodies[body], buffers.piece_boxes[p]);
+        step.of[body].moved |= buffers.piece_moved[p] != 0;
+    }
 }
 
 } // namespace vox::fast

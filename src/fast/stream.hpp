@@ -1,12 +1,15 @@
-// Stage 1: one pass over all positions. All that is read of a body that is far from every other.
+// The first stage: one pass over all positions. Of a body that is far from all others nothing else is read.
 #pragma once
 
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
+#include "fast/step.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <vector>
 
 namespace vox::fast {
 
@@ -25,5 +28,20 @@ bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, 
 // `moves`.
 bool stream_boxes(const float* positions, const float* reference, std::span<const std::uint32_t> first,
                   Box* boxes, Box* moves, Box& all);
+
+// Buffers of stream(), kept from step to step.
+struct StreamBuffers {
+    explicit StreamBuffers(std::pmr::memory_resource* memory)
+        : piece_boxes(memory), piece_moved(memory), packed(memory) {}
+
+    std::pmr::vector<Box> piece_boxes; // of Step::block_pieces
+    std::pmr::vector<std::uint8_t> piece_moved;
+    std::pmr::vector<float> packed; // of bodies of which nothing is kept
+};
+
+// Packs positions, makes the boxes of bodies and blocks, and finds out which of the bodies that have LastPositions
+// moved. Throws Error(NON_FINITE) naming mesh and vertex. Positions that are packed are good until `buffers` or the
+// LastPositions change.
+void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers);
 
 } // namespace vox::fast

@@ -1,19 +1,17 @@
-// Which vertices of a body are binned, and in cells of what size.
-#include "base/error.hpp"
-#include "fast/sides.hpp"
-#include "fast/step.hpp"
+#include "fast/windows.hpp"
+
+#include "base/clock.hpp"
 
 #include <algorithm>
 #include <bit>
 
-namespace vox {
-
+namespace vox::fast {
 
 namespace {
 
 // Edge length of a cell in mean box sides of a tile: the optimum is flat from 0.4 to 0.9.
 constexpr double cells_per_tile = 0.6;
-// A cell size asked for is kept up to this many times the automatic one: beyond it, every tile would meet
+// A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
 // The same as cells_per_tile for the winding numbers of self-collision.
@@ -23,153 +21,184 @@ constexpr double winding_cells_per_tile = 0.55;
 constexpr std::size_t many_tets = 1u << 17;
 constexpr std::size_t most_shared = 16;
 
+constexpr std::size_t group_vertices = 2048; // make up a group
+
 bool is_large(const Body& body) { return body.self_collision && body.tets.size() >= many_tets; }
 
-} // namespace
-
-// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, these share
-// the first part of each.
-void FastEngine::make_windows(Step& step) {
-    std::size_t vertices = 0, large = 0;
-    for (std::size_t a = 0; a < step.bodies.size(); ++a) {
-        vertices += step.bodies[a].vertex_count;
-        large += states_[a].moved && is_large(step.bodies[a]);
+// Groups the bodies, and gives each a place for its result and the buffers it needs.
+void prepare(const Step& step, Windows& out) {
+    out.workers.grow(step.worker_count());
+    for (Windows::Worker& worker : out.workers) worker.exact_tests = worker.winding_ns = 0;
+    out.of.assign(step.bodies.size(), {nullptr, 0, 0, empty_box, 0});
+    out.groups.clear();
+    std::size_t vertices = group_vertices, all_vertices = 0;
+    for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
+        if (vertices >= group_vertices) {
+            out.groups.push_back({b, b});
+            vertices = 0;
+        }
+        out.groups.back().last = b + 1;
+        vertices += step.bodies[b].vertex_count;
+        all_vertices += step.bodies[b].vertex_count;
     }
-    const bool share = large < step.worker_count() && large <= most_shared;
-    for (std::uint32_t g = 0; large && share && g < groups_.size(); ++g)
-        for (std::uint32_t a = groups_[g].first; a < groups_[g].last; ++a)
-            if (is_large(step.bodies[a])) make_window(step, a, bins_[g], workers_[0], step.settings.workers);
-    step.for_ranges(groups_.size(), vertices, 2 * group_vertices,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-                        for (std::size_t g = begin; g < end; ++g)
-                            for (std::uint32_t a = groups_[g].first; a < groups_[g].last; ++a)
-                                if (!share || !is_large(step.bodies[a]))
-                                    make_window(step, a, bins_[g], workers_[worker], nullptr);
-                    });
-    for (const BodyState& state : states_)
-        if (state.bins) cell_size_ = state.cell_size;
+    while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.get_allocator().resource());
+    for (Bins& bins : out.bins) bins.clear();
+
+    // Any worker may be given any body. A body that is more than a worker's share of all gets buffers of its own, so
+    // that all buffers together are no more than twice what one worker for each body would need.
+    out.large_of.assign(step.bodies.size(), Windows::none);
+    if (step.worker_count() == 1) return;
+    std::uint32_t large = 0;
+    for (std::size_t b = 0; b < step.bodies.size(); ++b)
+        if (std::size_t{step.bodies[b].vertex_count} * step.worker_count() > all_vertices)
+            out.large_of[b] = large++;
+    while (out.large.size() < large) out.large.emplace_back(out.large.get_allocator().resource());
 }
 
-// The sides of some tiles of a body.
-void FastEngine::sample_tiles(const Step& step, std::uint32_t body, TileSize& sides) {
-    const FastMesh& mesh = *step.prepared[body];
-    const BodyState& state = states_[body];
-    const auto tiles = static_cast<std::uint32_t>(mesh.tiles.size()), samples = std::min(64u, tiles);
+// Adds the sizes of some tiles of a body.
+void sample_tiles(const StepBody& body, StepBoxes& boxes, TileSize& size) {
+    const auto tiles = static_cast<std::uint32_t>(body.tiles->tiles.size()), samples = std::min(64u, tiles);
     for (std::uint32_t i = 0; i < samples; ++i) {
         const auto t = static_cast<std::uint32_t>(std::uint64_t{i} * tiles / samples);
-        fast::tile_boxes(mesh, state.positions, t, t + 1, tile_boxes_.data() + state.first_tile,
-                         tile_known_.data() + state.first_tile);
-        sides.add(tile_boxes_[state.first_tile + t]);
+        make_tile_boxes(body, t, t + 1, boxes);
+        size.add(boxes.tiles[body.first_tile + t]);
     }
 }
 
-// Whether winding numbers tell which vertices may be in the body's own tets; then they are in
-// `certificate`.
-bool FastEngine::cull_by_winding(const Step& step, std::uint32_t b, fast::Certificate& certificate,
-                           std::uint64_t& exact_tests, Workers* helpers) {
-    if (!may_certify(step, b)) return false;
-    FastMesh& mesh = *step.prepared[b];
-    const BodyState& state = states_[b];
-    TileSize sides;
-    sample_tiles(step, b, sides);
-    const fast::WindingBody body{mesh,
-                                 mesh.surface,
-                                 state.positions,
-                                 step.bodies[b].vertex_count,
-                                 body_boxes_[b],
-                                 winding_cells_per_tile * sides.mean(),
-                                 super_boxes_.data() + state.first_super,
-                                 super_upright_.data() + state.first_super,
-                                 tile_boxes_.data() + state.first_tile,
-                                 tile_known_.data() + state.first_tile,
-                                 mesh.turning,
-                                 helpers,
-                                 state.rounded,
-                                 step.origin,
-                                 step.bodies[b].positions};
-    return fast::certify(body, certificate, exact_tests);
+// Whether winding numbers show which vertices may be in the body's own tets; then that is in `certificate`.
+bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBoxes& boxes,
+                     Certificate& certificate, Windows::Worker& worker) {
+    const StepBody& body = step.of[b];
+    if (!body.boundary) return false;
+    const std::uint64_t start = nanoseconds();
+    TileSize size;
+    sample_tiles(body, boxes, size);
+    const WindingBody winding{*body.tiles,
+                              *body.boundary,
+                              body.positions,
+                              step.bodies[b].vertex_count,
+                              boxes.bodies[b],
+                              winding_cells_per_tile * size.mean(),
+                              boxes.super_tiles.data() + body.first_super,
+                              boxes.super_positive.data() + body.first_super,
+                              boxes.tiles.data() + body.first_tile,
+                              boxes.tile_known.data() + body.first_tile,
+                              *body.orientation,
+                              helpers,
+                              body.rounded,
+                              step.origin,
+                              step.bodies[b].positions};
+    const bool culled = certify(winding, certificate, worker.exact_tests);
+    worker.winding_ns += nanoseconds() - start;
+    return culled;
 }
 
 // Marks the blocks with vertices that are not certified.
-void FastEngine::activate_blocks(const Step& step, std::uint32_t b, WindowBuffers& buffers) const {
-    const FastMesh& mesh = *step.prepared[b];
-    const BodyState& state = states_[b];
-    const fast::Certificate& certificate = buffers.certificate;
+void activate_blocks(const StepBody& body, const StepBoxes& boxes, WindowBuffers& buffers) {
+    const Certificate& certificate = buffers.certificate;
     std::pmr::vector<std::uint8_t>& active = buffers.active;
-    const std::uint32_t count = mesh.block_count();
+    const std::uint32_t count = body.tiles->block_count();
     active.assign(count, 0);
-    const std::pmr::vector<std::uint32_t>& first = mesh.block_first;
-    for (const std::uint32_t v : mesh.surface.loose)
-        active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
-                                        1)] = 1;
+    const std::pmr::vector<std::uint32_t>& first = body.tiles->block_first;
+    for (const std::uint32_t v : body.boundary->loose)
+        active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() - 1)] = 1;
     if (certificate.complete) return;
-    const Box* blocks = block_boxes_.data() + state.first_block;
+    const Box* blocks = boxes.blocks.data() + body.first_block;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (certificate.holds(blocks[i])) continue;
         for (std::uint32_t v = first[i]; v < first[i + 1] && !active[i]; ++v)
-            active[i] = !certificate.holds(state.positions + std::size_t{v} * 3);
+            active[i] = !certificate.holds(body.positions + std::size_t{v} * 3);
     }
 }
 
 // The window of the vertices of a body that reach another one, or that may be in tets of the same body.
-void FastEngine::make_window(const Step& step, std::uint32_t a, fast::Bins& bins, Worker& worker,
-                       Workers* helpers) {
+void make_window(const Step& step, const BroadPhase& broad, double cell_size, std::uint32_t a, Bins& bins,
+                 Windows::Worker& worker, Workers* helpers, StepBoxes& boxes, Windows& out) {
     const Body& body = step.bodies[a];
-    BodyState& state = states_[a];
-    const bool self = body.self_collision && state.moved && !body.tets.empty();
-    const std::span<const Reach> reaches =
-        std::span(reaches_).subspan(first_of_a_[a], first_of_a_[a + 1] - first_of_a_[a]);
-    if (body.vertex_count == 0 || (reaches.empty() && !self)) return;
+    const StepBody& step_body = step.of[a];
+    const bool self = body.self_collision && step_body.moved && !body.tets.empty();
+    const std::span<const PairRegion> pairs = broad.of_a(a);
+    if (body.vertex_count == 0 || (pairs.empty() && !self)) return;
 
-    WindowBuffers& buffers = state.buffers == none ? worker.windows : large_buffers_[state.buffers];
-    const bool culled = self && cull_by_winding(step, a, buffers.certificate, worker.exact_tests, helpers);
-    const Box* blocks = block_boxes_.data() + state.first_block;
-    const std::pmr::vector<std::uint32_t>& first = step.prepared[a]->block_first;
-    const std::uint32_t count = step.prepared[a]->block_count();
-    Box own =
-        self && !culled ? body_boxes_[a] : empty_box; // of the vertices that may be in the same body
+    WindowBuffers& buffers = out.large_of[a] == Windows::none ? worker : out.large[out.large_of[a]];
+    const bool culled = self && cull_by_winding(step, a, helpers, boxes, buffers.certificate, worker);
+    Box own = self && !culled ? boxes.bodies[a] : empty_box;
     if (culled) {
-        activate_blocks(step, a, buffers);
-        for (std::uint32_t b = 0; b < count; ++b)
-            if (buffers.active[b]) add(own, blocks[b]);
+        activate_blocks(step_body, boxes, buffers);
+        for (std::uint32_t b = 0; b < step_body.tiles->block_count(); ++b)
+            if (buffers.active[b]) add(own, boxes.blocks[step_body.first_block + b]);
     }
-    state.self = !is_empty(own);
-    Box region = own;
-    for (const Reach& reach : reaches) add(region, reach.region);
-    if (is_empty(region)) return;
+    Box around = own;
+    for (const PairRegion& pair : pairs) add(around, pair.region);
+    if (is_empty(around)) return;
 
-    fast::Points& points = buffers.points;
+    Points& points = buffers.points;
     points.count = 0;
-    for (std::uint32_t b = 0; b < count; b += fast::most_boxes) {
-        const std::uint32_t some = std::min(fast::most_boxes, count - b);
-        std::uint64_t wanted = 0;
-        for (std::uint32_t i = 0; i < some && self; ++i)
-            wanted |= std::uint64_t{!culled || buffers.active[b + i]} << i;
-        for (const Reach& reach : reaches) wanted |= fast::find_overlaps(blocks + b, some, reach.region);
+    collect_near(step, boxes, broad, a, around, self && !culled, culled ? buffers.active.data() : nullptr, points);
+    if (points.count == 0) return;
+
+    // From the mean side of the tiles that will query the window.
+    TileSize size;
+    for (const PairRegion& pair : pairs) size.add(pair.tile_size);
+    if (!is_empty(own)) sample_tiles(step_body, boxes, size);
+    const double automatic = cells_per_tile * size.mean();
+    const std::uint32_t before = bins.points.count;
+    BodyWindow& window = out.of[a];
+    window.cell_size = cell_size > 0 ? std::min(cell_size, largest_factor * automatic) : automatic;
+    window.root = bin_tree(points, window.cell_size, buffers.cell_of, bins);
+    window.bins = &bins;
+    window.count = bins.points.count - before;
+    window.own = own;
+    intersect(window.own, bins.windows[window.root].box);
+}
+
+} // namespace
+
+void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& broad, std::uint32_t body,
+                  const Box& around, bool all_blocks, const std::uint8_t* active, Points& points) {
+    const StepBody& step_body = step.of[body];
+    const Box* blocks = boxes.blocks.data() + step_body.first_block;
+    const std::pmr::vector<std::uint32_t>& first = step_body.tiles->block_first;
+    const std::uint32_t count = step_body.tiles->block_count();
+    for (std::uint32_t b = 0; b < count; b += most_boxes) {
+        const std::uint32_t some = std::min(most_boxes, count - b);
+        std::uint64_t wanted = all_blocks ? ~std::uint64_t{0} >> (64 - some) : 0;
+        for (std::uint32_t i = 0; i < some && active; ++i) wanted |= std::uint64_t{active[b + i]} << i;
+        for (const PairRegion& pair : broad.of_a(body)) wanted |= find_overlaps(blocks + b, some, pair.region);
         while (wanted) { // runs of blocks
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
             wanted = end < 64 ? wanted >> end << end : 0;
             points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
-            fast::collect(state.positions, first[b + begin], first[b + end], body.vertex_count, region,
-                          points);
+            collect(step_body.positions, first[b + begin], first[b + end], step.bodies[body].vertex_count, around,
+                    points);
         }
     }
-    if (points.count == 0) return;
-
-    // From the mean side of the tiles that will query the window.
-    TileSize sides;
-    for (const Reach& reach : reaches) sides.add(reach.sides);
-    if (state.self) sample_tiles(step, a, sides);
-    const double automatic = cells_per_tile * sides.mean(), wanted = step.settings.cell_size;
-    state.cell_size = wanted > 0 ? std::min(wanted, largest_factor * automatic) : automatic;
-
-    const std::uint32_t before = bins.points.count;
-    state.root = fast::bin_tree(points, state.cell_size, buffers.cell_of, bins);
-    state.bins = &bins;
-    state.binned = bins.points.count - before;
-    state.own = own;
-    intersect(state.own, bins.windows[state.root].box);
 }
 
-} // namespace vox
+// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, these share
+// the first part of each.
+void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes, Windows& out) {
+    prepare(step, out);
+    std::size_t vertices = 0, large = 0;
+    for (std::size_t a = 0; a < step.bodies.size(); ++a) {
+        vertices += step.bodies[a].vertex_count;
+        large += step.of[a].moved && is_large(step.bodies[a]);
+    }
+    const bool share = large < step.worker_count() && large <= most_shared;
+    for (std::uint32_t g = 0; large && share && g < out.groups.size(); ++g)
+        for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
+            if (is_large(step.bodies[a]))
+                make_window(step, broad, cell_size, a, out.bins[g], out.workers[0], step.workers, boxes, out);
+    step.for_ranges(out.groups.size(), vertices, 2 * group_vertices,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+                        for (std::size_t g = begin; g < end; ++g)
+                            for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
+                                if (!share || !is_large(step.bodies[a]))
+                                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker], nullptr,
+                                                boxes, out);
+                    });
+    out.workers.level();
+}
+
+} // namespace vox::fast

@@ -3,6 +3,7 @@
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "cell_size/suggest.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -81,7 +82,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
-      free_slots_(&memory_), bodies_(&memory_), tiles_(&memory_), fast_engine_(&memory_),
+      free_slots_(&memory_), bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_),
       contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
@@ -99,7 +100,11 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     vox_filter filter = read_filter(desc.filter);
     if (desc.flags & VOX_MESH_SELF_COLLISION) filter.self_collision = 1;
     Mesh mesh(desc, view, filter, &memory_);
-    if (fast_ && mesh.has_positions()) mesh.make_tiles();
+    fast::MeshState state(&memory_);
+    if (fast_ && mesh.has_positions()) {
+        mesh.make_tiles();
+        state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+    }
     if (find_penetrations_) mesh.make_topology();
     if (fresh_slot) {
         grow_capacity(slots_, slots_.size() + 1);
@@ -109,12 +114,13 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     std::uint32_t slot;
     if (fresh_slot) {
         slot = static_cast<std::uint32_t>(slots_.size());
-        slots_.push_back({Mesh(&memory_)});
+        slots_.emplace_back(&memory_);
     } else {
         slot = free_slots_.back();
         free_slots_.pop_back();
     }
     slots_[slot].mesh = std::move(mesh);
+    slots_[slot].state = std::move(state);
     slots_[slot].live = true;
     slots_[slot].generation += 1;
     vertex_count_ += view.vertex_count;
@@ -143,7 +149,8 @@ void vox_grid::clear() {
 
 void vox_grid::mark_moved(vox_mesh id) {
     meshes_hold_ = false;
-    for (fast::LastPositions::Part& part : mesh(id).tiles().rest.parts) part.copied = false;
+    (void)mesh(id); // throws for an id that names no mesh
+    slots_[slot_of(id)].state.invalidate_positions();
 }
 
 void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
@@ -186,12 +193,17 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     check_limit(vertex_count_ - changed.vertex_count(), view.vertex_count, VOX_MAX_VERTICES, "vertices");
     check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
     Mesh made = changed.with_topology(desc, view);
-    if (fast_ && made.has_positions()) made.make_tiles();
+    fast::MeshState state(&memory_);
+    if (fast_ && made.has_positions()) {
+        made.make_tiles();
+        state.update(made.tiled(), made.tiles_version(), made.vertex_count());
+    }
     if (find_penetrations_) made.make_topology();
     vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
     tet_count_ += view.tets.size() - changed.tet_count();
     made.take_over(std::move(changed));
     changed = std::move(made);
+    slots_[slot_of(id)].state = std::move(state);
     if (view.vertex_count == 0) contacts_hold_ = false; // nothing of it can be seen to move
     meshes_hold_ = false;
     adaptive_.scene_changed();
@@ -245,6 +257,7 @@ void vox_grid::vacate(std::uint32_t slot) noexcept {
     vertex_count_ -= s.mesh.vertex_count();
     tet_count_ -= s.mesh.tet_count();
     s.mesh = Mesh(&memory_);
+    s.state = fast::MeshState(&memory_);
     s.live = false;
     s.body = Slot::none;
     adaptive_.scene_changed();
@@ -264,7 +277,7 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     room_for(slots_, mesh_count);
     room_for(free_slots_, mesh_count);
     room_for(bodies_, mesh_count);
-    room_for(tiles_, mesh_count);
+    room_for(prepared_, mesh_count);
     room_for(hits_, contact_count);
     room_for(contacts_, contact_count);
     if (find_penetrations_) room_for(penetrations_, contact_count);
@@ -378,7 +391,7 @@ void vox_grid::step() {
 void vox_grid::gather_bodies(vox_counters& counters) {
     bodies_.clear();
     topologies_.clear();
-    tiles_.clear();
+    prepared_.clear();
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         Slot& s = slots_[slot];
         s.body = Slot::none;
@@ -395,14 +408,17 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         // Of meshes that were inserted without positions, and after edits.
         s.mesh.make_rings();
         if (find_penetrations_) s.mesh.make_topology();
-        if (fast_) s.mesh.make_tiles();
+        if (fast_) {
+            s.mesh.make_tiles();
+            s.state.update(s.mesh.tiled(), s.mesh.tiles_version(), s.mesh.vertex_count());
+        }
         Body& body = bodies_.emplace_back(s.mesh.body(id));
         if (body.off_count == body.tets.size()) { // no stage need know of them
             body.tets = {};
             body.off_count = 0;
         }
         topologies_.push_back(&s.mesh.topology());
-        if (fast_) tiles_.push_back(&s.mesh.tiles());
+        if (fast_) prepared_.push_back({&s.mesh.tiled().tiles, &s.mesh.tiled().boundary, &s.state});
     }
 }
 
@@ -420,7 +436,7 @@ void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& prof
     // The engine chooses a cell size for each of its windows unless one is set.
     const FastSettings settings{
         .cell_size = choose_cell_size_ ? 0 : cell_size_, .workers = &workers_, .carry = carry};
-    fast_engine_.detect(bodies_, tiles_, settings, hits_, counters, profile);
+    fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
     if (choose_cell_size_) cell_size_ = fast_engine_.cell_size();
 }
 
@@ -459,7 +475,7 @@ void vox_grid::choose_cell_size() {
     if (!choose_cell_size_) return;
     const double before = cell_size_;
     const std::uint64_t changes = adaptive_.changes();
-    settings_.levels = adaptive_.cell_sizes(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.storage, byte_limit(), &memory_);
     cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
@@ -484,35 +500,34 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
-    Known known(memory);
+void vox_grid::describe(CellSizeScene& scene) const {
     const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
-    reserve(known.bodies, known.tiles, known.meshes, known.activity);
+    reserve(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        known.bodies.push_back(s.mesh.body(id));
-        known.tiles.push_back(s.mesh.tiles_if_made());
-        known.meshes.push_back(&s.mesh);
-        known.activity.push_back(s.body == Slot::none ? Activity{}
-                                                      : fast_engine_.activity(s.body, s.mesh.vertex_count()));
+        scene.bodies.push_back(s.mesh.body(id));
+        scene.tiles.push_back(s.mesh.tiles_if_made());
+        scene.meshes.push_back(&s.mesh);
+        const bool stepped = s.body < fast_engine_.last_step().of.size();
+        scene.at_rest.push_back(stepped && !fast_engine_.moved(s.body));
+        scene.cleared.push_back(stepped && !fast_engine_.met_itself(s.body, s.mesh.vertex_count()));
     }
-    if (fast_ && meshes_hold_) known.last_step = &fast_engine_;
-    return known;
+    if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }
 
-void vox_grid::describe(vox_suggest_desc& desc) const noexcept {
-    desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
-    desc.storage = settings_.storage;
-    desc.byte_budget = memory_.budget();
-}
-
-double vox_grid::share_without_contact() const noexcept {
-    if (counters_.tets == 0) return 0;
-    return 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
+    if (!chosen) {
+        desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+        desc.storage = settings_.storage;
+        desc.byte_budget = memory_.budget();
+    }
+    if (counters_.tets == 0) return;
+    const double p_nc = 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+    if (p_nc > 0 && p_nc < 1 && desc.p_nc == suggest_defaults().p_nc) desc.p_nc = p_nc;
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {
@@ -549,7 +564,7 @@ void vox_grid::prepare_queries() {
         check_finite(body);
         s.mesh.make_tiles(); // of the reference engine's meshes too
         s.mesh.make_topology();
-        bodies.push_back({body, &s.mesh.tiles(), &s.mesh.topology()});
+        bodies.push_back({body, &s.mesh.tiled().tiles, &s.mesh.topology()});
     }
     queries_.prepare(bodies);
 }

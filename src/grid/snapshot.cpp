@@ -224,7 +224,7 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
         if (generation == 0 || generation > VOX_MAX_GENERATIONS)
             in.refuse(format("slot %" PRIu32 " has generation %" PRIu32 ", expected 1 to %" PRIu32, slot,
                              generation, VOX_MAX_GENERATIONS));
-        grid.slots_.push_back({Mesh(&grid.memory_), generation});
+        grid.slots_.emplace_back(&grid.memory_, generation);
         if (word & live_bit)
             to.awaited.push_back(make_id(slot, generation));
         else

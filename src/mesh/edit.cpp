@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "mesh/check.hpp"
+#include "mesh/tile_repair.hpp"
 
 #include <algorithm>
 #include <cinttypes>
@@ -234,7 +235,7 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         removed_vertices_.add(v);
-        forget_loose(tiles_.surface, v);
+        remove_loose(tiled_.boundary, v);
     }
 }
 
@@ -269,7 +270,7 @@ void Mesh::list_tets_of() {
 }
 
 void Mesh::forget_tiles() noexcept {
-    tiles_ = FastMesh(memory());
+    tiled_ = TiledMesh(memory());
     has_tiles_ = false;
 }
 
@@ -309,7 +310,7 @@ void Mesh::follow(std::span<const TetChange> changes) noexcept {
     }
     if (has_tiles_) {
         try {
-            if (!tiles_.follow(body(VOX_NULL_MESH), changes, tets_of_)) forget_tiles();
+            if (!repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) forget_tiles();
         } catch (...) {
             forget_tiles();
         }
@@ -335,7 +336,7 @@ void Mesh::follow_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
         if (has_tets_of_) tets_of_.resize(vertex_count_);
-        if (has_tiles_ && !tiles_.follow_vertices(body(VOX_NULL_MESH), count_before)) forget_tiles();
+        if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) forget_tiles();
         if (has_topology_) add_vertices(vertex_count_, topology_);
         if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
     } catch (...) {

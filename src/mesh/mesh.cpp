@@ -12,7 +12,7 @@ namespace vox {
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
     : tets_(view.tets.begin(), view.tets.end(), memory), given_(memory), off_(memory), removed_(memory),
-      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory),
+      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory),
       positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
@@ -26,8 +26,9 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    tiles_.prepare(body(VOX_NULL_MESH));
+    make_tiled_mesh(body(VOX_NULL_MESH), tiled_);
     has_tiles_ = true;
+    ++tiles_version_;
 }
 
 void Mesh::make_topology() {
@@ -111,7 +112,8 @@ void Mesh::set_filter(const vox_filter& filter) {
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
         Body with_self = body(VOX_NULL_MESH);
         with_self.self_collision = true;
-        tiles_.prepare(with_self); // more is prepared of bodies with self-collision
+        make_tiled_mesh(with_self, tiled_); // more is prepared of bodies with self-collision
+        ++tiles_version_;
     }
     if (!rest.empty()) self_filter_.rest = std::move(rest);
     if (other_rings) self_filter_.rings = std::move(rings);

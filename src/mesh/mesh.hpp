@@ -5,16 +5,18 @@
 #include "base/bits.hpp"
 #include "base/lazy.hpp"
 #include "base/scene.hpp"
-#include "fast/engine.hpp"
 #include "mesh/filter.hpp"
 #include "mesh/sample.hpp"
+#include "mesh/tiled_mesh.hpp"
 #include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -24,7 +26,7 @@ public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
         : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
-          owned_(memory), tets_of_(memory), topology_(memory), tiles_(memory), filter_(filter_defaults()),
+          owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), filter_(filter_defaults()),
           self_filter_(memory), exceptions_(memory) {}
     // A copy of a checked desc: `view` are its arrays (mesh_check.hpp), desc.filter not looked at.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -41,11 +43,13 @@ public:
     const MeshSample& sample() const;
     bool may_sample() const noexcept { return tets_.size() <= most_tets; }
 
-    // Makes the fast engine's tiles, unless that is done; needs positions.
+    // Makes the tiles, unless that is done; needs positions.
     void make_tiles();
-    FastMesh& tiles() noexcept { return tiles_; }
+    const TiledMesh& tiled() const noexcept { return tiled_; }
+    // Grows when the tiles are made anew; at least 1 once they are made.
+    std::uint32_t tiles_version() const noexcept { return tiles_version_; }
     // Null before they are made.
-    const FastMesh* tiles_if_made() const noexcept { return has_tiles_ ? &tiles_ : nullptr; }
+    const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &tiled_.tiles : nullptr; }
 
     // Finds the rings of the filter, unless that is done.
     void make_rings();
@@ -134,11 +138,12 @@ private:
     IndexLists tets_of_;                  // the tets around each vertex, once an edit needed them
     Topology topology_;
     Lazy<MeshSample> sample_;
-    FastMesh tiles_;
+    TiledMesh tiled_;
     Positions positions_; // without the transform
     std::array<double, 12> transform_{};
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
+    std::uint32_t tiles_version_ = 0;
     bool owns_positions_ = false; // also where there are no vertices yet
     bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;

@@ -14,8 +14,8 @@ constexpr std::uint64_t bit(std::uint32_t i) { return std::uint64_t{1} << i; }
 
 class Repair {
 public:
-    Repair(Tiles& tiles, Boundary& surface, TilePlaces& places, const Body& body, const IndexLists& tets_of)
-        : tiles_(tiles), surface_(surface), places_(places), body_(body), tets_of_(tets_of) {}
+    Repair(TiledMesh& mesh, const Body& body, const IndexLists& tets_of)
+        : tiles_(mesh.tiles), boundary_(mesh.boundary), places_(mesh.places), body_(body), tets_of_(tets_of) {}
 
     void run(std::span<const TetChange> changes) {
         if (places_.room.empty()) find_places();
@@ -25,7 +25,7 @@ public:
             if (change.was_on) take_out(change.tet);
             if (change.is_on) put_in(change.tet, change.after);
         }
-        if (!surface_.is_closed) return;
+        if (!boundary_.is_closed) return;
         std::pmr::memory_resource* memory = places_.triangles.memory();
         std::pmr::vector<FacetKey> keys(memory);
         list_changed_facets(changes, keys);
@@ -33,8 +33,8 @@ public:
         std::pmr::vector<std::uint32_t> vertices(memory);
         list_changed_vertices(changes, vertices);
         for (const std::uint32_t v : vertices) mind_loose(v);
-        if (!boundary_pays(surface_.triangles.size(), body_.tets.size() - body_.off_count))
-            surface_ = Boundary(memory);
+        if (!boundary_pays(boundary_.triangles.size(), body_.tets.size() - body_.off_count))
+            boundary_ = Boundary(memory);
     }
 
 private:
@@ -51,8 +51,9 @@ private:
                 places_.of_tet[tiles_.tets[tile.first_tet + i]] = t * tile_size + i;
             places_.room.push_back({tile.tet_count, static_cast<std::uint8_t>((tile.vertex_count + 3) & ~3)});
         }
-        if (!surface_.is_closed) return;
-        const std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        places_.changed_at.assign(tiles_.super_tile_count(), 0);
+        if (!boundary_.is_closed) return;
+        const std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         places_.triangles.list_by_vertex(static_cast<std::uint32_t>(triangles.size()), body_.vertex_count,
                                          [&](std::uint32_t t) { return std::span(triangles[t]).first(1); });
     }
@@ -75,8 +76,8 @@ private:
             tets[place] = tets[last];
             places_.of_tet[tets[place]] = t * tile_size + place;
         }
-        if (!surface_.is_closed) return;
-        for (std::uint64_t* set : {&surface_.mirrored[t], &surface_.ignored[t]})
+        if (!boundary_.is_closed) return;
+        for (std::uint64_t* set : {&boundary_.mirrored[t], &boundary_.ignored[t]})
             *set = ((*set & ~bit(place)) | (*set >> last & 1) << place) & tile.all_tets();
     }
 
@@ -95,11 +96,12 @@ private:
                 tiles_.vertices[tile.first_vertex + tile.vertex_count - 1];
         tiles_.tets[tile.first_tet + place] = tet;
         places_.of_tet[tet] = t * tile_size + place;
-        if (!surface_.is_closed) return;
+        places_.changed_at[tiles_.super_tile_of(t)] = places_.changes;
+        if (!boundary_.is_closed) return;
         if (names_a_vertex_twice(corners))
-            surface_.ignored[t] |= bit(place);
+            boundary_.ignored[t] |= bit(place);
         else if (is_negative(corners, body_.positions))
-            surface_.mirrored[t] |= bit(place);
+            boundary_.mirrored[t] |= bit(place);
     }
 
     std::uint32_t missing_in(const Tile& tile, const Tet& corners) const noexcept {
@@ -151,9 +153,9 @@ private:
         tiles_.corners.resize(tiles_.corners.size() + 4 * tile_size, 0);
         tiles_.tiles.push_back(tile);
         places_.room.push_back({tile_size, tile_size});
-        if (surface_.is_closed) {
-            surface_.mirrored.push_back(0);
-            surface_.ignored.push_back(0);
+        if (boundary_.is_closed) {
+            boundary_.mirrored.push_back(0);
+            boundary_.ignored.push_back(0);
         }
         std::pmr::vector<std::uint32_t>& super_first = tiles_.super_first;
         const std::uint32_t supers = tiles_.super_tile_count();
@@ -162,6 +164,7 @@ private:
         else
             super_first.push_back(t + 1);
         tiles_.blocks.resize(tiles_.super_tile_count());
+        places_.changed_at.resize(tiles_.super_tile_count());
         return t;
     }
 
@@ -207,7 +210,7 @@ private:
         return tile.vertex_count++;
     }
 
-    // ---- the surface ----
+    // ---- the boundary ----
 
     void count_facet(const FacetKey& key) {
         int net = 0;
@@ -215,10 +218,10 @@ private:
             const std::uint32_t* v = body_.tets[tet].v;
             const bool even = sorted_facet(v[facets[i][0]], v[facets[i][1]], v[facets[i][2]]).even;
             const std::uint32_t place = places_.of_tet[tet];
-            const bool mirrored = surface_.mirrored[place / tile_size] >> place % tile_size & 1;
+            const bool mirrored = boundary_.mirrored[place / tile_size] >> place % tile_size & 1;
             net += even != mirrored ? 1 : -1;
         });
-        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         const std::span<const std::uint32_t> at_low = places_.triangles[key.low];
         const auto found = std::find_if(at_low.begin(), at_low.end(), [&](std::uint32_t t) {
             return sorted_facet(triangles[t][0], triangles[t][1], triangles[t][2]).key == key;
@@ -235,7 +238,7 @@ private:
 
     // The last one takes its place.
     void drop_triangle(std::uint32_t low, std::uint32_t hole) noexcept {
-        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = surface_.triangles;
+        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         const auto last = static_cast<std::uint32_t>(triangles.size() - 1);
         places_.triangles.remove(low, hole);
         if (hole != last) {
@@ -252,7 +255,7 @@ private:
         const bool is_loose = std::all_of(around.begin(), around.end(), [&](std::uint32_t tet) {
             return names_a_vertex_twice(body_.tets[tet]);
         });
-        std::pmr::vector<std::uint32_t>& loose = surface_.loose;
+        std::pmr::vector<std::uint32_t>& loose = boundary_.loose;
         const auto place = std::lower_bound(loose.begin(), loose.end(), vertex);
         const bool was_loose = place != loose.end() && *place == vertex;
         if (is_loose && !was_loose) loose.insert(place, vertex);
@@ -260,7 +263,7 @@ private:
     }
 
     Tiles& tiles_;
-    Boundary& surface_;
+    Boundary& boundary_;
     TilePlaces& places_;
     const Body& body_;
     const IndexLists& tets_of_;
@@ -269,33 +272,33 @@ private:
 
 } // namespace
 
-bool repair(Tiles& tiles, Boundary& surface, TilePlaces& places, const Body& body,
-            std::span<const TetChange> changes, const IndexLists& tets_of) {
+bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of) {
     // The share of the tets that may change before tiles are made anew, which takes about as long as their
     // repair did by then.
-    if (places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;
-    Repair(tiles, surface, places, body, tets_of).run(changes);
+    if (mesh.places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;
+    Repair(mesh, body, tets_of).run(changes);
     return true;
 }
 
-void add_vertices(Tiles& tiles, Boundary& surface, TilePlaces& places, std::uint32_t count_before,
-                  std::uint32_t count_after) {
-    std::pmr::vector<std::uint32_t>& first = tiles.block_first;
+bool add_vertices(TiledMesh& mesh, std::uint32_t count_before, std::uint32_t count_after) {
+    if (count_before == 0) return false;
+    std::pmr::vector<std::uint32_t>& first = mesh.tiles.block_first;
     for (std::uint32_t v = count_before; v < count_after; ++v) {
         const std::uint32_t begin = first[first.size() - 2];
-        if (begin >= places.first_young_vertex && v - begin < block_size)
+        if (begin >= mesh.places.first_young_vertex && v - begin < block_size)
             first.back() = v + 1;
         else
             first.push_back(v + 1);
     }
-    if (!surface.is_closed) return;
-    for (std::uint32_t v = count_before; v < count_after; ++v) surface.loose.push_back(v);
-    if (!places.triangles.empty()) places.triangles.resize(count_after);
+    if (!mesh.boundary.is_closed) return true;
+    for (std::uint32_t v = count_before; v < count_after; ++v) mesh.boundary.loose.push_back(v);
+    if (!mesh.places.triangles.empty()) mesh.places.triangles.resize(count_after);
+    return true;
 }
 
-void forget_loose(Boundary& surface, std::uint32_t vertex) noexcept {
-    const auto place = std::lower_bound(surface.loose.begin(), surface.loose.end(), vertex);
-    if (place != surface.loose.end() && *place == vertex) surface.loose.erase(place);
+void remove_loose(Boundary& boundary, std::uint32_t vertex) noexcept {
+    const auto place = std::lower_bound(boundary.loose.begin(), boundary.loose.end(), vertex);
+    if (place != boundary.loose.end() && *place == vertex) boundary.loose.erase(place);
 }
 
 } // namespace vox

@@ -132,7 +132,8 @@ public:
     // Takes the bodies' views and prepares their tiles; again after a mesh was added.
     void prepare() {
         bodies_.clear();
-        tiles_.clear();
+        tiled_.clear();
+        states_.clear();
         prepared_.clear();
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
             const Mesh& mesh = meshes_[i];
@@ -143,23 +144,30 @@ public:
             body.tets = mesh.tets;
             body.self_collision = self_[i];
             bodies_.push_back(body);
-            tiles_.emplace_back(memory_);
-            tiles_.back().prepare(body);
+            vox::TiledMesh& tiled = tiled_.emplace_back(memory_);
+            vox::make_tiled_mesh(body, tiled);
+            vox::fast::MeshState& state = states_.emplace_back(memory_);
+            state.update(tiled, 1, body.vertex_count);
+            prepared_.push_back({&tiled.tiles, &tiled.boundary, &state});
         }
-        for (vox::FastMesh& tiles : tiles_) prepared_.push_back(&tiles);
     }
 
     std::vector<vox::Body>& bodies() { return bodies_; }
-    const std::vector<vox::FastMesh*>& prepared() const { return prepared_; }
-    std::vector<const vox::Tiles*> tiles() const { return {prepared_.begin(), prepared_.end()}; }
+    const std::vector<vox::fast::PreparedBody>& prepared() const { return prepared_; }
+    std::vector<const vox::Tiles*> tiles() const {
+        std::vector<const vox::Tiles*> tiles;
+        for (const vox::fast::PreparedBody& body : prepared_) tiles.push_back(body.tiles);
+        return tiles;
+    }
 
 private:
     std::pmr::memory_resource* memory_;
     std::deque<Mesh> meshes_;
     std::deque<bool> self_;
     std::vector<vox::Body> bodies_;
-    std::deque<vox::FastMesh> tiles_;
-    std::vector<vox::FastMesh*> prepared_;
+    std::deque<vox::TiledMesh> tiled_;
+    std::deque<vox::fast::MeshState> states_;
+    std::vector<vox::fast::PreparedBody> prepared_;
 };
 
 // Hits as comparable numbers, sorted.

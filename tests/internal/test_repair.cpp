@@ -1,4 +1,4 @@
-// What is repaired after an edit against the same made anew: lists, topology, rings, tiles and surface.
+// What is repaired after an edit against the same made anew: lists, topology, rings, tiles and boundary.
 #include "internal/counting_memory.hpp"
 #include "internal/stage_checks.hpp"
 
@@ -295,7 +295,7 @@ void check_tiles(const Edited& e, const Tiles& tiles, const TilePlaces& places) 
 
 // By its definition: the facets that tets on one side have more of than those on the other. Which of the tets
 // count as mirrored is for is_negative() to say, of the positions that do not move here.
-void check_surface(const Edited& e, const Boundary& surface) {
+void check_boundary(const Edited& e, const Boundary& boundary) {
     std::map<FacetKey, int> net;
     std::vector<bool> used(e.mesh.positions.size());
     for (std::size_t t = 0; t < e.mesh.tets.size(); ++t) {
@@ -310,9 +310,9 @@ void check_surface(const Edited& e, const Boundary& surface) {
     }
     std::size_t expected = 0;
     for (const auto& [key, count] : net) expected += count != 0;
-    ck_assert_uint_eq(surface.triangles.size(), expected);
+    ck_assert_uint_eq(boundary.triangles.size(), expected);
     std::set<FacetKey> seen;
-    for (const auto& t : surface.triangles) {
+    for (const auto& t : boundary.triangles) {
         const SortedFacet facet = sorted_facet(t[0], t[1], t[2]);
         ck_assert(seen.insert(facet.key).second);
         ck_assert(net[facet.key] != 0 && (net[facet.key] > 0) == facet.even);
@@ -320,28 +320,24 @@ void check_surface(const Edited& e, const Boundary& surface) {
     std::vector<std::uint32_t> loose;
     for (std::uint32_t v = 0; v < used.size(); ++v)
         if (!used[v]) loose.push_back(v);
-    ck_assert(std::ranges::equal(surface.loose, loose));
+    ck_assert(std::ranges::equal(boundary.loose, loose));
 }
 
-struct Prepared {
-    explicit Prepared(const Edited& e, bool with_surface) : tiles(heap()), surface(heap()), places(heap()) {
+struct Prepared : TiledMesh {
+    explicit Prepared(const Edited& e, bool with_boundary) : TiledMesh(heap()) {
         make_tiles(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, e.off.words());
         if (!e.self) tiles.own.clear();
-        if (with_surface) make_boundary(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, surface);
+        if (with_boundary) make_boundary(e.mesh.tets, vertex_count(e.mesh), view(e.mesh), tiles, boundary);
         places.first_young_super = tiles.super_tile_count();
         places.first_young_vertex = vertex_count(e.mesh);
     }
 
-    bool follow(Edited& e) {
+    bool apply(Edited& e) {
         e.follow_all();
-        const bool done = repair(tiles, surface, places, e.body(), e.changes, e.tets_of);
+        const bool done = repair(*this, e.body(), e.changes, e.tets_of);
         e.changes.clear();
         return done;
     }
-
-    Tiles tiles;
-    Boundary surface;
-    TilePlaces places;
 };
 
 void append_vertices(Edited& e, Prepared& p, Random& random) {
@@ -349,7 +345,7 @@ void append_vertices(Edited& e, Prepared& p, Random& random) {
     for (std::uint32_t n = 1 + random.below(10); n > 0; --n)
         e.mesh.positions.push_back(e.mesh.positions[random.below(before)]);
     e.tets_of.resize(e.mesh.positions.size());
-    add_vertices(p.tiles, p.surface, p.places, before, vertex_count(e.mesh));
+    ck_assert(add_vertices(p, before, vertex_count(e.mesh)));
 }
 
 START_TEST(tiles_are_repaired) {
@@ -367,7 +363,7 @@ START_TEST(tiles_are_repaired) {
             edit(e, random, random.below(8) ? 4 : 100);
             if (random.below(6) == 0) e.append(any_tet(random, vertex_count(e.mesh)));
             changes += e.changes.size();
-            const bool done = p.follow(e);
+            const bool done = p.apply(e);
             ck_assert(done == (changes <= e.given.size() / 4 + tile_size));
             if (!done) break;
             check_tiles(e, p.tiles, p.places);
@@ -384,7 +380,7 @@ START_TEST(all_off_and_on_again) {
     for (int round = 0; round < 2; ++round)
         for (std::uint32_t t = 0; t < 50; ++t) { // a whole tile's, and more
             e.switch_tet(p.tiles.tets[t % 2 ? t : 50 - t], round == 1);
-            if (!p.follow(e)) p = Prepared(e, false);
+            if (!p.apply(e)) p = Prepared(e, false);
             if (p.places.of_tet.empty()) continue;
             check_tiles(e, p.tiles, p.places);
         }
@@ -392,7 +388,7 @@ START_TEST(all_off_and_on_again) {
     e.follow_all();
     const Prepared none(e, true);
     ck_assert_uint_eq(none.tiles.tiles.size(), 0);
-    ck_assert_uint_eq(none.surface.triangles.size(), 0);
+    ck_assert_uint_eq(none.boundary.triangles.size(), 0);
 }
 END_TEST
 
@@ -403,20 +399,20 @@ START_TEST(surface_is_repaired) {
         if (random.below(3) == 0) std::swap(tet.v[2], tet.v[3]); // prepared as mirrored
     Edited e(std::move(mesh));
     Prepared p(e, true);
-    ck_assert(p.surface.is_closed);
-    check_surface(e, p.surface);
+    ck_assert(p.boundary.is_closed);
+    check_boundary(e, p.boundary);
     for (int step = 0; step < 60; ++step) {
         if (step % 4 == 0) append_vertices(e, p, random);
         edit(e, random, 5);
-        ck_assert(p.follow(e));
-        ck_assert(p.surface.is_closed);
-        if (step % 6 == 5) check_surface(e, p.surface);
+        ck_assert(p.apply(e));
+        ck_assert(p.boundary.is_closed);
+        if (step % 6 == 5) check_boundary(e, p.boundary);
     }
     check_tiles(e, p.tiles, p.places);
     // Where it is most of the body it is given up: every other tet off.
     for (std::uint32_t t = 0; t < 12000; t += 2) e.switch_tet(t, false);
-    ck_assert(p.follow(e));
-    ck_assert(!p.surface.is_closed && p.surface.triangles.empty());
+    ck_assert(p.apply(e));
+    ck_assert(!p.boundary.is_closed && p.boundary.triangles.empty());
 }
 END_TEST
 

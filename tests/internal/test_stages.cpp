@@ -1,7 +1,7 @@
 // Stages of the fast engine by themselves, over plain arrays, against loops over everything: tiles, stream,
 // pairs. Windows and what is asked of them are in test_windows.cpp, surface and winding numbers in
 // test_winding.cpp.
-#include "fast/sides.hpp"
+#include "fast/broad_phase.hpp"
 #include "internal/stage_checks.hpp"
 
 #include <cfloat>

@@ -37,7 +37,7 @@ struct Followed {
         Box all;
         fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all);
         turning.reference.assign(packed(mesh), packed(mesh) + 3 * mesh.positions.size());
-        fast::follow(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+        fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
                      super_boxes.data(), upright.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.resize(tiles.super_tile_count());
@@ -49,7 +49,7 @@ struct Followed {
         Box all;
         fast::stream_boxes(packed(mesh), turning.reference.data(), tiles.block_first, blocks.data(),
                            moves.data(), all);
-        fast::follow(tiles, turning, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
+        fast::track_orientation(tiles, turning, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
                      super_boxes.data(), upright.data());
         std::size_t count = 0;
         std::uint64_t exact_tests = 0;

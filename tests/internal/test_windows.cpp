@@ -264,7 +264,7 @@ std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>
     }
     std::vector<Box> boxes(tile_count);
     std::vector<std::uint8_t> known(tile_count);
-    fast::tile_boxes(tiles, packed(mesh), 0, tile_count / 2, boxes.data(), known.data());
+    fast::make_tile_boxes(tiles, packed(mesh), 0, tile_count / 2, boxes.data(), known.data());
     std::vector<std::uint32_t> stamps(mesh.positions.size());
     const bool stamped = self && !sources.empty() && sources[0].body == 0;
     fast::Query q{};

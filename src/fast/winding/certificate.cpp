@@ -20,7 +20,7 @@
 
 #include "base/parallel.hpp"
 #include "exact/predicates.hpp"
-#include "fast/query.hpp"
+#include "fast/broad_phase.hpp"
 
 #include <algorithm>
 #include <array>
@@ -403,7 +403,7 @@ private:
         for (std::uint32_t s = 0; s < tiles.super_tile_count() && covering < 2; ++s) {
             if (!overlap(body_.super_boxes[s], point_box)) continue;
             const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-            tile_boxes(tiles, body_.positions, first, last, body_.tile_boxes, body_.tile_known);
+            make_tile_boxes(tiles, body_.positions, first, last, body_.tile_boxes, body_.tile_known);
             for (std::uint32_t t = first; t < last; ++t)
                 if (overlap(body_.tile_boxes[t], point_box)) covering += count_holding(t, at);
         }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox {
@@ -33,6 +34,10 @@ struct Certificate {
     std::pmr::vector<std::uint8_t> certified; // per cell
     std::pmr::vector<std::uint8_t> with_next; // it and those that are next to it, up along any axes
     bool complete = false;                    // all are
+
+    auto buffers() {
+        return std::tie(directions, touched, bad, components.runs, components.rows, certified, with_next);
+    }
 
     // All cells that meet `box`, as far as a look at them is cheap, are certified.
     bool holds(const Box& box) const noexcept {

@@ -162,18 +162,42 @@ float slack_of_rounding(const Box& box) noexcept {
     return largest * (8 * 1.125f * 0x1p-24f) + 0x1p-100f;
 }
 
-void follow(const Tiles& tiles, const OrientationCache& turning, const Box* blocks, const Box* moves, float rounding,
-            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright) {
+void track_orientation(const Tiles& tiles, const OrientationCache& cache, const Box* blocks, const Box* moves,
+                       float rounding, std::uint32_t first, std::uint32_t last, Box* super_boxes,
+                       std::uint8_t* positive) {
     for (std::uint32_t s = first; s < last; ++s) {
-        upright[s] = 0;
-        if (!moves || !(turning.slack[s] > 0)) {
+        positive[s] = 0;
+        if (!moves || !(cache.slack[s] > 0)) {
             super_boxes[s] = box_of(tiles.blocks[s], blocks);
             continue;
         }
         const Box move = box_of(tiles.blocks[s], moves);
-        upright[s] = diagonal(move) + rounding < turning.slack[s];
-        super_boxes[s] = moved(turning.boxes[s], move);
+        positive[s] = diagonal(move) + rounding < cache.slack[s];
+        super_boxes[s] = moved(cache.boxes[s], move);
     }
+}
+
+void track_orientation(Step& step, StepBoxes& boxes) {
+    constexpr std::size_t task_tiles = 256; // as in the broad phase
+    std::size_t tiles = 0;
+    for (StepBody& body : step.of) {
+        body.has_super_boxes = body.moved && body.boundary;
+        if (body.has_super_boxes) tiles += body.tiles->tiles.size();
+    }
+    if (tiles == 0) return;
+    step.for_ranges(step.super_pieces.size(), tiles, task_tiles,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t p = begin; p < end; ++p) {
+                            const Piece& piece = step.super_pieces[p];
+                            const StepBody& body = step.of[piece.body];
+                            if (!body.has_super_boxes) continue;
+                            track_orientation(*body.tiles, *body.orientation, boxes.blocks.data() + body.first_block,
+                                              body.has_moves ? boxes.moves.data() + body.first_move : nullptr,
+                                              body.rounded ? slack_of_rounding(boxes.bodies[piece.body]) : 0,
+                                              piece.first, piece.last, boxes.super_tiles.data() + body.first_super,
+                                              boxes.super_positive.data() + body.first_super);
+                        }
+                    });
 }
 
 bool wants_reference(OrientationCache& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {

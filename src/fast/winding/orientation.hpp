@@ -8,6 +8,7 @@
 #pragma once
 
 #include "base/boxes.hpp"
+#include "fast/step.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/tiles.hpp"
 
@@ -36,11 +37,15 @@ struct OrientationCache {
 // are compared with it.
 float slack_of_rounding(const Box& box) noexcept;
 
-// Of the super-tiles [first, last): boxes that hold them, and which hold no tet that may have turned over.
-// `blocks` are the boxes of all blocks; `moves`, those around the displacements from the reference, or null;
-// `rounding` is slack_of_rounding(), or 0 where positions are not rounded.
-void follow(const Tiles& tiles, const OrientationCache& turning, const Box* blocks, const Box* moves, float rounding,
-            std::uint32_t first, std::uint32_t last, Box* super_boxes, std::uint8_t* upright);
+// Makes boxes that hold the super-tiles [first, last) of a body, and finds out which of them hold no tet that may have
+// turned over. `blocks` are the boxes of all its blocks; `moves`, those around their displacements from the reference,
+// or null; `rounding` is slack_of_rounding(), or 0 where positions are not rounded.
+void track_orientation(const Tiles& tiles, const OrientationCache& cache, const Box* blocks, const Box* moves,
+                       float rounding, std::uint32_t first, std::uint32_t last, Box* super_boxes,
+                       std::uint8_t* positive);
+
+// The same for all bodies that moved and that winding numbers may be of use for (StepBody::boundary).
+void track_orientation(Step& step, StepBoxes& boxes);
 
 // Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
 // reference is worth its while.

@@ -1,0 +1,56 @@
+// What each worker of a step has for itself: buffers kept from step to step, counts of the step.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <tuple>
+#include <vector>
+
+namespace vox {
+
+// A T is made from a memory_resource*. T::buffers() returns a tuple of references to all its buffers: what has
+// capacity() and reserve(). Nothing else needs to know of them.
+template <class T>
+class PerWorker {
+public:
+    explicit PerWorker(std::pmr::memory_resource* memory) : slots_(memory) {}
+
+    // There are never less of them than there once were.
+    void grow(std::size_t count) {
+        while (slots_.size() < count) slots_.emplace_back(slots_.get_allocator().resource());
+    }
+
+    T& operator[](std::uint32_t worker) noexcept { return slots_[worker]; }
+    auto begin() noexcept { return slots_.begin(); }
+    auto end() noexcept { return slots_.end(); }
+
+    // Gives the buffers of all workers the same room: in a later step each may have to do what another did in this
+    // one, and the steady state allocates nothing.
+    void level() {
+        if (slots_.size() < 2) return;
+        using Buffers = decltype(slots_[0].buffers());
+        std::array<std::size_t, std::tuple_size_v<Buffers>> most{};
+        const auto for_each = [&](auto&& visit) {
+            for (T& slot : slots_)
+                std::apply(
+                    [&](auto&... buffers) {
+                        std::size_t i = 0;
+                        (visit(buffers, most[i++]), ...);
+                    },
+                    slot.buffers());
+        };
+        for_each([](auto& buffer, std::size_t& room) { room = std::max(room, buffer.capacity()); });
+        for_each([](auto& buffer, std::size_t& room) { buffer.reserve(room); });
+    }
+
+private:
+    struct alignas(64) Slot : T { // no two workers write to one cache line
+        using T::T;
+    };
+    std::pmr::vector<Slot> slots_;
+};
+
+} // namespace vox

@@ -1,0 +1,351 @@
+// Pairs of bodies by a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; Cohen
+// et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that begin before it
+// ends. The axis is the one along which the boxes' centres vary most. Then, for each pair, the region where the boxes
+// of the two bodies overlap is shrunk to what blocks of a and tiles of b cover.
+#include "fast/broad_phase.hpp"
+
+#include "base/simd.hpp"
+#include "mesh/filter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/broad_phase.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "fast/tile-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::fast {
+namespace HWY_NAMESPACE {
+
+// A box is above or below a region along an axis where its low corner is beyond the region's high one, or the
+// other way round. With the signs of all high corners turned that is one comparison of all six.
+
+// A region, and the sides of eight boxes from there, a byte each.
+class Sides {
+public:
+    static constexpr std::uint32_t at_once = 8;
+
+    HWY_INLINE explicit Sides(const Box& region)
+        : sign_(hn::OddEvenBlocks(hn::Set(d, -0.0f), hn::Zero(d))), // odd blocks are high corners
+          bound_(
+              hn::Xor(hn::OddEvenBlocks(hn::LoadDup128(d, region.lo), hn::LoadDup128(d, region.hi)), sign_)),
+          region_(region) {}
+
+    HWY_INLINE std::uint64_t operator()(const Box* boxes) const {
+        std::uint64_t sides = 0;
+        constexpr std::size_t lanes = hn::MaxLanes(d);
+        if constexpr (lanes >= 8) { // whole boxes
+            for (std::size_t i = 0; i < at_once; i += lanes / 8) {
+                const auto corners = hn::Xor(hn::LoadU(d, boxes[i].lo), sign_);
+                std::uint8_t bits[8];
+                hn::StoreMaskBits(d, hn::Gt(corners, bound_), bits);
+                std::uint64_t some = 0;
+                std::memcpy(&some, bits, lanes / 8);
+                sides |= some << (8 * i);
+            }
+        } else {
+            for (unsigned i = 0; i < at_once; ++i)
+                sides |= std::uint64_t{sides_of(boxes[i], region_)} << (8 * i);
+        }
+        return sides & (all_sides * each_byte);
+    }
+
+    // Bits of the bytes that are zero.
+    HWY_INLINE static std::uint64_t None(std::uint64_t sides) {
+        // No byte is above 0x77, so that nothing is carried from one to the next; then the bits are gathered.
+        const std::uint64_t some = (sides + 0x7f * each_byte) >> 7 & each_byte;
+        return (some ^ each_byte) * 0x0102040810204080u >> 56;
+    }
+
+private:
+    static constexpr std::uint64_t each_byte = 0x0101010101010101u;
+    static constexpr hn::CappedTag<float, 16> d{};
+    hn::Vec<hn::CappedTag<float, 16>> sign_, bound_;
+    const Box& region_;
+};
+
+void FindSides(const Box* HWY_RESTRICT boxes, std::size_t count, const Box& region,
+               std::uint8_t* HWY_RESTRICT out) {
+    const Sides sides(region);
+    std::size_t i = 0;
+    for (; i + Sides::at_once <= count; i += Sides::at_once) {
+        const std::uint64_t some = sides(boxes + i);
+        std::memcpy(out + i, &some, sizeof some);
+    }
+    for (; i < count; ++i) out[i] = static_cast<std::uint8_t>(sides_of(boxes[i], region));
+}
+
+std::uint64_t FindOverlaps(const Box* HWY_RESTRICT boxes, std::uint32_t count, const Box& region) {
+    const Sides sides(region);
+    std::uint64_t overlaps = 0;
+    std::uint32_t i = 0;
+    for (; i + Sides::at_once <= count; i += Sides::at_once) overlaps |= Sides::None(sides(boxes + i)) << i;
+    for (; i < count; ++i) overlaps |= std::uint64_t{sides_of(boxes[i], region) == 0} << i;
+    return overlaps;
+}
+
+void TileBoxes(const Tiles& tiles, const float* HWY_RESTRICT positions, std::uint32_t first,
+               std::uint32_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known) {
+    for (std::uint32_t t = first; t < last; ++t) {
+        if (known[t]) continue;
+        known[t] = 1;
+        const Tile& tile = tiles.tiles.data()[t];
+        const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
+        const std::uint32_t padded = (tile.vertex_count + 3u) & ~3u;
+        if (tile.holds_last_vertex)
+            BoxOf(positions, vertices, padded, LoadLastVertex, boxes[t]);
+        else
+            BoxOf(positions, vertices, padded, LoadVertex, boxes[t]);
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::fast
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::fast {
+
+void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uint8_t* sides) {
+    VOX_SIMD_DISPATCH(FindSides)(boxes, count, region, sides);
+}
+
+std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region) {
+    return VOX_SIMD_DISPATCH(FindOverlaps)(boxes, count, region);
+}
+
+void make_tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
+                     Box* boxes, std::uint8_t* known) {
+    VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, first, last, boxes, known);
+}
+
+namespace {
+
+int widest_axis(std::span<const Box> boxes) {
+    double sum[3] = {}, squares[3] = {}, count = 0;
+    for (const Box& box : boxes) {
+        if (is_empty(box)) continue;
+        count += 1;
+        for (int a = 0; a < 3; ++a) {
+            const double c = 0.5 * (double{box.lo[a]} + double{box.hi[a]});
+            sum[a] += c;
+            squares[a] += c * c;
+        }
+    }
+    int axis = 0;
+    double widest = -1;
+    for (int a = 0; a < 3 && count > 0; ++a) {
+        const double variance = squares[a] / count - sum[a] / count * (sum[a] / count);
+        if (variance > widest) {
+            widest = variance;
+            axis = a;
+        }
+    }
+    return axis;
+}
+
+// One pass of a radix sort whose digit is a whole index: stable, by Pair::*key.
+void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair> from, std::span<Pair> to,
+             std::pmr::vector<std::uint32_t>& first) {
+    first.assign(indices + 1, 0);
+    for (const Pair& pair : from) ++first[pair.*key + 1];
+    for (std::size_t i = 1; i <= indices; ++i) first[i] += first[i - 1];
+    for (const Pair& pair : from) to[first[pair.*key]++] = pair;
+}
+
+} // namespace
+
+void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs) {
+    std::pmr::vector<std::uint32_t>& order = buffers.order;
+    std::pmr::vector<Pair>& found = buffers.found;
+    order.clear();
+    found.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (!is_empty(boxes[i])) order.push_back(i);
+    const int axis = widest_axis(boxes);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const float x = boxes[a].lo[axis], y = boxes[b].lo[axis];
+        return x != y ? x < y : a < b;
+    });
+    buffers.boxes.clear();
+    for (const std::uint32_t i : order) buffers.boxes.push_back(boxes[i]);
+    const Box* sorted = buffers.boxes.data();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Box box = sorted[i];
+        for (std::size_t j = i + 1; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j) {
+            if (!overlap(box, sorted[j])) continue;
+            found.push_back({order[i], order[j]});
+            found.push_back({order[j], order[i]});
+        }
+    }
+    pairs.resize(found.size());
+    sort_by(&Pair::b, boxes.size(), found, pairs, buffers.first);
+    std::copy(pairs.begin(), pairs.end(), found.begin());
+    sort_by(&Pair::a, boxes.size(), found, pairs, buffers.first);
+}
+
+namespace {
+
+// How much work is worth a task of its own. Handing out a task takes some microseconds; testing so many boxes, or
+// making the boxes of so many tiles, takes about as long.
+constexpr std::size_t task_boxes = 4096;
+constexpr std::size_t task_blocks = 4 * piece_blocks;
+constexpr std::size_t task_tiles = 256;
+
+// Pairs of bodies that may collide, with the region where their boxes overlap.
+void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
+    find_pairs(boxes.bodies, out.pair_buffers, out.pairs);
+    out.regions.clear();
+    if (out.regions.capacity() < out.pairs.size()) out.regions.reserve(out.pairs.size() + out.pairs.size() / 8);
+    for (const Pair& pair : out.pairs) {
+        if (step.bodies[pair.b].tets.empty() || !collide(step.bodies[pair.a], step.bodies[pair.b])) continue;
+        if (!step.of[pair.a].moved && !step.of[pair.b].moved) continue;
+        PairRegion region{pair.a, pair.b, boxes.bodies[pair.a], {}};
+        intersect(region.region, boxes.bodies[pair.b]);
+        out.regions.push_back(region);
+    }
+}
+
+// Shrinks the region to what blocks of a cover.
+void shrink_to_blocks(const Step& step, const StepBoxes& boxes, PairRegion& pair) {
+    Box reached = empty_box;
+    const StepBody& body = step.of[pair.a];
+    const Box* blocks = boxes.blocks.data() + body.first_block;
+    const std::uint32_t count = body.tiles->block_count();
+    for (std::uint32_t i = 0; i < count; i += most_boxes) {
+        std::uint64_t met = find_overlaps(blocks + i, std::min(most_boxes, count - i), pair.region);
+        for (; met; met &= met - 1) add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
+    }
+    intersect(pair.region, reached);
+}
+
+// Where each body begins in `regions`, and the same by b: counted, summed, placed.
+void index_regions(std::size_t body_count, BroadPhase& out) {
+    out.first_of_a.assign(body_count + 1, 0);
+    out.first_of_b.assign(body_count + 2, 0);
+    for (const PairRegion& r : out.regions) {
+        ++out.first_of_a[r.a + 1];
+        ++out.first_of_b[r.b + 2];
+    }
+    std::partial_sum(out.first_of_a.begin(), out.first_of_a.end(), out.first_of_a.begin());
+    std::partial_sum(out.first_of_b.begin(), out.first_of_b.end(), out.first_of_b.begin());
+    out.by_b.resize(out.regions.size());
+    for (std::uint32_t r = 0; r < out.regions.size(); ++r) out.by_b[out.first_of_b[out.regions[r].b + 1]++] = r;
+}
+
+// Whether the super-tiles of a body only matter where others reach it.
+bool uses_block_sides(const Step& step, const BroadPhase& broad, std::uint32_t body) {
+    return broad.is_reached(body) && !step.bodies[body].self_collision;
+}
+
+// On which side of the reached region the blocks of a body are: a byte shows that most super-tiles are out of reach,
+// and is less to read than a box.
+void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& piece, BroadPhase& out) {
+    if (!uses_block_sides(step, out, piece.body)) return;
+    const std::size_t first = step.of[piece.body].first_block;
+    const Box region = out.reached[piece.body];
+    find_sides(&boxes.blocks[first + piece.first], piece.last - piece.first, region,
+               &out.block_sides[first + piece.first]);
+}
+
+// The boxes of the super-tiles of a body, and of all tiles in those that others reach.
+void make_reached_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {
+    if (!broad.is_reached(piece.body)) return;
+    const StepBody& body = step.of[piece.body];
+    if (!body.has_super_boxes) make_super_tile_boxes(step, broad, piece, boxes);
+    const Tiles& tiles = *body.tiles;
+    const std::span<const std::uint32_t> reaching = broad.of_b(piece.body);
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) {
+        const Box& box = boxes.super_tiles[body.first_super + s];
+        if (std::any_of(reaching.begin(), reaching.end(),
+                        [&](std::uint32_t r) { return overlap(box, broad.regions[r].region); }))
+            make_tile_boxes(body, tiles.super_first[s], tiles.super_first[s + 1], boxes);
+    }
+}
+
+// Shrinks the region to what tiles of b cover.
+void shrink_to_tiles(const Step& step, const StepBoxes& boxes, PairRegion& pair) {
+    const StepBody& body = step.of[pair.b];
+    const Tiles& tiles = *body.tiles;
+    const std::uint32_t super_tiles = tiles.super_tile_count();
+    const Box* tile_boxes = boxes.tiles.data() + body.first_tile;
+    Box covered = empty_box;
+    for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        if (!overlap(boxes.super_tiles[body.first_super + s], pair.region)) continue;
+        for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t) {
+            if (!overlap(tile_boxes[t], pair.region)) continue;
+            add(covered, tile_boxes[t]);
+            pair.tile_size.add(tile_boxes[t]);
+        }
+    }
+    intersect(pair.region, covered);
+    if (is_empty(pair.region)) pair.region = empty_box;
+}
+
+} // namespace
+
+void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
+    list_regions(step, boxes, out);
+    std::size_t blocks = 0, tiles = 0;
+    for (const PairRegion& pair : out.regions) blocks += step.of[pair.a].tiles->block_count();
+    step.for_ranges(out.regions.size(), blocks, task_boxes,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t r = begin; r < end; ++r) shrink_to_blocks(step, boxes, out.regions[r]);
+                    });
+    std::erase_if(out.regions, [](const PairRegion& pair) { return is_empty(pair.region); });
+    index_regions(step.bodies.size(), out);
+
+    out.block_sides.resize(step.block_count);
+    out.reached.assign(step.bodies.size(), empty_box);
+    if (out.regions.empty()) return;
+    for (const PairRegion& pair : out.regions) {
+        add(out.reached[pair.b], pair.region);
+        tiles += step.of[pair.b].tiles->tiles.size();
+    }
+    step.for_ranges(step.block_pieces.size(), step.block_count, task_blocks,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t p = begin; p < end; ++p)
+                            find_block_sides(step, boxes, step.block_pieces[p], out);
+                    });
+    step.for_ranges(step.super_pieces.size(), step.tile_count, task_tiles,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t p = begin; p < end; ++p)
+                            make_reached_boxes(step, out, step.super_pieces[p], boxes);
+                    });
+    step.for_ranges(out.regions.size(), tiles, task_boxes,
+                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                        for (std::size_t r = begin; r < end; ++r) shrink_to_tiles(step, boxes, out.regions[r]);
+                    });
+}
+
+void make_super_tile_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {
+    const StepBody& body = step.of[piece.body];
+    const Box* blocks = boxes.blocks.data() + body.first_block;
+    const std::uint8_t* sides = broad.block_sides.data() + body.first_block;
+    const bool has_sides = uses_block_sides(step, broad, piece.body);
+    const auto is_out_of_reach = [&](std::span<const std::uint32_t> of) {
+        constexpr std::size_t at_once = 8; // between branches
+        unsigned common = all_sides;
+        std::size_t i = 0;
+        for (; i + at_once <= of.size() && common; i += at_once)
+            for (std::size_t j = 0; j < at_once; ++j) common &= sides[of[i + j]];
+        for (; i < of.size() && common; ++i) common &= sides[of[i]];
+        return common != 0;
+    };
+    for (std::uint32_t s = piece.first; s < piece.last; ++s) {
+        Box box = empty_box;
+        const std::span<const std::uint32_t> of = body.tiles->blocks[s];
+        if (!has_sides || !is_out_of_reach(of))
+            for (const std::uint32_t block : of) add(box, blocks[block]);
+        boxes.super_tiles[body.first_super + s] = box;
+    }
+}
+
+} // namespace vox::fast
+#endif

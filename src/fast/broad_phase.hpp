@@ -1,0 +1,96 @@
+// The broad phase: from boxes of bodies and of blocks to regions in which vertices of one body may be in tetrahedra
+// of another. Plain functions over the arrays of a step; the cost model calls them as the engine does.
+#pragma once
+
+#include "base/boxes.hpp"
+#include "fast/step.hpp"
+#include "mesh/tile_sides.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox::fast {
+
+struct Pair {
+    std::uint32_t a, b; // indices of boxes
+};
+
+// Buffers kept from step to step.
+struct PairBuffers {
+    explicit PairBuffers(std::pmr::memory_resource* memory)
+        : order(memory), boxes(memory), found(memory), first(memory) {}
+
+    std::pmr::vector<std::uint32_t> order;
+    std::pmr::vector<Box> boxes; // in that order
+    std::pmr::vector<Pair> found;
+    std::pmr::vector<std::uint32_t> first;
+};
+
+// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap, sorted by a, then b. Empty boxes
+// overlap nothing.
+void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs);
+
+// sides_of() each of the boxes.
+void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uint8_t* sides);
+
+// Bit i of the result: boxes[i] overlaps the region. `count` is at most most_boxes.
+inline constexpr std::uint32_t most_boxes = 64;
+std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
+
+// Vertices of body a that are in a tet of body b are in `region`: where the boxes of the bodies overlap, in the box
+// around the blocks of a that meet that, and in the box around the tiles of b that meet what is left. Empty where no
+// tile of b does.
+struct PairRegion {
+    std::uint32_t a, b;
+    Box region;
+    TileSize tile_size; // of those tiles: they will query the window of a
+};
+
+struct BroadPhase {
+    explicit BroadPhase(std::pmr::memory_resource* memory)
+        : regions(memory), first_of_a(memory), by_b(memory), first_of_b(memory), reached(memory),
+          block_sides(memory), pairs(memory), pair_buffers(memory) {}
+
+    std::pmr::vector<PairRegion> regions;       // sorted by a, then b
+    std::pmr::vector<std::uint32_t> first_of_a; // of each body in `regions`, and the end
+    std::pmr::vector<std::uint32_t> by_b;       // indices of `regions`, sorted by b, then a
+    std::pmr::vector<std::uint32_t> first_of_b; // of each body in `by_b`, and the end
+
+    // The regions of the vertices of a body, and the indices of those that reach its tets.
+    std::span<const PairRegion> of_a(std::uint32_t a) const noexcept {
+        return std::span(regions).subspan(first_of_a[a], first_of_a[a + 1] - first_of_a[a]);
+    }
+    std::span<const std::uint32_t> of_b(std::uint32_t b) const noexcept {
+        return std::span(by_b).subspan(first_of_b[b], first_of_b[b + 1] - first_of_b[b]);
+    }
+    bool is_reached(std::uint32_t b) const noexcept { return first_of_b[b] != first_of_b[b + 1]; }
+
+    std::pmr::vector<Box> reached;              // of each body, around the regions in which others reach it
+    std::pmr::vector<std::uint8_t> block_sides; // sides_of() each block, seen from there
+
+    // Buffers.
+    std::pmr::vector<Pair> pairs;
+    PairBuffers pair_buffers;
+};
+
+// Finds the regions of all pairs of bodies that may collide (mesh/filter.hpp) and of which one moved. Needs boxes.bodies and
+// boxes.blocks (stream), and boxes.super_tiles of bodies that has_super_boxes. Makes the boxes of all super-tiles of
+// bodies that are reached, and of all tiles that meet a region. The result does not depend on the number of workers.
+void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out);
+
+// Makes the boxes of some super-tiles. Of bodies that are reached and do not collide with themselves, super-tiles
+// that lie beyond `reached` get an empty box: nothing will be asked of them.
+void make_super_tile_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes);
+
+// Makes the boxes of the tiles [first, last) of a body that are not known.
+void make_tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
+                     Box* boxes, std::uint8_t* known);
+inline void make_tile_boxes(const StepBody& body, std::uint32_t first, std::uint32_t last, StepBoxes& boxes) {
+    make_tile_boxes(*body.tiles, body.positions, first, last, boxes.tiles.data() + body.first_tile,
+                    boxes.tile_known.data() + body.first_tile);
+}
+
+} // namespace vox::fast

@@ -1,0 +1,53 @@
+// The last stage: which findings of the query are hits. What floats could not decide is decided exactly.
+#pragma once
+
+#include "base/scene.hpp"
+#include "exact/predicates.hpp"
+#include "fast/query.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace vox {
+struct SelfFilter;
+}
+
+namespace vox::fast {
+
+// What all workers add to.
+struct Decided {
+    std::pmr::vector<Hit>& hits;
+    std::pmr::vector<std::uint64_t>& degenerate; // body << 32 | tet, some more than once
+    std::mutex mutex{};
+};
+
+// What a worker did in a step.
+struct DecideCounts {
+    std::uint64_t exact_tests = 0, filtered = 0, ns = 0;
+};
+
+// Takes what is found in the tets of one body.
+class ExactDecisions final : public Findings {
+public:
+    ExactDecisions(std::span<const Body> bodies, std::uint32_t body, DecideCounts& counts, Decided& out)
+        : bodies_(bodies), body_(body), tets_(bodies[body].tets), self_filter_(bodies[body].self_filter),
+          counts_(counts), out_(out) {}
+
+    void take(std::span<const Finding> findings) override;
+
+private:
+    Containment decide(const Finding& f);
+    void append(std::span<const Hit> hits);
+
+    std::span<const Body> bodies_;
+    std::uint32_t body_;
+    std::span<const Tet> tets_;
+    const SelfFilter* self_filter_;
+    DecideCounts& counts_;
+    Decided& out_;
+};
+
+} // namespace vox::fast

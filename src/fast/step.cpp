@@ -1,0 +1,84 @@
+#include "fast/step.hpp"
+
+#include "fast/winding/orientation.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace vox::fast {
+
+namespace {
+
+// Far from zero, floats are far apart. So bodies whose positions are rounded anyway are rounded relative to a point
+// among them. Zero where they are near enough to it, judged by a few vertices: it only matters for speed.
+Vec3d choose_origin(std::span<const Body> bodies) {
+    constexpr std::uint32_t samples = 8;
+    constexpr double far = 256; // sizes away
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    for (const Body& body : bodies) {
+        if (!body.positions.rounded()) continue;
+        for (std::uint32_t i = 0; i < std::min(samples, body.vertex_count); ++i) {
+            const Vec3d p = body.positions.exact(std::uint64_t{i} * body.vertex_count / samples);
+            const double x[3] = {p.x, p.y, p.z};
+            for (int a = 0; a < 3; ++a) {
+                lo[a] = std::min(lo[a], x[a]);
+                hi[a] = std::max(hi[a], x[a]);
+            }
+        }
+    }
+    double origin[3] = {};
+    for (int a = 0; a < 3; ++a) {
+        const double middle = lo[a] / 2 + hi[a] / 2;
+        if (std::abs(middle) > far * (hi[a] - lo[a]) && std::isfinite(middle)) origin[a] = middle;
+    }
+    return {origin[0], origin[1], origin[2]};
+}
+
+void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, std::pmr::vector<Piece>& pieces) {
+    for (std::uint32_t first = 0; first < count; first += most)
+        pieces.push_back({body, first, std::min(first + most, count)});
+}
+
+} // namespace
+
+void begin_step(std::span<const Body> bodies, Workers* workers, Step& step) {
+    step.bodies = bodies;
+    step.workers = workers;
+    step.of.assign(bodies.size(), {});
+}
+
+void lay_out(Step& step, StepBoxes& boxes) {
+    step.origin = choose_origin(step.bodies);
+    const bool moved_origin = step.origin.x != 0 || step.origin.y != 0 || step.origin.z != 0;
+    std::size_t blocks = 0, supers = 0, tiles = 0, moves = 0;
+    step.block_pieces.clear();
+    step.super_pieces.clear();
+    for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
+        StepBody& body = step.of[b];
+        const std::uint32_t own_blocks = body.tiles->block_count(), own_supers = body.tiles->super_tile_count();
+        body.rounded = moved_origin || step.bodies[b].positions.rounded();
+        body.first_block = static_cast<std::uint32_t>(blocks);
+        body.first_super = static_cast<std::uint32_t>(supers);
+        body.first_tile = static_cast<std::uint32_t>(tiles);
+        body.has_moves = body.orientation && body.orientation->is_known;
+        body.first_move = static_cast<std::uint32_t>(moves);
+        if (body.has_moves) moves += own_blocks;
+        blocks += own_blocks;
+        supers += own_supers;
+        tiles += body.tiles->tiles.size();
+        add_pieces(b, own_blocks, piece_blocks, step.block_pieces);
+        add_pieces(b, own_supers, piece_super_tiles, step.super_pieces);
+    }
+    step.block_count = blocks;
+    step.super_count = supers;
+    step.tile_count = tiles;
+    boxes.blocks.resize(blocks);
+    boxes.moves.resize(moves);
+    boxes.super_tiles.resize(supers);
+    boxes.super_positive.resize(supers);
+    boxes.tiles.resize(tiles);
+    boxes.tile_known.assign(tiles, 0);
+}
+
+} // namespace vox::fast

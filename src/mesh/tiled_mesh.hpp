@@ -1,0 +1,48 @@
+// What is prepared of a mesh's tetrahedra to search them: tiles, boundary, and where things are, for edits.
+#pragma once
+
+#include "base/lists.hpp"
+#include "base/scene.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/tiles.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+// Where things are. The first edit makes the lists.
+struct TilePlaces {
+    explicit TilePlaces(std::pmr::memory_resource* memory) noexcept
+        : of_tet(memory), room(memory), triangles(memory), changed_at(memory) {}
+
+    static constexpr std::uint32_t none = ~0u;
+    std::pmr::vector<std::uint32_t> of_tet; // 64 * tile + place in it, or none
+    std::uint32_t tile_of(std::uint32_t tet) const noexcept { return of_tet[tet] / tile_size; }
+    struct Room {
+        std::uint8_t tets, vertices; // how many fit into a tile without moving its lists
+    };
+    std::pmr::vector<Room> room;
+    IndexLists triangles;                // of the boundary, by their lowest vertex
+    std::uint32_t first_young_super = 0; // super-tiles and vertices from here on came with edits
+    std::uint32_t first_young_vertex = 0;
+    std::uint64_t changes = 0;                  // of tets since the tiles were made
+    std::pmr::vector<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
+};
+
+// An empty one is prepared for an empty mesh.
+struct TiledMesh {
+    explicit TiledMesh(std::pmr::memory_resource* memory) noexcept
+        : tiles(memory), boundary(memory), places(memory) {}
+
+    Tiles tiles;
+    Boundary boundary; // of bodies with self-collision, where it pays
+    TilePlaces places;
+};
+
+// The positions only decide how compact tiles are; they may move later. Throws what the memory throws and
+// leaves `out` unchanged then.
+void make_tiled_mesh(const Body& body, TiledMesh& out);
+
+} // namespace vox
