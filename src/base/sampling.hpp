@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,7 +25,7 @@ inline std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) noexc
 // 1916).
 inline double next_place(double place) noexcept {
     place += 0.6180339887498949; // golden ratio
-    return place - std::floor(place);
+    return place < 1 ? place : place - 1;
 }
 
 // Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): cuts a list of `count` items into `wanted`

@@ -105,8 +105,8 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const
 }
 
 CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
-                          const CellSizeRange& range) {
-    // Small steps away from the minimum, so that no narrow bump is skipped, until the cost is above the limit.
+                          const CellSizeRange& range, const Fineness& fineness) {
+    // Steps away from the minimum until the cost is above the limit.
     const auto end = [&](double factor, double last) {
         double inside = minimum.cell_size;
         while (inside != last) {
@@ -121,17 +121,17 @@ CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFu
         return inside;
     };
     if (!(limit > minimum.cost)) return {minimum.cell_size, minimum.cell_size};
-    return {end(1 / 1.05, range.min), end(1.05, range.max)};
+    const double step = std::exp2(1 / fineness.scans_per_octave);
+    return {end(1 / step, range.min), end(step, range.max)};
 }
 
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,
                 vox_cost_sample (&curve)[VOX_COST_CURVE_CAPACITY], std::uint32_t& count) {
     count = VOX_COST_CURVE_CAPACITY;
-    const double last = VOX_COST_CURVE_CAPACITY - 1, octaves = std::log2(range.max / range.min);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double at = i + 1 == count ? range.max : range.min * std::exp2(octaves * i / last);
-        curve[i] = {at, cost(at)};
-    }
+    const double ratio = std::pow(range.max / range.min, 1.0 / (VOX_COST_CURVE_CAPACITY - 1));
+    double at = range.min;
+    for (std::uint32_t i = 0; i + 1 < count; ++i, at *= ratio) curve[i] = {at, cost(at)};
+    curve[count - 1] = {range.max, cost(range.max)};
 }
 
 // ---- table ----------------------------------------------------------------------------------------
@@ -160,11 +160,11 @@ double CostTable::value(int node) {
 }
 
 double CostTable::operator()(double cell_size) {
-    const double place = std::log2(cell_size / min_) * per_octave, below = std::floor(place);
-    if (!(below > -margin && below + 2 < last_ + margin)) return cost_(cell_size);
-    const int node = static_cast<int>(below);
+    const double place = std::log2(cell_size / min_) * per_octave;
+    if (!(place >= 1 - margin && place < last_ + margin - 2)) return cost_(cell_size);
+    const int node = static_cast<int>(place + margin) - margin; // rounded down
     const double p0 = value(node - 1), p1 = value(node), p2 = value(node + 1), p3 = value(node + 2);
-    const double t = place - below;
+    const double t = place - node;
     const double cubic =
         p1 + t / 2 * (p2 - p0 + t * (2 * p0 - 5 * p1 + 4 * p2 - p3 + t * (3 * (p1 - p2) + p3 - p0)));
     return std::isfinite(cubic) ? std::exp2(cubic) : cost_(cell_size);

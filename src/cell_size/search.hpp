@@ -34,9 +34,10 @@ struct Fineness {
 // scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
-// The interval around the minimum where the cost is at most `limit`, cut to the range.
+// The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that lie
+// between two places of the scan can be missed.
 CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
-                          const CellSizeRange& range);
+                          const CellSizeRange& range, const Fineness& fineness = {});
 
 // Costs at sizes that are evenly spaced in the logarithm, both ends included.
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,

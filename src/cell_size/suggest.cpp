@@ -143,11 +143,6 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& 
 
 constexpr double near = 1e-4; // of the cell size; no model is more accurate
 
-// Costs of a model that an approximation may give as less than the least are raised to that.
-CostFunction at_least(const CostFunction& cost, double least) {
-    return [&cost, least](double d) { return std::max(cost(d), least); };
-}
-
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeScene& scene,
                                  const vox_cost_weights& weights) {
     const ReferenceModel model(scene, desc.storage, weights);
@@ -160,11 +155,13 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
     range->max = std::max(range->max, range->min);
     const CostFunction cost = [&](double d) { return model(d); };
     // Lengths of lists change the cost from one 32nd of an octave to the next.
-    const double scans = scene.budget.listed > 0 ? 32 : 5;
-    const CostMinimum best = minimise(cost, *range, {.scans_per_octave = scans, .tolerance = near});
-    const CostFunction curve = at_least(cost, best.cost);
-    write(result, desc, scene.geometry, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range),
-          curve, model.terms(best.cell_size));
+    const Fineness fineness{.scans_per_octave = scene.budget.listed > 0 ? 32.0 : 5.0, .tolerance = near};
+    const CostMinimum best = minimise(cost, *range, fineness);
+    // Sizes between those of the search may cost a little less.
+    const CostFunction curve = [&](double d) { return std::max(model(d), best.cost); };
+    write(result, desc, scene.geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
+          model.terms(best.cell_size));
     const Levels levels = choose_levels(model, *range);
     if (levels.count > 1) result.uniform_loss = std::max(best.cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
@@ -188,13 +185,15 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& s
         return result;
     }
     CostTable table(cost, *range, scene.memory);
-    const CostFunction tabulated = [&](double d) { return table(d); };
-    // At least one scan at each size of the table.
-    CostMinimum best = minimise(tabulated, *range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = near});
+    // As many scans as there are sizes in the table.
+    const Fineness fineness{.scans_per_octave = 2, .least_scans = 8, .tolerance = near};
+    CostMinimum best = minimise([&](double d) { return table(d); }, *range, fineness);
     best.cost = cost(best.cell_size);
-    const CostFunction curve = at_least(tabulated, best.cost);
-    write(result, desc, scene.geometry, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range),
-          curve, model.terms(best.cell_size, FastModel::Alignment::average));
+    // Between its sizes the table may be a little below the least cost.
+    const CostFunction curve = [&](double d) { return std::max(table(d), best.cost); };
+    write(result, desc, scene.geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
+          model.terms(best.cell_size, FastModel::Alignment::average));
     return result;
 }
 
