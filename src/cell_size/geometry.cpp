@@ -55,14 +55,16 @@ struct Bounds {
     }
 };
 
-// `facets` gets the areas of the facets opposite each corner. Returns the box.
-Bounds add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[4]) {
-    const Bounds box{min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3]))};
-    const Vec3d sides = box.hi - box.lo;
-    const double side = std::max(sides.x, std::max(sides.y, sides.z));
+// `facets` gets the areas of the facets opposite each corner.
+void add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[4]) {
+    const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
+    const auto extent = [](double first, double second, double third) { // of three numbers and 0
+        return std::max(std::max(first, second), std::max(third, 0.0)) -
+               std::min(std::min(first, second), std::min(third, 0.0));
+    };
+    const double side = std::max(extent(a.x, b.x, c.x), std::max(extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)));
     means.box_side.add(side, weight);
     means.box_sides.emplace_back(side, weight);
-    const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
     const Vec3d ab = p[2] - p[1], ac = p[3] - p[1], bc = p[3] - p[2];
     const double longest = std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
                                     std::max(dot(ac, ac), dot(bc, bc)));
@@ -79,7 +81,6 @@ Bounds add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets
     std::uint64_t exact_tests = 0;
     if (!(volume > 1e-12 * side * side * side) && orientation(p[0], p[1], p[2], p[3], exact_tests) == 0)
         means.degenerate += weight;
-    return box;
 }
 
 // By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights. The mean of the two middle values
@@ -157,8 +158,8 @@ Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means
     for_tets([&](const Tet& tet) {
         double facets[4];
         const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
-        const Bounds box = add_tet(p, 1, means, facets);
-        bounds.add(box.lo, box.hi);
+        add_tet(p, 1, means, facets);
+        bounds.add(min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3])));
     });
     for_each_unique<std::uint32_t>(
         body.vertex_count, memory,

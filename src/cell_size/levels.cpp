@@ -94,7 +94,7 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
         constexpr double around = 1.6; // further than from one of the sizes above to the next
         const double near = best[l][end].cell_size;
         levels.level[l].cell_size =
-            minimise([&](double d) { return cost_of_level(cost, first, last, d); },
+            minimise([&](double log_size) { return cost_of_level(cost, first, last, std::exp2(log_size)); },
                      {std::max(near / around, range.min), std::min(near * around, range.max)},
                      {.scans_per_octave = 32, .least_scans = 2, .tolerance = 1e-2})
                 .cell_size;

@@ -69,7 +69,8 @@ CostMinimum PaperModel::minimum() const { return {best_x() * s_, cost(best_x())}
 // bound, so the range is only there to keep numbers finite.
 CellSizeRange PaperModel::zone(double loss) const {
     const CostMinimum best{best_x(), cost(best_x())};
-    const CellSizeRange zone = zone_around(best, (1 + loss) * best.cost, [this](double x) { return cost(x); },
+    const auto of_x = [this](double x) { return cost(x); };
+    const CellSizeRange zone = zone_around(best, (1 + loss) * best.cost, of_size(of_x),
                                            {best.cell_size * 1e-100, best.cell_size * 1e100});
     return {zone.min * s_, zone.max * s_};
 }

@@ -4,14 +4,22 @@
 
 #include <vox/vox.h>
 
+#include <cmath>
 #include <functional>
 #include <memory_resource>
 #include <vector>
 
 namespace vox {
 
-// Cost at a cell size > 0. A value that is not a finite number counts as infinite.
-using CostFunction = std::function<double(double cell_size)>;
+// Cost at the cell size with this binary logarithm: costs are sums of powers of the size, so all searching is done in
+// the logarithm. A value that is not a finite number counts as infinite.
+using CostFunction = std::function<double(double log_size)>;
+
+// The same for a cost that takes a size, which must outlive the result.
+template <class Cost>
+auto of_size(const Cost& cost) {
+    return [&cost](double log_size) { return cost(std::exp2(log_size)); };
+}
 
 struct CellSizeRange {
     double min, max; // 0 < min <= max, finite
@@ -26,11 +34,10 @@ struct CostMinimum {
 struct Fineness {
     double scans_per_octave = 5;
     int least_scans = 64;
-    double tolerance = 1e-8; // of the cell size
+    double tolerance = 1e-8; // of an octave
 };
 
-// The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section
-// search around its best place. Of a function with several minima, those that lie between two places of the
+// The least cost in the range, by an even scan and a golden-section search around its best place. Of a function with several minima, those that lie between two places of the
 // scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
@@ -49,16 +56,16 @@ void draw_curve(const CostFunction& cost, const CellSizeRange& range,
 class CostTable {
 public:
     // The function is called once for each size that is needed, from `range.min` on, and directly for sizes
-    // more than four octaves outside of the range. It must outlive the table.
-    CostTable(const CostFunction& cost, const CellSizeRange& range, std::pmr::memory_resource* memory);
+    // more than three octaves outside of the range.
+    CostTable(CostFunction cost, const CellSizeRange& range, std::pmr::memory_resource* memory);
 
-    double operator()(double cell_size);
+    double operator()(double log_size);
 
 private:
     double value(int node); // logarithm of the cost there
 
-    const CostFunction& cost_;
-    double min_;
+    CostFunction cost_;
+    double log_min_;
     int last_;                        // node in the range; the first is 0
     std::pmr::vector<double> values_; // from node -margin on; NaN where not asked for yet
 };
@@ -67,8 +74,9 @@ private:
 
 vox_cost_bounds cost_bounds_defaults();
 
-// Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that is nowhere finite or
-// negative where it is least.
-vox_cost_minimum minimise_within(const CostFunction& cost, const vox_cost_bounds& bounds);
+// Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that is
+// nowhere finite or negative where it is least.
+vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
+                                 const vox_cost_bounds& bounds);
 
 } // namespace vox

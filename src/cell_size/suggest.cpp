@@ -116,7 +116,7 @@ void write(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry&
     result.cells_per_axis = world_edge(desc, geometry.stats) / best.cell_size;
     result.rules = other_rules(desc, geometry);
     result.stats = geometry.stats;
-    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(cell_size) : 0; };
+    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
     result.rule_costs = {cost_of(result.rules.mean_edge),   cost_of(result.rules.mean_edge_multiple),
                          cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
                          cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
@@ -128,7 +128,7 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& 
     const PaperModel cost(scene, desc);
     const CostMinimum best = cost.minimum();
     vox_suggestion result{};
-    write(result, desc, scene.geometry, best, cost.zone(desc.zone_loss), [&](double d) { return cost(d); },
+    write(result, desc, scene.geometry, best, cost.zone(desc.zone_loss), of_size(cost),
           cost.terms(best.cell_size));
     return result;
 }
@@ -153,12 +153,11 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
         result.budget_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
     range->min = std::max(range->min, result.budget_cell_size);
     range->max = std::max(range->max, range->min);
-    const CostFunction cost = [&](double d) { return model(d); };
     // Lengths of lists change the cost from one 32nd of an octave to the next.
     const Fineness fineness{.scans_per_octave = scene.budget.listed > 0 ? 32.0 : 5.0, .tolerance = near};
-    const CostMinimum best = minimise(cost, *range, fineness);
+    const CostMinimum best = minimise(of_size(model), *range, fineness);
     // Sizes between those of the search may cost a little less.
-    const CostFunction curve = [&](double d) { return std::max(model(d), best.cost); };
+    const CostFunction curve = [&](double log_size) { return std::max(model(std::exp2(log_size)), best.cost); };
     write(result, desc, scene.geometry, best,
           zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
           model.terms(best.cell_size));
@@ -174,23 +173,22 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& s
     const vox_geometry_stats& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
-    const CostFunction cost = [&](double d) { return model(d); };
     vox_suggestion result{};
     const std::optional<CellSizeRange> range = model.range();
     if (!range) { // no body is near another one: any size will do, so a usual one for when some are
         const double usual = 2 * stats.mean_box_side;
-        write(result, desc, scene.geometry, {usual, cost(usual)},
-              {stats.mean_box_side / 8, stats.mean_box_side * 64}, cost,
+        write(result, desc, scene.geometry, {usual, model(usual)},
+              {stats.mean_box_side / 8, stats.mean_box_side * 64}, of_size(model),
               model.terms(usual, FastModel::Alignment::average));
         return result;
     }
-    CostTable table(cost, *range, scene.memory);
+    CostTable table(of_size(model), *range, scene.memory);
     // As many scans as there are sizes in the table.
     const Fineness fineness{.scans_per_octave = 2, .least_scans = 8, .tolerance = near};
-    CostMinimum best = minimise([&](double d) { return table(d); }, *range, fineness);
-    best.cost = cost(best.cell_size);
+    CostMinimum best = minimise([&](double log_size) { return table(log_size); }, *range, fineness);
+    best.cost = model(best.cell_size);
     // Between its sizes the table may be a little below the least cost.
-    const CostFunction curve = [&](double d) { return std::max(table(d), best.cost); };
+    const CostFunction curve = [&](double log_size) { return std::max(table(log_size), best.cost); };
     write(result, desc, scene.geometry, best,
           zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
           model.terms(best.cell_size, FastModel::Alignment::average));

@@ -183,9 +183,9 @@ START_TEST(reference_quick_look) {
         const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, large ? 200000 : tets)),
                                   VOX_STORAGE_HASHED, shipped_weights());
         const CellSizeRange range = all.range().value();
-        const CostMinimum best = minimise([&](double d) { return all(d); }, range, {.scans_per_octave = 16});
+        const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
         const CostMinimum found =
-            minimise([&](double d) { return some(d); }, range, {.scans_per_octave = 16});
+            minimise(of_size(some), range, {.scans_per_octave = 16});
         ck_assert_msg(all(found.cell_size) <= (large ? 1.04 : 1.02) * best.cost,
                       "%s: quick %g, thorough %g, cost %g over %g", named.name, found.cell_size,
                       best.cell_size, all(found.cell_size), best.cost);
@@ -348,10 +348,10 @@ START_TEST(fast_quick_look) {
     const FastModel all(Described(scene, thorough, {}), shipped_weights());
     const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights());
     const CellSizeRange range = all.range().value();
-    const CostMinimum best = minimise([&](double d) { return all(d); }, range);
-    const CostFunction quick_cost = [&](double d) { return some(d); };
+    const CostMinimum best = minimise(of_size(all), range);
+    const CostFunction quick_cost = of_size(some);
     CostTable table(quick_cost, range, heap);
-    const CostMinimum found = minimise([&](double d) { return table(d); }, range);
+    const CostMinimum found = minimise([&](double x) { return table(x); }, range);
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
@@ -406,7 +406,7 @@ START_TEST(levels_where_they_pay) {
     const ReferenceModel cost(Described(unlike), VOX_STORAGE_HASHED, shipped_weights());
     range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
-    const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
+    const CostMinimum uniform = minimise(of_size(cost), range);
     ck_assert_uint_ge(levels.count, 2);
     ck_assert_double_lt(levels.cost, 0.8 * uniform.cost);
     ck_assert_double_gt(levels.level[levels.count - 1].cell_size, 3 * levels.level[0].cell_size);
@@ -494,7 +494,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
 double loss(Scene& scene, double cell_size) {
     const ReferenceModel cost(Described(scene, smooth(thorough)), VOX_STORAGE_HASHED, shipped_weights());
     const CellSizeRange range = cost.range().value();
-    return cost(cell_size) / minimise([&](double d) { return cost(d); }, range).cost - 1;
+    return cost(cell_size) / minimise(of_size(cost), range).cost - 1;
 }
 
 // A body inflated tenfold in two hundred steps: the size goes with it, never far off; at rest it stays.
