@@ -76,12 +76,19 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     double cell_size = 0;
     check(vox_grid_cell_size(grid, &cell_size));
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size);
-    std::printf(
-        "step %.3f ms: bin %.3f, broad phase %.3f, narrow phase %.3f, contacts %.3f, depth %.3f (%s)\n",
-        milliseconds(profile.step_ns), milliseconds(profile.bin_ns), milliseconds(profile.broad_ns),
-        milliseconds(profile.narrow_ns), milliseconds(profile.contacts_ns), milliseconds(profile.depth_ns),
-        options.repeat == 1 ? "one step; --repeat N gives medians"
-                            : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
+    std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
+    if (profile.stream_ns > 0) // the fast engine
+        std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, query %.3f, decide %.3f",
+                    milliseconds(profile.stream_ns), milliseconds(profile.winding_ns),
+                    milliseconds(profile.broad_phase_ns), milliseconds(profile.windows_ns),
+                    milliseconds(profile.query_ns), milliseconds(profile.decide_ns));
+    else
+        std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(profile.bin_ns),
+                    milliseconds(profile.broad_ns), milliseconds(profile.narrow_ns));
+    std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(profile.contacts_ns),
+                milliseconds(profile.depth_ns),
+                options.repeat == 1 ? "one step; --repeat N gives medians"
+                                    : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
 }
 
 void run(const Options& options) {

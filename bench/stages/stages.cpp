@@ -1,9 +1,12 @@
-// Each stage of the fast engine by itself: nanoseconds an element, medians of rounds in which all stages take
-// turns. Processor time of the thread, at the SIMD level of the machine or the one asked for.
+// Each stage of the fast engine by itself, under its name (fast/stages.hpp), and parts of stages: nanoseconds an
+// element, medians of rounds in which all rows take turns. Processor time of the thread, at the SIMD level of the
+// machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
 #include "base/simd.hpp"
 #include "fast/broad_phase.hpp"
+#include "fast/decide.hpp"
+#include "fast/stages.hpp"
 #include "internal/fast_scenes.hpp"
 #include "processor_time.hpp"
 
@@ -38,7 +41,83 @@ Positions view(const Mesh& mesh) {
 
 const float* packed(const Mesh& mesh) { return reinterpret_cast<const float*>(mesh.positions.data()); }
 
-// What the stages read and write. Two balls, the second reaching half into the first.
+// What whole stages read and write. Four balls in a row, each reaching half into the next.
+struct WholeStep {
+    std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+    Scene scene{memory};
+    fast::Step step{memory};
+    fast::StepBoxes boxes{memory};
+    fast::StreamBuffers stream_buffers{memory};
+    fast::BroadPhase broad{memory};
+    fast::Windows windows{memory};
+    fast::QueryBuffers query_buffers{memory};
+    std::vector<fast::Finding> findings; // in body 0
+    Count ignored;
+    std::pmr::vector<Hit> hits{memory};
+    std::pmr::vector<std::uint64_t> degenerate{memory};
+    std::size_t tets = 0, vertices = 0, blocks = 0;
+
+    class Keep final : public fast::Findings {
+    public:
+        explicit Keep(std::vector<fast::Finding>& kept) : kept_(kept) {}
+        void take(std::span<const fast::Finding> findings) override {
+            kept_.insert(kept_.end(), findings.begin(), findings.end());
+        }
+
+    private:
+        std::vector<fast::Finding>& kept_;
+    };
+
+    explicit WholeStep(double all_tets) {
+        Random random{3};
+        for (int b = 0; b < 4; ++b) {
+            double radius = 0;
+            Mesh mesh = ball(all_tets / 4, &radius);
+            jitter(mesh, 0.1, random);
+            move(mesh, 1, radius * b, 0.123 * b, 0.271 * b);
+            tets += mesh.tets.size();
+            vertices += mesh.positions.size();
+            scene.add(std::move(mesh));
+        }
+        scene.prepare();
+        stream();
+        blocks = step.block_count;
+        broad_phase();
+        make_windows();
+        Keep keep(findings);
+        query(keep, 1);
+    }
+
+    void stream() {
+        fast::begin_step(scene.bodies(), nullptr, step);
+        for (std::size_t b = 0; b < step.of.size(); ++b) {
+            const fast::PreparedBody& prepared = scene.prepared()[b];
+            step.of[b].tiles = prepared.tiles;
+            step.of[b].last = &prepared.state->last_positions;
+            step.of[b].moved = true;
+        }
+        fast::lay_out(step, boxes);
+        fast::stream(step, boxes, stream_buffers);
+    }
+    void broad_phase() {
+        std::fill(boxes.tile_known.begin(), boxes.tile_known.end(), std::uint8_t{0});
+        fast::find_regions(step, boxes, broad);
+    }
+    void make_windows() { fast::make_windows(step, broad, 0, boxes, windows); }
+    void query(fast::Findings& out, std::uint32_t bodies) {
+        for (const fast::Piece& piece : step.super_pieces)
+            if (piece.body < bodies) fast::query(step, broad, windows, piece, boxes, query_buffers, out);
+    }
+    void decide() {
+        hits.clear();
+        degenerate.clear();
+        fast::Decided decided{hits, degenerate};
+        fast::DecideCounts counts;
+        fast::ExactDecisions(step.bodies, 0, counts, decided).take(findings);
+    }
+};
+
+// What parts of stages read and write. Two balls, the second reaching half into the first.
 struct Bodies {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();
     Mesh a, b;
@@ -46,7 +125,7 @@ struct Bodies {
     Tiles tiles{memory};
     Boundary surface{memory};
     std::vector<Box> blocks, moves, super_boxes, tile_boxes, many;
-    std::vector<std::uint8_t> known, upright, sides;
+    std::vector<std::uint8_t> known, positive, sides;
     std::vector<std::uint64_t> bad;
     fast::OrientationCache turning{memory};
     Box box_a{}, box_b{}, region{};
@@ -80,15 +159,15 @@ struct Bodies {
         fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
         make_boundary(a.tets, vertices, view(a), tiles, surface);
         super_boxes.resize(tiles.super_tile_count());
-        upright.resize(super_boxes.size());
+        positive.resize(super_boxes.size());
         moves.resize(blocks.size());
         bad.resize(tiles.tiles.size());
         fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
-                     super_boxes.data(), upright.data());
+                     super_boxes.data(), positive.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.assign(super_boxes.size(), 0.1f);
         turning.is_known = true;
-        std::fill(upright.begin(), upright.end(), std::uint8_t{1});
+        std::fill(positive.begin(), positive.end(), std::uint8_t{1});
         rest.positions.resize(std::size_t{vertices} * 3);
         rest.parts.resize(1);
         box_b = empty_box;
@@ -154,20 +233,41 @@ struct Bodies {
     }
 };
 
-std::vector<Stage> stages_of(Bodies& s) {
+std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
     const std::size_t tets = s.a.tets.size();
     return {
+        {"stream", "vertex", w.vertices, [&w] { w.stream(); }},
+        {"winding", "tet", tets,
+         [&s] {
+             const fast::WindingBody body{s.tiles,
+                                          s.surface,
+                                          packed(s.a),
+                                          s.vertices,
+                                          s.box_a,
+                                          2.3,
+                                          s.super_boxes.data(),
+                                          s.positive.data(),
+                                          s.tile_boxes.data(),
+                                          s.known.data(),
+                                          s.turning,
+                                          nullptr};
+             fast::certify(body, s.certificate, s.exact_tests);
+         }},
+        {"broad_phase", "block", w.blocks, [&w] { w.broad_phase(); }},
+        {"windows", "vertex", w.vertices, [&w] { w.make_windows(); }},
+        {"query", "tet", w.tets, [&w] { w.query(w.ignored, 4); }},
+        {"decide", "finding", w.findings.size(), [&w] { w.decide(); }},
         {"tiles", "tet", tets,
          [&s] {
              Tiles tiles(s.memory);
              make_tiles(s.a.tets, s.vertices, view(s.a), tiles);
          }},
-        {"surface", "tet", tets,
+        {"boundary", "tet", tets,
          [&s] {
-             Boundary surface(s.memory);
-             make_boundary(s.a.tets, s.vertices, view(s.a), s.tiles, surface);
+             Boundary boundary(s.memory);
+             make_boundary(s.a.tets, s.vertices, view(s.a), s.tiles, boundary);
          }},
-        {"stream", "vertex", s.vertices,
+        {"block boxes", "vertex", s.vertices,
          [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},
         {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, s.pair_buffers, s.pairs); }},
         {"sides", "block", s.blocks.size(),
@@ -178,7 +278,7 @@ std::vector<Stage> stages_of(Bodies& s) {
              fast::make_tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
                               s.tile_boxes.data(), s.known.data());
          }},
-        {"rest", "vertex", s.vertices,
+        {"compare", "vertex", s.vertices,
          [&s] { fast::compare_packed(s.rest, 0, packed(s.a), 0, s.vertices, s.box_a); }},
         {"collect", "vertex", s.b.positions.size(), [&s] { s.collect(); }},
         {"bin", "point", s.points.count, [&s] { s.bin(); }},
@@ -187,30 +287,14 @@ std::vector<Stage> stages_of(Bodies& s) {
              s.sparse_bins.clear();
              fast::bin_tree(s.sparse, Bodies::cell_size, s.cell_of, s.sparse_bins);
          }},
-        {"query", "tet", tets, [&s] { s.query(); }},
-        {"winding", "tet", tets,
-         [&s] {
-             const fast::WindingBody body{s.tiles,
-                                          s.surface,
-                                          packed(s.a),
-                                          s.vertices,
-                                          s.box_a,
-                                          2.3,
-                                          s.super_boxes.data(),
-                                          s.upright.data(),
-                                          s.tile_boxes.data(),
-                                          s.known.data(),
-                                          s.turning,
-                                          nullptr};
-             fast::certify(body, s.certificate, s.exact_tests);
-         }},
-        {"turning", "tet", tets,
+        {"query tiles", "tet", tets, [&s] { s.query(); }},
+        {"track", "tet", tets,
          [&s] {
              const auto supers = s.tiles.super_tile_count();
              fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
                                 s.moves.data(), s.box_a);
              fast::track_orientation(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
-                          s.super_boxes.data(), s.upright.data());
+                          s.super_boxes.data(), s.positive.data());
          }},
         {"orient", "tet", tets,
          [&s] {
@@ -249,8 +333,14 @@ int main(int argc, char** argv) {
             return 2;
         }
     }
+    WholeStep step(tets);
     Bodies bodies(tets);
-    std::vector<Stage> stages = stages_of(bodies);
+    std::vector<Stage> stages = stages_of(step, bodies);
+    for (std::size_t i = 0; i < std::size(fast::stage_names); ++i) // the first rows are the stages in their order
+        if (std::strcmp(stages[i].name, fast::stage_names[i]) != 0) {
+            std::fprintf(stderr, "row %zu is %s, expected stage %s\n", i, stages[i].name, fast::stage_names[i]);
+            return 1;
+        }
     for (int round = 0; round <= rounds; ++round) // the first is not counted: buffers grow
         for (Stage& stage : stages) {
             if (!only.empty() && only != stage.name) continue;

@@ -1,4 +1,4 @@
-// A set of numbers as bits. One that was never added to holds no memory.
+// Sets of numbers as bits, and numbers whose bits are interleaved.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,17 @@ inline bool has_bit(std::span<const std::uint64_t> words, std::size_t i) noexcep
     return i / 64 < words.size() && (words[i / 64] >> i % 64 & 1) != 0;
 }
 
+// A set that was never added to holds no memory.
 class Bits {
 public:
     explicit Bits(std::pmr::memory_resource* memory) noexcept : words_(memory) {}
 
     bool operator[](std::size_t i) const noexcept { return has_bit(words_, i); }
     std::size_t count() const noexcept { return count_; }
-    // Empty, or as long as reserve() made it.
+    // Empty until reserve() gives it a length.
     std::span<const std::uint64_t> words() const noexcept { return words_; }
 
-    // Room for numbers below `end`: adding them cannot fail.
+    // Makes room for numbers below `end`, so that adding them cannot fail.
     void reserve(std::size_t end) {
         if ((end + 63) / 64 > words_.size()) words_.resize((end + 63) / 64, 0);
     }
@@ -40,5 +41,18 @@ private:
     std::pmr::vector<std::uint64_t> words_;
     std::size_t count_ = 0;
 };
+
+// The place of a cell on a Z-shaped curve through 2^21 cells an axis (G. M. Morton, "A computer oriented
+// geodetic data base", 1966).
+inline std::uint64_t morton_code(std::uint64_t x, std::uint64_t y, std::uint64_t z) noexcept {
+    const auto to_every_third_bit = [](std::uint64_t i) {
+        i = (i | i << 32) & 0x1f00000000ffffu;
+        i = (i | i << 16) & 0x1f0000ff0000ffu;
+        i = (i | i << 8) & 0x100f00f00f00f00fu;
+        i = (i | i << 4) & 0x10c30c30c30c30c3u;
+        return (i | i << 2) & 0x1249249249249249u;
+    };
+    return to_every_third_bit(x) | to_every_third_bit(y) << 1 | to_every_third_bit(z) << 2;
+}
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// The C border: every public function that can fail is `return border([&] { ... });`. Nothing that is thrown
-// inside gets out; it becomes a result code and the text of vox_last_error().
+// The C border. Every public function that can fail is `return border([&] { ... });`, which turns whatever is
+// thrown inside into a result code and the text of vox_last_error().
 #pragma once
 
 #include "base/error.hpp"
@@ -23,11 +23,6 @@ vox_result border(Function&& function) noexcept {
     } catch (...) {
         return vox_fail(VOX_ERROR_INTERNAL, "unknown exception");
     }
-}
-
-// Throws INVALID_ARGUMENT naming the parameter when `pointer` is null.
-inline void require(const void* pointer, const char* name) {
-    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
 }
 
 } // namespace vox

@@ -1,4 +1,5 @@
-// Axis-aligned boxes of the fast engine, padded to four floats a corner so that one is two vector registers.
+// Axis-aligned boxes. Those of the fast engine have four floats a corner, so that a box is two vector
+// registers; those of the reference engine and of trees have three floats or doubles.
 #pragma once
 
 #include "base/scene.hpp"
@@ -14,7 +15,7 @@
 namespace vox {
 
 struct alignas(16) Box {
-    float lo[4], hi[4]; // lo[3] and hi[3] mean nothing
+    float lo[4], hi[4]; // lo[3] and hi[3] are padding
 };
 
 inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
@@ -37,7 +38,7 @@ inline bool is_empty(const Box& a) noexcept {
 
 inline bool overlap(const Box& a, const Box& b) noexcept {
 #if defined(__SSE2__)
-    // What compilers do not make of the comparisons below.
+    // Compilers do not turn the comparisons below into this.
     const __m128 apart = _mm_or_ps(_mm_cmpgt_ps(_mm_load_ps(a.lo), _mm_load_ps(b.hi)),
                                    _mm_cmpgt_ps(_mm_load_ps(b.lo), _mm_load_ps(a.hi)));
     return (_mm_movemask_ps(apart) & 7) == 0;
@@ -47,9 +48,9 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
-// On which sides of `region` all of a box lies, a bit each: bits 0 to 2 above its hi[0], hi[1], hi[2], bits 4
-// to 6 below its lo[0], lo[1], lo[2]. None where they overlap. Boxes with a side in common lie on that side
-// together.
+// The sides of `region` on which a whole box is. Bits 0 to 2 are set when it is above hi[0], hi[1] and hi[2]
+// of the region, bits 4 to 6 when it is below lo[0], lo[1] and lo[2]; no bit is set where the two overlap.
+// Boxes that have a bit in common are all on that side.
 inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 #if defined(__SSE2__)
     const int above = _mm_movemask_ps(_mm_cmpgt_ps(_mm_load_ps(box.lo), _mm_load_ps(region.hi))) & 7;
@@ -64,13 +65,14 @@ inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 }
 inline constexpr unsigned all_sides = 0x77;
 
-// ---- boxes of three floats a corner: of tetrahedra in the reference engine, and of trees over doubles ----
+// ---- boxes of three numbers a corner ----------------------------------------------------------------
 
 inline Box3f empty_box3f() noexcept {
-    return {{float_infinity, float_infinity, float_infinity}, {-float_infinity, -float_infinity, -float_infinity}};
+    return {{float_infinity, float_infinity, float_infinity},
+            {-float_infinity, -float_infinity, -float_infinity}};
 }
 
-// The largest float that is not above, the smallest that is not below.
+// The largest float that is not above x. round_up() is the smallest that is not below.
 inline float round_down(double x) noexcept {
     constexpr float most = std::numeric_limits<float>::max();
     if (x >= double{most}) return most;
@@ -80,7 +82,8 @@ inline float round_down(double x) noexcept {
 }
 inline float round_up(double x) noexcept { return -round_down(-x); }
 
-inline void extend(Box3f& box, const Box3f& by) noexcept {
+template <class AnyBox>
+void extend(AnyBox& box, const AnyBox& by) noexcept {
     box.min = {std::min(box.min.x, by.min.x), std::min(box.min.y, by.min.y), std::min(box.min.z, by.min.z)};
     box.max = {std::max(box.max.x, by.max.x), std::max(box.max.y, by.max.y), std::max(box.max.z, by.max.z)};
 }
@@ -102,8 +105,20 @@ inline void extend(Box3f& box, const Vec3f& p) noexcept {
     box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
 }
 
+// A lower bound of the squared distance from p to a box, infinite for an empty box. It is a few roundings too
+// small, so that the distance computed to a point in the box is always greater.
+template <class AnyBox>
+double squared_distance_bound(const Vec3d& p, const AnyBox& box) noexcept {
+    constexpr double slack = 1 - 0x1p-48;
+    const auto beyond = [](double x, double min, double max) { return std::max({min - x, x - max, 0.0}); };
+    const double x = beyond(p.x, box.min.x, box.max.x), y = beyond(p.y, box.min.y, box.max.y),
+                 z = beyond(p.z, box.min.z, box.max.z);
+    return (x * x + y * y + z * z) * slack;
+}
+
 inline bool contains(const Box3f& box, const Vec3f& p) noexcept {
-    // Not &&: most vertices fail one of the six comparisons at random, and one branch is cheaper than six.
+    // No &&, because most vertices fail one of the six comparisons at random, and one branch is cheaper than
+    // six.
     return bool(int(p.x >= box.min.x) & int(p.x <= box.max.x) & int(p.y >= box.min.y) &
                 int(p.y <= box.max.y) & int(p.z >= box.min.z) & int(p.z <= box.max.z));
 }

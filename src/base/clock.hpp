@@ -1,4 +1,4 @@
-// Time for profiles.
+// The clock of the times in vox_profile.
 #pragma once
 
 #include <chrono>

@@ -11,7 +11,7 @@ thread_local char last_error[text_capacity] = "";
 
 vox_result vox_fail(vox_result result, const char* text) {
     if (!text) text = "";
-    // The text may be this very buffer (a failure passed on), hence memmove.
+    // memmove, because a failure that is passed on has this very buffer as its text.
     const std::size_t length = strnlen(text, text_capacity - 1);
     std::memmove(last_error, text, length);
     last_error[length] = '\0';

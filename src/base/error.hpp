@@ -1,5 +1,5 @@
-// How failures travel inside the libraries: as exceptions, caught at the C border (border.hpp) and turned
-// into a code and a text there. Header only and on public symbols alone, so that vox_io shares it.
+// Failures inside the libraries are exceptions, which the C border (border.hpp) turns into a result code and
+// a text. This header uses no symbol that is not public, so that vox_io and vox_sim can share it.
 #pragma once
 
 #include <vox/vox.h>
@@ -11,7 +11,7 @@
 
 namespace vox {
 
-// A failure with the result code the caller gets and the text vox_last_error() gives.
+// A failure, with the result code for the caller and the text for vox_last_error().
 class Error : public std::runtime_error {
 public:
     Error(vox_result result, const std::string& text) : std::runtime_error(text), result_(result) {}
@@ -21,8 +21,7 @@ private:
     vox_result result_;
 };
 
-// printf into a string, so that messages carry their numbers: throw Error(code, format("tet %u names ...",
-// t)).
+// printf into a string, for messages with numbers, as in throw Error(code, format("tet %u names ...", t)).
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
@@ -31,9 +30,14 @@ format(const char* pattern, ...) {
     char text[1024];
     va_list arguments;
     va_start(arguments, pattern);
-    (void)std::vsnprintf(text, sizeof text, pattern, arguments); // a longer text is cut
+    (void)std::vsnprintf(text, sizeof text, pattern, arguments); // longer texts are cut
     va_end(arguments);
     return text;
+}
+
+// Throws INVALID_ARGUMENT, with the name of the parameter, when `pointer` is null.
+inline void require(const void* pointer, const char* name) {
+    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
 }
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// What const calls make when the first of them wants it, and keep. They may come at the same time: each makes
-// its own then, and the first one that is ready stays.
+// A value that is made by the first const call that needs it, and then kept. If several threads call at the
+// same time, each makes one, and the first that is ready is kept.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ public:
     }
     ~Lazy() { reset(); }
 
-    // The reference stays good until the next call that is not const.
+    // The reference is valid until the next call that is not const.
     template <class Make>
     const T& get(Make&& make) const {
         if (const T* made = made_.load(std::memory_order_acquire)) return *made;

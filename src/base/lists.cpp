@@ -4,23 +4,23 @@
 
 namespace vox {
 
-// Room for `count` items of a list, which may move.
+// Makes room for `count` items in a list, which may move it.
 void IndexLists::make_room(std::size_t list, std::uint32_t count) {
     Row& row = rows_[list];
     if (count <= row.room) return;
     const std::uint32_t room = std::max(count + count / 2, 4u);
-    if (left_behind_ + row.room > items_.size() / 2 + 64) return move_together(list, room);
+    if (abandoned_ + row.room > items_.size() / 2 + 64) return compact(list, room);
     const std::size_t first = items_.size();
     items_.resize(first + room);
     std::copy_n(items_.begin() + static_cast<std::ptrdiff_t>(row.first), row.count,
                 items_.begin() + static_cast<std::ptrdiff_t>(first));
-    left_behind_ += row.room;
+    abandoned_ += row.room;
     row.first = first;
     row.room = room;
 }
 
-// All lists one after the other, each with the room that it has, but this one with so much.
-void IndexLists::move_together(std::size_t list, std::uint32_t room) {
+// Moves all lists together. Each keeps its room, except that `list` gets the given one.
+void IndexLists::compact(std::size_t list, std::uint32_t room) {
     std::size_t size = room;
     for (std::size_t i = 0; i < rows_.size(); ++i)
         if (i != list) size += rows_[i].room;
@@ -34,7 +34,7 @@ void IndexLists::move_together(std::size_t list, std::uint32_t room) {
         next += row.room;
     }
     items_ = std::move(items);
-    left_behind_ = 0;
+    abandoned_ = 0;
 }
 
 void IndexLists::insert(std::size_t list, std::size_t place, std::uint32_t value) {

@@ -1,7 +1,7 @@
-// IndexLists of numbers, one for each of 0, 1, 2, ..., one after the other in one array (compressed rows), which
-// may change: a list that outgrows its room moves to the end of the array and gets twice as much; when half
-// of the array is left behind, all lists move together again. So a change costs what its list is long,
-// amortised.
+// Lists of numbers, numbered 0, 1, 2, ... and held in one array (compressed rows). They may change. A list
+// that outgrows its room moves to the end of the array and gets half as much again as it needs. When half of
+// the array is abandoned, all lists move together. So a change costs time in proportion to the length of its
+// list, amortised.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ public:
         return {items_.data() + rows_[list].first, rows_[list].count};
     }
 
-    // Building: a list is begun, then filled; those before it are not touched any more.
+    // Building. begin_list() begins the next list, and push() adds to it; earlier lists stay as they are.
     void reserve(std::size_t lists) { rows_.reserve(lists); }
     void begin_list() { rows_.push_back({items_.size(), 0, 0}); }
     void push(std::uint32_t value) {
@@ -36,12 +36,12 @@ public:
     }
     void shrink_to_fit() { items_.shrink_to_fit(); }
 
-    // For each vertex the items that have it as a corner, ascending: counted, summed, placed.
-    // corners_of(item) is a range, which may be empty, without doubles.
+    // Makes for each vertex the list of the items that have it as a corner, ascending, by a counting sort.
+    // corners_of(item) is a range without duplicates, which may be empty.
     template <class CornersOf>
     void list_by_vertex(std::uint32_t items, std::uint32_t vertex_count, CornersOf&& corners_of) {
         rows_.assign(vertex_count, Row{});
-        left_behind_ = 0;
+        abandoned_ = 0;
         for (std::uint32_t i = 0; i < items; ++i)
             for (const std::uint32_t v : corners_of(i)) ++rows_[v].room;
         std::uint64_t sum = 0;
@@ -54,14 +54,14 @@ public:
             for (const std::uint32_t v : corners_of(i)) items_[rows_[v].first + rows_[v].count++] = i;
     }
 
-    // Changes. Those that may throw what the memory throws leave all as it was then.
-    // More lists, which are empty.
+    // Changes. One that throws (what the memory resource throws) changes nothing.
+    // Adds empty lists at the end.
     void resize(std::size_t lists) { rows_.resize(lists); }
-    // Before the item at `place`.
+    // Inserts before the item at `place`.
     void insert(std::size_t list, std::size_t place, std::uint32_t value);
     void add(std::size_t list, std::uint32_t value) { insert(list, rows_[list].count, value); }
     void assign(std::size_t list, std::span<const std::uint32_t> values);
-    // The first one of that value, if there is one; the others keep their order.
+    // Removes the first item of that value, if there is one. The others keep their order.
     void remove(std::size_t list, std::uint32_t value) noexcept;
 
 private:
@@ -71,11 +71,11 @@ private:
     };
 
     void make_room(std::size_t list, std::uint32_t count);
-    void move_together(std::size_t list, std::uint32_t room);
+    void compact(std::size_t list, std::uint32_t room);
 
     std::pmr::vector<Row> rows_;
     std::pmr::vector<std::uint32_t> items_;
-    std::size_t left_behind_ = 0; // of items_, not in the room of any list
+    std::size_t abandoned_ = 0; // items that are not in the room of any list
 };
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// Per-grid memory: the caller's allocator behind std::pmr, with every byte counted and a budget that is never
-// passed.
+// The memory of a grid. It puts the caller's allocator behind std::pmr, counts every byte, and never exceeds
+// the budget.
 #pragma once
 
 #include <vox/vox.h>
@@ -10,14 +10,14 @@
 
 namespace vox {
 
-// May be used by many threads at once; the caller's functions see one call at a time.
+// Many threads may use it at once; it calls the caller's functions from one at a time.
 class GridMemory final : public std::pmr::memory_resource {
 public:
-    // `held` bytes were taken from the allocator for the grid itself.
+    // `held` is the number of bytes already taken from the allocator for the grid itself.
     GridMemory(const vox_allocator& allocator, std::uint64_t byte_budget, std::uint64_t held) noexcept
         : allocator_(allocator), budget_(byte_budget), bytes_(held), peak_bytes_(held) {}
 
-    std::uint64_t budget() const noexcept { return budget_; } // 0: none
+    std::uint64_t budget() const noexcept { return budget_; } // 0 for none
     std::uint64_t bytes() const noexcept { return bytes_; }
     std::uint64_t peak_bytes() const noexcept { return peak_bytes_; }
 
@@ -29,12 +29,13 @@ private:
 
     vox_allocator allocator_;
     std::mutex mutex_;
-    std::uint64_t budget_; // 0: none
+    std::uint64_t budget_; // 0 for none
     std::uint64_t bytes_;
     std::uint64_t peak_bytes_;
 };
 
-// One allocation from the caller's allocator, or the C++ heap when it has none; null when there is no memory.
+// One allocation from the caller's functions, or from the C++ heap when there are none. Null when there is no
+// memory.
 void* allocate(const vox_allocator& allocator, std::size_t size, std::size_t alignment) noexcept;
 void release(const vox_allocator& allocator, void* memory, std::size_t size, std::size_t alignment) noexcept;
 

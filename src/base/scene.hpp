@@ -1,4 +1,4 @@
-// What the stages work on: plain views of the meshes of one step.
+// Plain views of the meshes of one step, on which the stages work.
 #pragma once
 
 #include <cstddef>
@@ -27,17 +27,17 @@ struct Box3f {
     Vec3f min, max;
 };
 
-// The caller's positions: strided, borrowed, only valid during the step; floats or doubles, as they are or
-// after a transform. Every contact is decided by exact(). What finds candidates looks at the nearest floats,
-// operator[]: rounding keeps the order of numbers, so what is in a box is in the rounded box when it is
-// rounded too.
+// The caller's positions, strided and borrowed, valid during the step only. They are floats or doubles, with
+// or without a transform. Every contact is decided by exact(). Candidates are found with the nearest floats,
+// operator[], and none is missed: rounding keeps the order of numbers, so a point in a box is, once rounded,
+// in the rounded box.
 struct Positions {
     const std::byte* data = nullptr;
     std::size_t byte_stride = 0;
     bool doubles = false;              // else floats
-    const double* transform = nullptr; // of vox_mesh_set_transform: three rows of four; null: none
+    const double* transform = nullptr; // three rows of four (vox_mesh_set_transform), or null
 
-    // operator[] may differ from exact().
+    // Whether operator[] may differ from exact().
     bool rounded() const noexcept { return doubles || transform; }
 
     Vec3d exact(std::size_t vertex) const noexcept {
@@ -45,7 +45,7 @@ struct Positions {
         return transform ? transformed(transform, p) : p;
     }
 
-    // Where not rounded().
+    // Only for positions that are not rounded().
     Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f>(vertex); }
 
     // Infinite where a coordinate is 2^128 - 2^103 or more in magnitude.
@@ -55,7 +55,7 @@ struct Positions {
         return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     }
 
-    // In this order of operations, each rounded to double: part of the interface.
+    // The order of operations, each rounded to double, is part of the public interface.
     static Vec3d transformed(const double* m, const Vec3d& p) noexcept {
         return {((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3],
                 ((m[4] * p.x + m[5] * p.y) + m[6] * p.z) + m[7],
@@ -73,7 +73,7 @@ private:
 
 struct SelfFilter;
 
-// Which other meshes a mesh collides with: see vox_filter.
+// Decides which other meshes a mesh collides with (vox_filter).
 struct PairFilter {
     std::uint64_t category = 1, mask = ~std::uint64_t{0};
     std::int32_t group = 0;
@@ -90,13 +90,14 @@ struct Body {
     std::span<const Tet> tets{};
     bool self_collision = false;
     PairFilter filter{};
-    std::span<const std::uint32_t>
-        exceptions{}; // ascending mesh_ids that it never collides with, nor they with it
-    const SelfFilter* self_filter = nullptr; // null: there is none
-    // Tetrahedra that are off hold no vertex and have no edges and facets: they name one vertex four times.
-    std::span<const std::uint64_t> off{}; // as bits (bits.hpp); empty: none
+    // Ids of the meshes that it never collides with, ascending. Their lists have its id, too.
+    std::span<const std::uint32_t> exceptions{};
+    const SelfFilter* self_filter = nullptr; // null without a filter
+    // Tetrahedra that are off, as bits (bits.hpp); empty when all are on. They hold no vertex and have no
+    // edges and facets, because all four of their corners are one vertex.
+    std::span<const std::uint64_t> off{};
     std::uint64_t off_count = 0;
-    std::span<const std::uint64_t> removed_vertices{}; // as bits: they are in no tetrahedron
+    std::span<const std::uint64_t> removed_vertices{}; // vertices that are in no tetrahedron, as bits
 };
 
 // Barycentric coordinates of a point in a tetrahedron.
@@ -107,14 +108,15 @@ struct Weights {
     bool known() const noexcept { return of[0] >= 0; }
 };
 
-// A vertex found inside a closed tetrahedron, before canonical order. Bodies by index in the scene.
+// A vertex in a closed tetrahedron, as an engine finds it. Bodies are indices into the scene; the canonical
+// order comes later (make_contacts).
 struct Hit {
     std::uint32_t body_a;
     std::uint32_t vertex;
     std::uint32_t body_b;
     std::uint32_t tet : 31;
-    std::uint32_t interior : 1;           // strictly inside: on no face
-    Weights weights = Weights::unknown(); // but where the stage that found it had all at hand
+    std::uint32_t interior : 1;           // strictly inside, on no face
+    Weights weights = Weights::unknown(); // set only by stages that have all corners at hand
 };
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// The thread sanitizer does not see how oneTBB, which is not built with it, orders what its threads do. So it
-// is told (VOX_TSAN), and this file is left out of what it watches.
+// oneTBB is not built with the thread sanitizer, which therefore does not see how oneTBB orders what its
+// threads do. With VOX_TSAN this file is not instrumented, and reports the order to the sanitizer itself.
 #include "base/scheduler.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace vox {
 
 namespace {
 
-// What came before release() on one thread has happened when acquire() returns on another.
+// Everything before release() on one thread happens before acquire() returns on another.
 #if defined(VOX_TSAN)
 void acquire(void* address) { __tsan_acquire(address); }
 void release(void* address) { __tsan_release(address); }
@@ -35,7 +35,7 @@ struct Scheduler::Arena : tbb::task_arena {
     using task_arena::task_arena;
 };
 
-// oneTBB has no more threads than there are cores, and warns on the terminal when it is asked for more.
+// oneTBB has no more threads than there are cores, and prints a warning when asked for more.
 std::uint32_t Scheduler::most_workers(std::uint32_t asked) {
     if (asked == 1) return 1;
     const int cores = tbb::task_arena(tbb::task_arena::automatic).max_concurrency();
@@ -51,7 +51,8 @@ void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t min_range
     release(context);
     arena_->execute([&] {
         using Range = tbb::blocked_range<std::uint64_t>;
-        tbb::task_group_context own(tbb::task_group_context::isolated); // not cancelled with the caller's
+        // Isolated, so that it is not cancelled with the caller's tasks.
+        tbb::task_group_context own(tbb::task_group_context::isolated);
         tbb::parallel_for(
             Range(0, items, std::max<std::uint64_t>(min_range, 1)),
             [&](const Range& range) {

@@ -1,4 +1,4 @@
-// The built-in scheduler: oneTBB where the library is built with it, else serial.
+// The built-in scheduler, which is oneTBB when the library is built with it, and serial otherwise.
 #pragma once
 
 #include <vox/vox.h>
@@ -10,7 +10,7 @@ namespace vox {
 
 class Scheduler {
 public:
-    // The most workers there can be of as many as were asked for, 0 for one per core.
+    // The number of workers that there can be when `asked` are asked for, where 0 asks for one per core.
     static std::uint32_t most_workers(std::uint32_t asked);
 
     explicit Scheduler(std::uint32_t worker_count);
@@ -18,7 +18,7 @@ public:
     Scheduler(const Scheduler&) = delete;
     Scheduler& operator=(const Scheduler&) = delete;
 
-    // As vox_task_system.enqueue and finish.
+    // Does what vox_task_system.enqueue and finish do together.
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context);
 
 private:

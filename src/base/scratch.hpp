@@ -1,5 +1,5 @@
-// Memory for the time of one call: from a room at hand, then from the heap. Of the room only what was taken
-// last comes back before the end.
+// Memory for one call. It comes from a buffer in the object, and from the heap when that is full. Space in
+// the buffer can be used again only when the last allocation in it is released first.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ namespace vox {
 template <std::size_t bytes>
 class Scratch final : public std::pmr::memory_resource {
 public:
-    Scratch() noexcept = default; // the room is left as it is
+    Scratch() noexcept = default; // leaves the buffer uninitialised
 
 private:
-    bool is_in_room(const void* memory) const noexcept {
+    bool is_in_buffer(const void* memory) const noexcept {
         const auto at = reinterpret_cast<std::uintptr_t>(memory),
-                   begin = reinterpret_cast<std::uintptr_t>(room_);
+                   begin = reinterpret_cast<std::uintptr_t>(buffer_);
         return at >= begin && at < begin + bytes;
     }
     void* do_allocate(std::size_t size, std::size_t alignment) override {
@@ -24,18 +24,18 @@ private:
         if (alignment > alignof(std::max_align_t) || first > bytes || size > bytes - first)
             return std::pmr::new_delete_resource()->allocate(size, alignment);
         used_ = first + size;
-        return room_ + first;
+        return buffer_ + first;
     }
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
         auto* place = static_cast<std::byte*>(memory);
-        if (!is_in_room(memory))
+        if (!is_in_buffer(memory))
             std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-        else if (place + size == room_ + used_)
+        else if (place + size == buffer_ + used_)
             used_ -= size;
     }
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
-    alignas(std::max_align_t) std::byte room_[bytes];
+    alignas(std::max_align_t) std::byte buffer_[bytes];
     std::size_t used_ = 0;
 };
 

@@ -10,8 +10,8 @@ namespace {
 Level detect() noexcept {
 #if (defined(__x86_64__) || defined(_M_X64)) && defined(__GNUC__)
     __builtin_cpu_init();
-    // What Highway switches on for each target (hwy/ops/set_macros-inl.h); the builtin also asks whether the
-    // operating system saves the wider registers.
+    // The features that Highway enables for each target (hwy/ops/set_macros-inl.h). The builtin also checks
+    // that the operating system saves the wider registers.
     if (!__builtin_cpu_supports("ssse3") || !__builtin_cpu_supports("sse4.1") ||
         !__builtin_cpu_supports("sse4.2"))
         return Level::portable;

@@ -1,25 +1,26 @@
 // Portable SIMD: Highway's headers (https://github.com/google/highway) with a run-time dispatch of our own,
 // so that the core links with the C++ runtime alone. A source file that uses it is compiled once per
-// instruction set (hwy/foreach_target.h); VOX_SIMD_DISPATCH(function) picks the version for the machine that
-// runs.
+// instruction set (hwy/foreach_target.h); VOX_SIMD_DISPATCH(function) picks the version for the machine at
+// run time. Functions that are compiled per target have names in UpperCamelCase.
 //
-// The same operations in the same order on every target: no fused multiply-add, so that filters and counters
-// give the same bits everywhere. Functions compiled per target work on plain arrays only: a template of the
-// standard library instantiated there could be merged with the one the rest of the program uses.
+// Every target runs the same operations in the same order, without fused multiply-add, so that filters and
+// counters give the same bits everywhere. Functions compiled per target work on plain arrays only. If one
+// used a template of the standard library, the linker could merge that instance with the one in the rest of
+// the program, which must run on any machine.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #if defined(__x86_64__) || defined(_M_X64)
-#define HWY_DISABLED_TARGETS HWY_SSSE3 // as rare as it is slow: such machines run the portable code
+#define HWY_DISABLED_TARGETS HWY_SSSE3 // rare and slow; such machines run the portable code
 #elif defined(__aarch64__)
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128) // vectors of unknown length
 #endif
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
-// The portable code: Highway's emulation of 128-bit registers, which it avoids with gcc < 12.3 for a
-// miscompiled product of 16-bit integers (gcc bug 106322); there is none here.
+// The portable code is Highway's emulation of 128-bit registers. Highway disables it for gcc < 12.3, which
+// miscompiles products of 16-bit integers (gcc bug 106322). There are none here.
 #define HWY_BROKEN_EMU128 0
 #define HWY_IS_DEBUG_BUILD 0 // its assertions would need Highway's library
 
@@ -32,12 +33,12 @@ enum class Level : int { portable = 0, sse4 = 1, avx2 = 2, avx512 = 3 };
 // The best level of this machine, or the one forced.
 Level level() noexcept;
 
-// For tests and measurements: use `wanted`, or the best one the machine has where that is lower. Returns the
-// level in force. Elsewhere than on x86 there is one level only.
+// For tests and measurements. Forces `wanted`, or the best level of the machine if that is lower, and returns
+// the level in force. Machines other than x86 have one level only.
 Level force_level(Level wanted) noexcept;
 Level best_level() noexcept;
 
-// What the code for `level()` is called, e.g. "AVX2".
+// A name for messages, such as "AVX2".
 const char* level_name(Level level) noexcept;
 
 template <class Function>
@@ -49,7 +50,7 @@ Function* choose(const std::array<Function*, 4>& versions) noexcept {
 
 } // namespace vox::simd
 
-// To be used after the last target was compiled (#if HWY_ONCE).
+// For code after the last target (#if HWY_ONCE).
 #define VOX_SIMD_DISPATCH(function)                                                                          \
     ::vox::simd::choose<decltype(HWY_STATIC_DISPATCH(function))>({VOX_SIMD_VERSIONS(function)})
 

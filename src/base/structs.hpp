@@ -1,5 +1,5 @@
-// Growable structs: the first field is uint32_t struct_size, and only the bytes it covers are read or
-// written.
+// Structs of the caller that may grow from version to version. Their first field is uint32_t struct_size, and
+// only the bytes it covers are read or written.
 #pragma once
 
 #include "base/error.hpp"
@@ -16,40 +16,37 @@ inline void check_struct_size(std::uint32_t struct_size, const char* name) {
                     format("%s.struct_size is %u, expected the size of the struct", name, struct_size));
 }
 
+inline std::uint32_t checked_struct_size(const void* from_caller, const char* name) {
+    require(from_caller, name);
+    std::uint32_t struct_size;
+    std::memcpy(&struct_size, from_caller, sizeof struct_size);
+    check_struct_size(struct_size, name);
+    return struct_size;
+}
+
 // Fills the caller's struct with `defaults`, as far as struct_size reaches.
 template <class T>
 void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name) {
-    if (!out) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
+    require(out, name);
     check_struct_size(struct_size, name);
     defaults.struct_size = struct_size;
     std::memcpy(out, &defaults, std::min<std::size_t>(struct_size, sizeof(T)));
 }
 
-// The caller's struct over `defaults`: fields it does not cover keep their default.
+// Returns the caller's struct. Fields that its struct_size does not cover have their default.
 template <class T>
 T read_struct(const T* in, T defaults, const char* name) {
-    if (!in) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
-    std::uint32_t struct_size;
-    std::memcpy(&struct_size, in, sizeof struct_size);
-    check_struct_size(struct_size, name);
-    std::memcpy(&defaults, in, std::min<std::size_t>(struct_size, sizeof(T)));
+    std::memcpy(&defaults, in, std::min<std::size_t>(checked_struct_size(in, name), sizeof(T)));
     return defaults;
 }
 
-// Throws when `out` cannot be written; call before any work whose result goes there.
-template <class T>
-void check_out_struct(const T* out, const char* name) {
-    if (!out) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
-    std::uint32_t struct_size;
-    std::memcpy(&struct_size, out, sizeof struct_size);
-    check_struct_size(struct_size, name);
-}
+// Throws when `out` cannot be written. Call it before any work whose result goes there.
+inline void check_out_struct(const void* out, const char* name) { (void)checked_struct_size(out, name); }
 
-// Writes `value` to the caller's struct, as far as its struct_size reaches; struct_size itself stays.
+// Writes `value` to the caller's struct, as far as its struct_size reaches, which itself stays.
 template <class T>
 void write_struct(T* out, T value, const char* name) {
-    check_out_struct(out, name);
-    std::memcpy(&value.struct_size, out, sizeof value.struct_size);
+    value.struct_size = checked_struct_size(out, name);
     std::memcpy(out, &value, std::min<std::size_t>(value.struct_size, sizeof(T)));
 }
 

@@ -4,14 +4,10 @@
 #include "base/scene.hpp"
 
 #include <cmath>
-#include <cstdint>
 
 namespace vox {
 
 inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, double{p.z}}; }
-inline Vec3d position_of(const Positions& positions, std::uint32_t vertex) noexcept {
-    return positions.exact(vertex);
-}
 inline Vec3d operator+(const Vec3d& a, const Vec3d& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3d operator-(const Vec3d& a, const Vec3d& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3d operator*(double s, const Vec3d& a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
@@ -27,7 +23,7 @@ inline Vec3d max(const Vec3d& a, const Vec3d& b) noexcept {
 }
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
-// Of length 1 to rounding; zero where `a` is, or so short that its square loses digits.
+// `a` scaled to length 1, to rounding. Zero when `a` is zero, or so short that its square loses digits.
 inline Vec3d normalised(const Vec3d& a) noexcept {
     const double squared = dot(a, a);
     if (!(squared > 1e-290)) return {0, 0, 0};

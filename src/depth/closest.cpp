@@ -1,8 +1,9 @@
-// A tree of boxes over the triangles in the order of the cells of a grid along a Z-shaped curve (Morton 1966;
-// Lauterbach et al., "Fast BVH construction on GPUs", Computer Graphics Forum 28, 2009), searched nearest box
-// first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
+// A tree of boxes over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH
+// construction on GPUs", Computer Graphics Forum 28, 2009), and searched nearest box first (Roussopoulos,
+// Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
 #include "depth/closest.hpp"
 
+#include "base/bits.hpp"
 #include "base/vectors.hpp"
 #include "depth/points.hpp"
 #include "exact/closest_point.hpp"
@@ -18,90 +19,54 @@ namespace vox::depth {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int axis_bits = 10; // cells of the curve's grid an axis
+constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
 constexpr int digit_bits = 10;
+constexpr Box3d empty_box3d{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-// Every third bit.
-std::uint32_t spread(std::uint32_t cell) {
-    cell = (cell | cell << 16) & 0x030000ffu;
-    cell = (cell | cell << 8) & 0x0300f00fu;
-    cell = (cell | cell << 4) & 0x030c30c3u;
-    return (cell | cell << 2) & 0x09249249u;
-}
-
-// Of [min, max], which may be empty.
+// The cell of x on an axis from min to max, which may be equal.
 std::uint32_t cell_of(double x, double min, double max) {
     constexpr double cells = 1 << axis_bits;
     const double cell = max > min ? (x - min) / (max - min) * cells : 0;
     return static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1));
 }
 
-double outside(double x, double min, double max) { return std::max({min - x, x - max, 0.0}); }
-
-} // namespace
-
-Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
-    const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    const auto [at, way] =
-        closest_seen_from(p, position_of(solid.positions, v[0]), position_of(solid.positions, v[1]),
-                          position_of(solid.positions, v[2]));
-    return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
-}
-
-namespace {
-
-// Whether the plane of a triangle, and so the triangle, is farther from p than that.
+// Whether the plane of a triangle, and so the triangle, is farther from p than the root of `squared`.
 bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
     constexpr double rounding = 1 + 0x1p-40;
-    const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    const Vec3d a = position_of(solid.positions, v[0]);
-    const Vec3d normal =
-        cross(position_of(solid.positions, v[1]) - a, position_of(solid.positions, v[2]) - a);
+    const auto [a, b, c] = solid.corners(triangle);
+    const Vec3d normal = cross(b - a, c - a);
     const double height = dot(normal, p - a);
     return height * height > rounding * squared * dot(normal, normal);
 }
 
 } // namespace
 
-SurfaceTree::Box SurfaceTree::box_of(std::uint32_t triangle) const {
-    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
-    const Vec3d a = position_of(solid_.positions, v[0]), b = position_of(solid_.positions, v[1]),
-                c = position_of(solid_.positions, v[2]);
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p) {
+    const auto [a, b, c] = solid.corners(triangle);
+    const auto [at, way] = closest_seen_from(p, a, b, c);
+    return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
-namespace {
-
-template <class Box>
-Box joined(const Box& a, const Box& b) {
-    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
-            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+Box3d SurfaceTree::box_of(std::uint32_t triangle) const {
+    const auto [a, b, c] = solid_.corners(triangle);
+    Box3d box{a, a};
+    extend(box, {b, b});
+    extend(box, {c, c});
+    return box;
 }
-
-template <class Box>
-double squared_distance(const Vec3d& p, const Box& box) {
-    // A few roundings less, so that no triangle in the box is closer, or equally close, as that is computed.
-    constexpr double slack = 1 - 0x1p-48;
-    const double x = outside(p.x, box.min.x, box.max.x), y = outside(p.y, box.min.y, box.max.y),
-                 z = outside(p.z, box.min.z, box.max.z);
-    return (x * x + y * y + z * z) * slack;
-}
-
-} // namespace
 
 void SurfaceTree::sort_along_curve() {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    Box all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    for (std::uint32_t t = 0; t < count; ++t) all = joined(all, box_of(t));
+    Box3d all = empty_box3d;
+    for (std::uint32_t t = 0; t < count; ++t) extend(all, box_of(t));
     order_.resize(count);
     scratch_.resize(count);
     for (std::uint32_t t = 0; t < count; ++t) {
-        const Box box = box_of(t);
-        order_[t] = {spread(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x)) |
-                         spread(cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y)) << 1 |
-                         spread(cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z)) << 2,
-                     t};
+        const Box3d box = box_of(t);
+        const std::uint64_t code = morton_code(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x),
+                                               cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y),
+                                               cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z));
+        order_[t] = {static_cast<std::uint32_t>(code), t};
     }
     std::array<std::uint32_t, 1 << digit_bits> place;
     for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
@@ -133,25 +98,25 @@ void SurfaceTree::build(const Solid& solid) {
     sort_along_curve();
     const auto count = static_cast<std::uint32_t>(order_.size());
     leaves_ = leaves_of(count);
-    boxes_.assign(2 * std::size_t{leaves_} - 1,
-                  {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Box& leaf = boxes_[std::size_t{leaves_} - 1 + i / leaf_size];
-        leaf = joined(leaf, box_of(order_[i].triangle));
+    boxes_.assign(2 * std::size_t{leaves_} - 1, empty_box3d);
+    for (std::uint32_t i = 0; i < count; ++i)
+        extend(boxes_[std::size_t{leaves_} - 1 + i / leaf_size], box_of(order_[i].triangle));
+    for (std::size_t i = leaves_ - 1; i-- > 0;) {
+        boxes_[i] = boxes_[2 * i + 1];
+        extend(boxes_[i], boxes_[2 * i + 2]);
     }
-    for (std::size_t i = leaves_ - 1; i-- > 0;) boxes_[i] = joined(boxes_[2 * i + 1], boxes_[2 * i + 2]);
     slabs_.assign(boxes_.size(), {});
     last_ = order_[0].triangle;
     middle_ = 0.5 * (boxes_[0].min + boxes_[0].max);
     size_ = length(boxes_[0].max - boxes_[0].min);
 }
 
-// Whether all triangles of a node are farther from p than `distance`, told by its slab.
+// Whether the slab of a node shows that all its triangles are farther from p than `distance`.
 bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distance) {
-    // Only of few triangles: with many, a slab is as thick as their box, and takes long to make.
+    // Only for nodes with few triangles. With many, a slab is as thick as their box, and takes long to make.
     constexpr std::size_t most_leaves = 16;
     if (most_leaves * (node + 1) < leaves_) return false;
-    std::size_t first = node, leaves = 1; // of the node
+    std::size_t first = node, leaves = 1; // of the node's subtree
     for (; first < leaves_ - 1; leaves *= 2) first = 2 * first + 1;
     first = (first - (leaves_ - 1)) * leaf_size;
     const std::size_t last = std::min(first + leaves * leaf_size, order_.size());
@@ -160,18 +125,16 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
         slab.is_made = true;
         Vec3d areas{0, 0, 0};
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t* v = solid_.topology->triangles[order_[i].triangle].v;
-            const Vec3d a = position_of(solid_.positions, v[0]);
-            const Vec3d area =
-                cross(position_of(solid_.positions, v[1]) - a, position_of(solid_.positions, v[2]) - a);
-            areas = dot(areas, area) < 0 ? areas - area : areas + area; // however they are wound
+            const auto [a, b, c] = solid_.corners(order_[i].triangle);
+            const Vec3d area = cross(b - a, c - a);
+            areas = dot(areas, area) < 0 ? areas - area : areas + area; // whatever their winding
         }
         slab.normal = normalised(areas);
         slab.low = infinity;
         slab.high = -infinity;
         for (std::size_t i = first; i < last; ++i)
-            for (const std::uint32_t v : solid_.topology->triangles[order_[i].triangle].v) {
-                const double height = dot(slab.normal, position_of(solid_.positions, v) - middle_);
+            for (const Vec3d& corner : solid_.corners(order_[i].triangle)) {
+                const double height = dot(slab.normal, corner - middle_);
                 slab.low = std::min(slab.low, height);
                 slab.high = std::max(slab.high, height);
             }
@@ -185,7 +148,7 @@ bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distan
 bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
     if (has_corner(solid_.topology->triangles[found.at.triangle], fold.vertex)) return false;
     if (!fold.only_straight || found.squared == 0) return true;
-    // To a point as far again, so that rounding does not end the walk too early.
+    // The walk goes twice as far, so that rounding does not end it too early.
     SurfacePoint out;
     std::uint64_t tets = 0;
     if (!walk_out(solid_, fold.tet, p, p + 2.0 * found.way, out, tets)) return false;
@@ -197,7 +160,7 @@ bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found)
 
 bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) {
     struct Node {
-        double squared; // how far its box is, at least
+        double squared; // a bound of the squared distance to the box
         std::size_t box;
     };
     bool found = false;
@@ -206,9 +169,8 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
         ++visited;
         if (is_beyond_plane(solid_, triangle, p, best)) return;
         const Closest candidate = closest_point(solid_, triangle, p);
-        if (candidate.squared > best ||
-            (candidate.squared == best && found &&
-             !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
+        if (candidate.squared > best || (candidate.squared == best && found &&
+                                         !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
             return;
         if (fold && !accept(p, *fold, candidate)) return;
         found = true;
@@ -219,13 +181,13 @@ bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint
     look_at(last_);
     std::array<Node, 64> stack; // one box waits at each level
     std::size_t waiting = 0;
-    for (Node node{squared_distance(p, boxes_[0]), 0};; node = stack[--waiting]) {
+    for (Node node{squared_distance_bound(p, boxes_[0]), 0};; node = stack[--waiting]) {
         while (node.squared <= best && node.squared < infinity &&
                !is_beyond_slab(node.box, p, best_distance)) {
             const std::size_t child = 2 * node.box + 1;
             if (child < boxes_.size()) {
-                Node near{squared_distance(p, boxes_[child]), child},
-                    far{squared_distance(p, boxes_[child + 1]), child + 1};
+                Node near{squared_distance_bound(p, boxes_[child]), child},
+                    far{squared_distance_bound(p, boxes_[child + 1]), child + 1};
                 if (far.squared < near.squared) std::swap(near, far);
                 stack[waiting++] = far;
                 node = near;

@@ -1,6 +1,6 @@
-// Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation for Deformable
-// Collision Response", Vision, Modeling, Visualization 2004: stages 2 to 4. What differs, and why:
-// docs/depth.md.
+// Stages 2 to 4 of Heidelberger, Teschner, Keiser, Mueller, Gross, "Consistent Penetration Depth Estimation
+// for Deformable Collision Response", Vision, Modeling, Visualization 2004. docs/depth.md says what differs,
+// and why.
 #include "depth/consistent.hpp"
 
 #include "base/vectors.hpp"
@@ -13,16 +13,16 @@ namespace vox::depth {
 
 namespace {
 
-// Unit vectors whose mean is shorter than this point to opposite sides rather than to one.
+// If the mean of unit vectors is shorter than this, they point to opposite sides rather than to one.
 constexpr double least_mean = 0.25;
-// A squared distance below this is none: the square of its inverse still is a number.
+// A squared distance below this counts as zero. The inverse of any other can be squared without overflow.
 constexpr double no_distance = 1e-140;
 
-// The mean of what is known at points around one: of their directions, and of the depths they imply. On the
-// way to a point, the depth falls at the rate of the direction there in the paper; here of the mean of the
-// directions at both ends, which is the integral along the way where direction changes evenly, and so makes
-// depths of curved bodies more exact by an order.
-class Mean {
+// The mean of what is known at the points around one, that is, of their directions and of the depths they
+// imply. In the paper, the depth changes along the way to a neighbour at the rate given by the direction at
+// its end. Here the rate is the mean of the directions at both ends, which is the exact integral when the
+// direction changes evenly, and so makes the depths of curved bodies more exact by an order.
+class NeighbourMean {
 public:
     void add(double weight, const Vec3d& way, double depth, const Vec3d& direction) {
         weights_ += weight;
@@ -31,7 +31,7 @@ public:
         direction_ = direction_ + weight * direction;
     }
 
-    // False when it is of no use.
+    // Returns false, and writes nothing, when the mean is of no use.
     bool write(Point& point) const {
         const double mean = length(direction_);
         if (!(mean >= least_mean * weights_) || weights_ == 0) return false;
@@ -50,25 +50,25 @@ private:
 
 class Stages {
 public:
-    Stages(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+    Stages(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
            std::span<std::uint32_t> queue, Normals& normals, Counts& counts)
         : pair_(pair), points_(points), number_(number), queue_(queue), normals_(normals), counts_(counts) {}
 
     void run() {
-        normals_.begin(pair_.b); // all that can fail
+        normals_.begin(pair_.b); // the only call that can fail
         for (std::uint32_t i = 0; i < points_.size(); ++i) number_[points_[i].vertex] = i + 1;
         find_border();
         propagate();
-        name_the_rest();
+        mark_unreached();
         for (const Point& point : points_) number_[point.vertex] = 0;
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return position_of(pair_.positions_a, vertex); }
+    Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
     std::span<const std::uint32_t> neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
-    // The colliding vertex, or null.
+    // The point of a vertex, or null when the vertex does not collide.
     Point* colliding(std::uint32_t vertex) const {
         const std::uint32_t number = number_[vertex];
         return number == 0 ? nullptr : &points_[number - 1];
@@ -77,46 +77,45 @@ private:
 
     void find_border();
     bool is_coincident(Point& point) const;
-    void follow_edges(Point& point);
+    void trace_edges(Point& point);
     void propagate();
     void take_mean(Point& point) const;
-    void name_the_rest();
+    void mark_unreached();
 
-    const Pair& pair_;
+    const BodyPair& pair_;
     std::span<Point> points_;
-    std::span<std::uint32_t> number_; // of each vertex of body a: its place in points_, from 1 on
+    std::span<std::uint32_t> number_; // by vertex of body a, its place in points_ plus 1, or 0
     std::span<std::uint32_t> queue_;
     std::size_t queued_ = 0;
     Normals& normals_;
     Counts& counts_;
 };
 
-// Points with an edge that leads out are the first wave.
+// The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
     for (Point& point : points_) {
         const bool coincident = !point.interior && is_coincident(point);
         bool border = false;
         for (const std::uint32_t q : neighbours(point)) border |= number_[q] == 0;
         if (!border) continue;
-        if (!coincident) follow_edges(point);
+        if (!coincident) trace_edges(point);
         point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
         push(point);
     }
 }
 
-// A point that may be on the boundary of its tetrahedron: on the surface, too, when the corners whose weights
-// are not zero are corners of a triangle of the surface. Sets the state, depth and direction then.
+// Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
+// whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
 bool Stages::is_coincident(Point& point) const {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[point.tet];
     const Vec3d p = position(point.vertex);
     std::uint32_t support[4], count = 0;
-    int on = 0; // a facet that holds it
+    int on = 0; // a facet on which the point is
     std::uint64_t exact_tests = 0;
     for (int i = 0; i < 4; ++i) {
         const auto& [x, y, z] = facet_corners[i];
-        if (orientation(position_of(b.positions, tet.v[x]), position_of(b.positions, tet.v[y]),
-                        position_of(b.positions, tet.v[z]), p, exact_tests) != 0)
+        if (orientation(b.at(tet.v[x]), b.at(tet.v[y]), b.at(tet.v[z]), p, exact_tests) != 0)
             support[count++] = tet.v[i];
         else
             on = i;
@@ -131,27 +130,26 @@ bool Stages::is_coincident(Point& point) const {
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
         const Closest closest = closest_point(b, t, p);
-        point.direction = normals_.at(closest.at, closest.at.point - position_of(b.positions, triangle.apex));
+        point.direction = normals_.at(closest.at, closest.at.point - b.at(triangle.apex));
         if (length(point.direction) > 0) break;
     }
     if (!on_surface) return false;
     if (!(length(point.direction) > 0))
-        point.direction = facet_normal(b, point.tet, on); // triangles without area
+        point.direction = facet_normal(b, point.tet, on); // all triangles are without area
     point.state = VOX_PENETRATION_COINCIDENT;
     return true;
 }
 
-void Stages::follow_edges(Point& point) {
+void Stages::trace_edges(Point& point) {
     const Vec3d p = position(point.vertex);
     Vec3d inside = p;
-    if (!point.interior) { // from where no facet and edge can be missed
-        const std::uint32_t* v = pair_.b.tets[point.tet].v;
-        const Vec3d middle =
-            0.25 * ((position_of(pair_.b.positions, v[0]) + position_of(pair_.b.positions, v[1])) +
-                    (position_of(pair_.b.positions, v[2]) + position_of(pair_.b.positions, v[3])));
+    if (!point.interior) { // start from where no facet or edge can be missed
+        const Solid& b = pair_.b;
+        const std::uint32_t* v = b.tets[point.tet].v;
+        const Vec3d middle = 0.25 * ((b.at(v[0]) + b.at(v[1])) + (b.at(v[2]) + b.at(v[3])));
         inside = p + 0x1p-20 * (middle - p);
     }
-    Mean mean;
+    NeighbourMean mean;
     bool lost = false;
     for (const std::uint32_t neighbour : neighbours(point)) {
         if (number_[neighbour] != 0) continue;
@@ -178,7 +176,7 @@ void Stages::follow_edges(Point& point) {
     point.state = !lost && mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
 }
 
-// Wave after wave, each from all points of those before it.
+// Each wave takes its means over all points of the waves before it.
 void Stages::propagate() {
     std::size_t first = 0;
     for (std::uint32_t wave = 2; first < queued_; ++wave) {
@@ -195,7 +193,7 @@ void Stages::propagate() {
         }
         for (std::size_t i = last; i < queued_; ++i)
             if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(points_[queue_[i]]);
-        // Only now, so that points of one wave do not see each other.
+        // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i) {
             Point& point = points_[queue_[i]];
             if (point.state == VOX_PENETRATION_CROSSING) point.wave = Point::unusable;
@@ -205,14 +203,14 @@ void Stages::propagate() {
 
 void Stages::take_mean(Point& point) const {
     const Vec3d p = position(point.vertex);
-    Mean mean;
+    NeighbourMean mean;
     for (const std::uint32_t neighbour : neighbours(point)) {
         const Point* from = colliding(neighbour);
         if (!from || from->wave >= point.wave || from->wave == Point::unreached) continue;
         const Vec3d way = position(neighbour) - p;
         const double squared = dot(way, way);
-        if (!(squared > no_distance)) { // in the same place
-            mean = Mean();
+        if (!(squared > no_distance)) { // at the same place
+            mean = NeighbourMean();
             mean.add(1, way, from->depth, from->direction);
             break;
         }
@@ -221,8 +219,9 @@ void Stages::take_mean(Point& point) const {
     point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
 }
 
-// Points that no wave reached are CROSSING when they are connected with such a point, else ENCLOSED.
-void Stages::name_the_rest() {
+// Points that no wave reached become CROSSING when they are connected to a CROSSING point, and stay ENCLOSED
+// otherwise.
+void Stages::mark_unreached() {
     queued_ = 0;
     for (const Point& point : points_)
         if (point.wave == Point::unusable) push(point);
@@ -238,7 +237,7 @@ void Stages::name_the_rest() {
 
 } // namespace
 
-void find_consistent_depths(const Pair& pair, std::span<Point> points, std::span<std::uint32_t> number,
+void find_consistent_depths(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
                             std::span<std::uint32_t> queue, Normals& normals, Counts& counts) {
     Stages(pair, points, number, queue, normals, counts).run();
 }

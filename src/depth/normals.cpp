@@ -1,7 +1,7 @@
 // The normal at a corner is the sum of the normals of the triangles around it, weighted by sin(angle) over
 // the lengths of the two edges, which is exact for corners on a sphere (Max, "Weights for computing vertex
-// normals from facet normals", Journal of Graphics Tools 4, 1999). Triangles that form an edge of more than
-// 60 degrees with the one that asks are left out, so that the faces of a box stay flat.
+// normals from facet normals", Journal of Graphics Tools 4, 1999). Triangles whose normals are more than 60
+// degrees from that of the triangle in question are left out, so that the faces of a box stay flat.
 #include "depth/normals.hpp"
 
 #include "base/vectors.hpp"
@@ -10,10 +10,19 @@
 
 namespace vox::depth {
 
+Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
+    const std::uint32_t* v = solid.tets[tet].v;
+    const auto& corner = facet_corners[i];
+    const Vec3d a = solid.at(v[corner[0]]), b = solid.at(v[corner[1]]), c = solid.at(v[corner[2]]);
+    const Vec3d normal = normalised(cross(b - a, c - a));
+    if (!(length(normal) > 0)) return {0, 0, 1};
+    return dot(normal, solid.at(v[i]) - a) > 0 ? -1.0 * normal : normal;
+}
+
 void Normals::begin(const Solid& solid) {
     solid_ = solid;
     reserve(solid.topology->triangles.size());
-    if (++age_ == 0) { // after 2^32 of them
+    if (++age_ == 0) { // after 2^32 calls
         std::fill(faces_.begin(), faces_.end(), Face{});
         age_ = 1;
     }
@@ -24,16 +33,14 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
     if (face.age == age_) return face;
     face.age = age_;
     face.has_corners = false;
-    const Triangle& t = solid_.topology->triangles[triangle];
-    const Vec3d a = position_of(solid_.positions, t.v[0]), b = position_of(solid_.positions, t.v[1]),
-                c = position_of(solid_.positions, t.v[2]);
+    const auto [a, b, c] = solid_.corners(triangle);
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
-    const double inside = dot(doubled, position_of(solid_.positions, t.apex) - a);
+    const double inside = dot(doubled, solid_.at(solid_.topology->triangles[triangle].apex) - a);
     face.is_flat = inside == 0;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
-    // |cross| is the same at all corners: sin(angle) * e * f.
+    // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
     const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
     const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0; };
     face.corner_weight[0] = weight(lab, lca);
@@ -43,7 +50,7 @@ Normals::Face& Normals::face(std::uint32_t triangle) {
 }
 
 const Normals::Face& Normals::face_with_corners(std::uint32_t triangle) {
-    constexpr double crease = 0.5; // cosine
+    constexpr double crease = 0.5; // the cosine of 60 degrees
     Face& asking = face(triangle);
     if (asking.has_corners) return asking;
     asking.has_corners = true;

@@ -1,4 +1,4 @@
-// Smooth normals of a surface where they are asked for, each made once.
+// Smooth normals of a surface. Each is computed when it is first needed, and kept.
 #pragma once
 
 #include "depth/walk.hpp"
@@ -10,18 +10,21 @@
 
 namespace vox::depth {
 
+// The outward unit normal of facet i of a tetrahedron, or (0, 0, 1) if it rounds to zero.
+Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
+
 class Normals {
 public:
     explicit Normals(std::pmr::memory_resource* memory) : faces_(memory) {}
 
-    // Room for surfaces of that many triangles.
+    // Makes room for surfaces of that many triangles.
     void reserve(std::size_t triangles) {
         if (triangles > faces_.size()) faces_.resize(triangles);
     }
 
-    std::size_t size() const noexcept { return faces_.size(); }
+    std::size_t capacity() const noexcept { return faces_.size(); }
 
-    // To be called before at(), for another solid or when positions have changed.
+    // Call it before at(), for another solid or when positions have changed.
     void begin(const Solid& solid);
 
     // The unit normal at a point of the surface, interpolated from normals at the corners, on the side of the
@@ -30,11 +33,11 @@ public:
 
 private:
     struct Face {
-        std::uint32_t age = 0; // of the last begin() after which it was asked for
+        std::uint32_t age = 0; // age_ when the rest was computed
         bool has_corners = false;
-        bool is_flat = false;      // its tetrahedron is: no telling which side is out
+        bool is_flat = false;      // its tetrahedron is flat, so neither side is outside
         Vec3d normal{};            // out of its tetrahedron; unit, or zero
-        double corner_weight[3]{}; // of the normal in those of the corners
+        double corner_weight[3]{}; // of `normal` in the normals of the corners
         Vec3d corner[3]{};         // unit normals at the corners
     };
 

@@ -1,4 +1,4 @@
-// What the parts of the depth stage hand on: the colliding vertices of one pair of bodies.
+// The colliding vertices of a pair of bodies, which the parts of the depth stage hand on.
 #pragma once
 
 #include "depth/walk.hpp"
@@ -10,23 +10,23 @@
 
 namespace vox::depth {
 
-// A colliding vertex of one body, and what becomes of it.
+// A colliding vertex of one body, and what is found for it.
 struct Point {
     static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
 
-    std::size_t hit;   // the first of the pair's with this vertex
-    std::size_t place; // in the answer
+    std::size_t hit;   // the first hit of the pair with this vertex
+    std::size_t place; // index of its penetration
     std::uint32_t vertex;
     std::uint32_t tet;              // of the hit
-    std::uint32_t wave = unreached; // in which depth and direction were found
+    std::uint32_t wave = unreached; // the one in which depth and direction were found
     vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
-    bool interior; // to `tet` for sure; else it may be on its boundary
+    bool interior; // certainly in the interior of `tet`; else it may be on its boundary
     double depth = 0;
     Vec3d direction{0, 0, 0};
 };
 
 // Vertices of body a in tetrahedra of body b.
-struct Pair {
+struct BodyPair {
     const Topology* topology_a;
     Positions positions_a;
     Solid b;
@@ -34,11 +34,8 @@ struct Pair {
 };
 
 struct Counts {
-    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // of vox_counters
+    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // as in vox_counters
 };
-
-// The outward unit normal of facet i of a tetrahedron; (0, 0, 1) should it round to nothing.
-Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
 
 inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {
     return triangle.v[0] == vertex || triangle.v[1] == vertex || triangle.v[2] == vertex;

@@ -12,40 +12,23 @@ namespace vox {
 
 using namespace depth;
 
-namespace depth {
-
-Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
-    const std::uint32_t* v = solid.tets[tet].v;
-    const auto& corner = facet_corners[i];
-    const Vec3d a = position_of(solid.positions, v[corner[0]]),
-                b = position_of(solid.positions, v[corner[1]]),
-                c = position_of(solid.positions, v[corner[2]]), d = position_of(solid.positions, v[i]);
-    const Vec3d normal = normalised(cross(b - a, c - a));
-    if (!(length(normal) > 0)) return {0, 0, 1};
-    return dot(normal, d - a) > 0 ? -1.0 * normal : normal;
-}
-
-} // namespace depth
-
-DepthStage::Worker::Worker(std::pmr::memory_resource* memory)
-    : number(memory), queue(memory), normals(memory), tree(memory) {}
-
 DepthStage::DepthStage(std::pmr::memory_resource* memory)
-    : starts_(memory), points_(memory), pairs_(memory), rest_(memory), rest_of_(memory), workers_(memory) {}
+    : starts_(memory), points_(memory), pairs_(memory), unresolved_(memory), unresolved_by_body_(memory),
+      workers_(memory) {}
 
 Solid DepthStage::Scene::solid(std::uint32_t body) const {
     return {topologies[body], bodies[body].tets, bodies[body].positions};
 }
 
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-                 std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
-                 std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
+                      std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
+                      std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
     penetrations.clear();
     if (hits.empty()) return;
     const Scene scene{bodies, topologies, hits};
     make_room(hits.size(), workers ? workers->count() : 1);
     list_points(scene, contacts);
-    // Points that are worth a task of their own.
+    // The number of points that is worth a task.
     constexpr std::size_t least = 512;
     const auto for_each = [&](std::span<const Range> ranges, std::size_t points, auto&& function) {
         const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
@@ -57,12 +40,12 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
             workers->for_ranges(ranges.size(), std::max<std::size_t>(ranges.size() * least / points, 1), run);
     };
     for_each(pairs_, points_.size(),
-             [&](const Range& pair, Worker& worker) { find_consistent(scene, pair, worker); });
-    list_rest(scene);
-    for_each(rest_of_, rest_.size(),
-             [&](const Range& rest, Worker& worker) { find_closest(scene, rest, worker); });
+             [&](const Range& range, Worker& worker) { find_consistent(scene, range, worker); });
+    list_unresolved(scene);
+    for_each(unresolved_by_body_, unresolved_.size(),
+             [&](const Range& range, Worker& worker) { find_closest(scene, range, worker); });
 
-    level_workers();
+    workers_.level();
 
     penetrations.reserve(hits.size());
     penetrations.resize(points_.size());
@@ -79,7 +62,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
                                       static_cast<float>(point.direction.y),
                                       static_cast<float>(point.direction.z)}};
     }
-    counters.closest_searches = rest_.size();
+    counters.closest_searches = unresolved_.size();
     for (const Worker& worker : workers_) {
         counters.leaving_edges += worker.counts.leaving_edges;
         counters.edge_tests += worker.counts.edge_tests;
@@ -87,41 +70,19 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     }
 }
 
-// Points, pairs and the rest are never more than contacts.
+// There are never more points, pairs or unresolved points than contacts.
 void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
     pairs_.reserve(contacts);
     starts_.reserve(contacts);
-    rest_.reserve(contacts);
-    rest_of_.reserve(contacts);
-    workers_.reserve(worker_count);
-    while (workers_.size() < worker_count) workers_.emplace_back(points_.get_allocator().resource());
+    unresolved_.reserve(contacts);
+    unresolved_by_body_.reserve(contacts);
+    workers_.grow(worker_count);
     for (Worker& worker : workers_) worker.counts = {};
 }
 
-// Each worker may have to do in the next step what another did in this one.
-void DepthStage::level_workers() {
-    std::size_t points = 0, vertices = 0, triangles = 0, tree = 0;
-    for (const Worker& worker : workers_) {
-        points = std::max(points, worker.queue.size());
-        vertices = std::max(vertices, worker.number.size());
-        triangles = std::max(triangles, worker.normals.size());
-        tree = std::max(tree, worker.tree.capacity());
-    }
-    for (Worker& worker : workers_) {
-        worker.reserve(points, vertices);
-        worker.normals.reserve(triangles);
-        worker.tree.reserve(tree);
-    }
-}
-
-void DepthStage::Worker::reserve(std::size_t points, std::size_t vertices) {
-    if (number.size() < vertices) number.resize(vertices, 0);
-    if (queue.size() < points) queue.resize(points);
-}
-
-// Contacts come by body_a, vertex and body_b; here they are wanted by body_a, body_b and vertex.
+// Hits are sorted by body_a, vertex and body_b; the points are sorted by body_a, body_b and vertex.
 void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
     points_.clear();
     pairs_.clear();
@@ -156,38 +117,42 @@ void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> co
 void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
     const std::size_t count = range.last - range.first;
-    worker.reserve(count, scene.bodies[hit.body_a].vertex_count);
-    const Pair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions, scene.solid(hit.body_b),
-                    hit.body_a == hit.body_b};
+    const std::size_t vertices = scene.bodies[hit.body_a].vertex_count;
+    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
+    if (worker.queue.size() < count) worker.queue.resize(count);
+    const BodyPair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions,
+                        scene.solid(hit.body_b), hit.body_a == hit.body_b};
     find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,
                            worker.normals, worker.counts);
 }
 
-void DepthStage::list_rest(const Scene& scene) {
-    rest_.clear();
-    rest_of_.clear();
+void DepthStage::list_unresolved(const Scene& scene) {
+    unresolved_.clear();
+    unresolved_by_body_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i)
         if (points_[i].state == VOX_PENETRATION_ENCLOSED || points_[i].state == VOX_PENETRATION_CROSSING)
-            rest_.push_back({scene.hits[points_[i].hit].body_b, i});
+            unresolved_.push_back({scene.hits[points_[i].hit].body_b, i});
     const auto before = [](const Unresolved& x, const Unresolved& y) {
         return std::tie(x.body_b, x.point) < std::tie(y.body_b, y.point);
     };
-    if (!std::is_sorted(rest_.begin(), rest_.end(), before)) std::sort(rest_.begin(), rest_.end(), before);
-    for (std::size_t i = 0; i < rest_.size(); ++i) {
-        if (i == 0 || rest_[i].body_b != rest_[i - 1].body_b) rest_of_.push_back({i, i});
-        rest_of_.back().last = i + 1;
+    if (!std::is_sorted(unresolved_.begin(), unresolved_.end(), before))
+        std::sort(unresolved_.begin(), unresolved_.end(), before);
+    for (std::size_t i = 0; i < unresolved_.size(); ++i) {
+        if (i == 0 || unresolved_[i].body_b != unresolved_[i - 1].body_b)
+            unresolved_by_body_.push_back({i, i});
+        unresolved_by_body_.back().last = i + 1;
     }
 }
 
 void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& worker) {
-    const std::uint32_t b = rest_[range.first].body_b;
+    const std::uint32_t b = unresolved_[range.first].body_b;
     const Solid solid = scene.solid(b);
     const bool has_surface = !solid.topology->triangles.empty();
     if (has_surface) worker.tree.build(solid);
     for (std::size_t i = range.first; i < range.last; ++i) {
-        Point& point = points_[rest_[i].point];
+        Point& point = points_[unresolved_[i].point];
         const std::uint32_t a = scene.hits[point.hit].body_a;
-        const Vec3d p = position_of(scene.bodies[a].positions, point.vertex);
+        const Vec3d p = scene.bodies[a].positions.exact(point.vertex);
         Closest closest;
         const bool found = has_surface && worker.tree.find_of_contact(p, point.vertex, point.tet, a == b,
                                                                       closest, worker.counts.closest_tests);
@@ -195,11 +160,10 @@ void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& wo
         point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
         if (length(point.direction) > 0) continue;
         point.depth = 0;
-        if (found) { // on the surface, of a part of b that overlaps the one with the hit
+        if (found) { // on the surface of a part of b that overlaps the part with the hit
             point.state = VOX_PENETRATION_COINCIDENT;
             worker.normals.begin(solid);
-            const Vec3d apex =
-                position_of(solid.positions, solid.topology->triangles[closest.at.triangle].apex);
+            const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
             point.direction = worker.normals.at(closest.at, p - apex);
         }
         if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);

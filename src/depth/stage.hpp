@@ -1,7 +1,8 @@
-// The depth stage: from contacts to penetrations, one for each vertex of a body in another. See
-// docs/depth.md; each part is a file in depth/.
+// The depth stage, which makes one penetration of the contacts of each vertex of a body in another.
+// docs/depth.md describes the method; each part is a file in depth/.
 #pragma once
 
+#include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
 #include "depth/normals.hpp"
@@ -13,14 +14,15 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox {
 
 class Workers;
 
-// The stage's buffers live here from step to step, so that the steady state allocates nothing, with any
-// number of workers.
+// Keeps the stage's buffers from step to step, so that the steady state allocates nothing, with any number of
+// workers.
 class DepthStage {
 public:
     explicit DepthStage(std::pmr::memory_resource* memory);
@@ -28,8 +30,8 @@ public:
     DepthStage& operator=(const DepthStage&) = delete;
 
     // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
-    // order (make_contacts), and `topologies` that of each body. Sets the counters from `leaving_edges` to
-    // `closest_tests`. Nothing depends on the workers; null: none.
+    // order (make_contacts), and `topologies` has one for each body. Sets the counters from `leaving_edges`
+    // to `closest_tests`. `workers` may be null; the result does not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
               std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
               std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
@@ -38,25 +40,25 @@ private:
     struct Range {
         std::size_t first, last;
     };
-    struct Start { // a vertex of the body at hand in another
+    struct Start { // the first hit of a vertex in body_b
         std::uint32_t body_b;
         std::size_t hit;
-        std::size_t place; // in the answer
+        std::size_t place; // index of its penetration
     };
-    struct Unresolved { // a point that takes the closest point of the surface
+    struct Unresolved { // a point that needs the closest point of the surface
         std::uint32_t body_b;
         std::size_t point;
     };
-    struct alignas(64) Worker {
-        explicit Worker(std::pmr::memory_resource* memory);
-
-        // Room for pairs of that many points, of bodies with that many vertices.
-        void reserve(std::size_t points, std::size_t vertices);
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory)
+            : number(memory), queue(memory), normals(memory), tree(memory) {}
 
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
         depth::SurfaceTree tree;
         depth::Counts counts;
+
+        auto buffers() { return std::tie(number, queue, normals, tree); }
     };
     struct Scene {
         std::span<const Body> bodies;
@@ -67,18 +69,17 @@ private:
     };
 
     void make_room(std::size_t contacts, std::size_t worker_count);
-    void level_workers();
     void list_points(const Scene& scene, std::span<const vox_contact> contacts);
-    void list_rest(const Scene& scene);
-    void find_consistent(const Scene& scene, const Range& pair, Worker& worker);
-    void find_closest(const Scene& scene, const Range& rest, Worker& worker);
+    void list_unresolved(const Scene& scene);
+    void find_consistent(const Scene& scene, const Range& range, Worker& worker);
+    void find_closest(const Scene& scene, const Range& range, Worker& worker);
 
     std::pmr::vector<Start> starts_;
-    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
-    std::pmr::vector<Range> pairs_;         // in points_
-    std::pmr::vector<Unresolved> rest_;           // body_b after body_b
-    std::pmr::vector<Range> rest_of_;       // one body_b, in rest_
-    std::pmr::vector<Worker> workers_;
+    std::pmr::vector<depth::Point> points_;      // pair after pair, each in the order of vertices
+    std::pmr::vector<Range> pairs_;              // in points_
+    std::pmr::vector<Unresolved> unresolved_;    // sorted by body_b
+    std::pmr::vector<Range> unresolved_by_body_; // in unresolved_, one for each body_b
+    PerWorker<Worker> workers_;
 };
 
 } // namespace vox

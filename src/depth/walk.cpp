@@ -1,10 +1,9 @@
 // The straight walk (Devillers, Pion, Teillaud, "Walking in a triangulation", Int. J. of Foundations of
-// Computer Science 13, 2002), seen along the segment: vertices are sheared so that it becomes the z axis, and
-// a facet is passed when its projection has the origin inside (Woop, Benthin, Wald, "Watertight ray/triangle
-// intersection", Journal of Computer Graphics Techniques 2, 2013). On which side of an edge the origin lies
-// is computed in the same way from all facets around it, so that the walk never slips between two. Nothing
-// depends on the winding of a tetrahedron: the walk goes through inverted and flat ones, too, where the line
-// through them leads.
+// Computer Science 13, 2002). Vertices are sheared so that the segment becomes the z axis, and the walk
+// passes the facets whose projections contain the origin (Woop, Benthin, Wald, "Watertight ray/triangle
+// intersection", Journal of Computer Graphics Techniques 2, 2013). The side of an edge on which the origin
+// is found is computed in the same way for all facets around the edge, so the walk never slips between two of
+// them. The winding of tetrahedra plays no part, so the walk goes through inverted and flat ones, too.
 #include "depth/walk.hpp"
 
 #include "base/vectors.hpp"
@@ -38,7 +37,7 @@ public:
     bool is_usable() const { return dz_ != 0; } // p and q differ
 
     Corner operator()(std::uint32_t vertex) const {
-        const Vec3d from_p = position_of(positions_, vertex) - origin_;
+        const Vec3d from_p = positions_.exact(vertex) - origin_;
         const double r[3] = {from_p.x, from_p.y, from_p.z};
         return {vertex, r[x_] - shear_x_ * r[z_], r[y_] - shear_y_ * r[z_], r[z_] / dz_};
     }
@@ -53,9 +52,9 @@ private:
 // Twice the area of the triangle (origin, a, b); the negative of area(b, a), exactly.
 double area(const Corner& a, const Corner& b) { return a.x * b.y - b.x * a.y; }
 
-// Whether the origin lies to the left of a -> b. One on the edge counts as if it were moved by (e, e^2) for a
-// small e (Edelsbrunner, Muecke, "Simulation of simplicity", ACM Transactions on Graphics 9, 1990), so that
-// the answers for all edges still are those for one line.
+// Whether the origin is to the left of a -> b. An origin on the edge counts as if it were moved by (e, e^2)
+// for a small e (Edelsbrunner, Muecke, "Simulation of simplicity", ACM Transactions on Graphics 9, 1990), so
+// that the answers for all edges still belong to one line.
 bool left(const Corner& a, const Corner& b) {
     const double twice = area(a, b);
     if (twice != 0) return twice > 0;
@@ -63,17 +62,17 @@ bool left(const Corner& a, const Corner& b) {
     return a.x != b.x ? a.x < b.x : a.vertex < b.vertex;
 }
 
-// A facet that the line goes through, counter-clockwise around it.
+// A facet through which the line goes, with its corners counter-clockwise around the line.
 struct Gate {
     Corner a, b, c;
-    std::uint32_t behind; // the other vertex of the tetrahedron it is left from
+    std::uint32_t behind; // the fourth vertex of the tetrahedron that the line leaves here
 
     double weight_a() const { return area(b, c); }
     double weight_b() const { return area(c, a); }
     double weight_c() const { return area(a, b); }
 };
 
-// Where the line crosses a gate, as numerator and denominator. The latter is 0 for a gate seen edge-on.
+// Where the line crosses a gate, as numerator and denominator, which is 0 for a gate that is seen edge-on.
 struct Ratio {
     double above, below;
 };
@@ -113,7 +112,7 @@ bool next_gate(const Gate& in, const Corner& apex, Gate& out) {
     else if (c && !a)
         out = {apex, in.c, in.a, in.b.vertex};
     else
-        return false; // only by rounding
+        return false; // happens only by rounding
     return true;
 }
 
@@ -141,9 +140,9 @@ bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d
     const Frame frame(solid, p, q);
     Gate gate;
     if (!frame.is_usable() || !first_gate(frame, solid.tets[tet], gate)) return false;
-    // Through inverted tetrahedra the line may lead back to where it was. Then it goes round for ever: the
-    // facet by which it leaves decides all that follows (R. P. Brent, "An improved Monte Carlo factorization
-    // algorithm", BIT 20, 1980: a place is remembered after 1, 2, 4, ... steps).
+    // Inverted tetrahedra may lead the walk back to where it was. Then it would go round for ever, since the
+    // facet by which it leaves decides all that follows. To find that out, a place is remembered after 1, 2,
+    // 4, ... steps (R. P. Brent, "An improved Monte Carlo factorization algorithm", BIT 20, 1980).
     std::uint32_t remembered_tet = ~0u, remembered_behind = 0;
     for (std::size_t steps = 1, remember_at = 1;; ++steps) {
         ++visited;

@@ -1,10 +1,10 @@
-// Where a segment that begins inside a mesh leaves it.
+// The walk along a segment that begins inside a mesh, to where it leaves the mesh.
 #pragma once
 
+#include "base/scene.hpp"
 #include "mesh/topology.hpp"
 
-#include "base/scene.hpp"
-
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -15,18 +15,26 @@ struct Solid {
     const Topology* topology;
     std::span<const Tet> tets;
     Positions positions;
+
+    Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
+    // The corners of a triangle of the surface.
+    std::array<Vec3d, 3> corners(std::uint32_t triangle) const noexcept {
+        const std::uint32_t* v = topology->triangles[triangle].v;
+        return {at(v[0]), at(v[1]), at(v[2])};
+    }
 };
 
 // A point of a triangle of a surface.
 struct SurfacePoint {
     std::uint32_t triangle;
-    double weight[3]; // of its corners, the sum 1 to rounding
+    double weight[3]; // of the corners; their sum is 1 to rounding
     Vec3d point;
 };
 
-// Follows the segment from p, in the closed tetrahedron `tet`, to q from tetrahedron to tetrahedron through
-// the mesh. True when it gets out between the two: then `out` is where. False when it does not, or meets a
-// facet across which nothing can be told. Adds the tetrahedra it has been in to `visited`.
+// Walks along the segment from p, in the closed tetrahedron `tet`, to q, from tetrahedron to tetrahedron.
+// Returns true and sets `out` when the segment leaves the mesh between the two. Returns false when it does
+// not, or meets a facet where three or more tetrahedra meet. Adds the number of tetrahedra on its way to
+// `visited`.
 bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d& q, SurfacePoint& out,
               std::uint64_t& visited);
 

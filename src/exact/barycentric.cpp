@@ -1,8 +1,8 @@
-// The arithmetic of barycentric() and corner_volumes() (predicates.hpp), operation by operation, so that the
-// bits are the same; hits that need exact arithmetic go to barycentric() itself.
+// The arithmetic of barycentric() and corner_volumes() (predicates.hpp) for many points at once, operation by
+// operation, so that the bits are the same. Hits that need exact arithmetic are left to barycentric() itself.
 //
-// The tetrahedra and positions of hits lie anywhere in memory, and waiting for them takes longer than the
-// arithmetic: each is prefetched some hits before it is needed.
+// The tetrahedra and positions of hits are anywhere in memory, and waiting for them takes longer than the
+// arithmetic. So each is prefetched some hits before it is needed.
 #include "exact/barycentric.hpp"
 
 #include "base/simd.hpp"
@@ -56,7 +56,8 @@ HWY_INLINE D LoadDoubles(const float* values) {
 }
 HWY_INLINE D LoadDoubles(const double* values) { return hn::LoadU(Doubles(), values); }
 
-// Bit i of the result: the weights of point i are not certain, and unspecified. Computes whole registers.
+// Bit i of the result is set when the weights of point i are uncertain; they are unspecified then. Computes
+// whole registers.
 template <class Coordinate>
 HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std::size_t count,
                                  float* HWY_RESTRICT weights) {
@@ -81,7 +82,7 @@ HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std:
         v3 = hn::Neg(v3);
         const D total = hn::Add(hn::Add(hn::Add(v0, v1), v2), v3);
         D error = hn::Max(hn::Max(e0, e1), hn::Max(e2, e3));
-        // Of floats no product underflows, and no total that is not zero is that small.
+        // With floats no product underflows, and no total other than zero is that small.
         if constexpr (std::is_same_v<Coordinate, double>) error = hn::Add(error, hn::Set(d, underflow_error));
         const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, 0x1p-24), hn::Abs(total)));
         if (!hn::AllTrue(d, certain)) {
@@ -100,7 +101,7 @@ HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std:
     return uncertain;
 }
 
-#else // no registers of doubles: every point is left to the function that computes one
+#else // without registers of doubles, every point is left to barycentric() of predicates.hpp
 
 template <class Coordinate>
 std::uint64_t Weights(const BarycentricBlock<Coordinate>&, std::size_t, float*) {
@@ -134,7 +135,7 @@ std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t cou
     return VOX_SIMD_DISPATCH(WeightsOfDoubles)(block, count, weights);
 }
 
-// The position as Coordinates, exact: floats where the positions are.
+// The exact position, as floats where the caller's positions are floats.
 template <class Coordinate>
 auto position(const Positions& positions, std::uint32_t vertex) {
     if constexpr (std::is_same_v<Coordinate, float>)
@@ -146,7 +147,7 @@ auto position(const Positions& positions, std::uint32_t vertex) {
 template <class Coordinate>
 void weights_of_block(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t first,
                       BarycentricWeights& weights) {
-    // Far enough to hide the way to memory, near enough that nothing is evicted again.
+    // Far enough ahead to hide the latency of memory, and near enough that nothing is evicted before its use.
     constexpr std::size_t tets_ahead = 48, positions_ahead = 24;
     BarycentricBlock<Coordinate> block;
     const std::size_t count = std::min(barycentric_block, hits.size() - first);
@@ -177,7 +178,7 @@ void weights_of_block(std::span<const Body> bodies, std::span<const Hit> hits, s
             block.corner[c][2][i] = q.z;
         }
     }
-    // Whole registers: what is left of the last one must be something.
+    // Whole registers are computed, so the last one is filled up.
     for (std::size_t i = count; i % 8; ++i) {
         for (std::size_t a = 0; a < 3; ++a) {
             block.point[a][i] = block.point[a][0];

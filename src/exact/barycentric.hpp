@@ -18,16 +18,17 @@ struct BarycentricBlock {
     alignas(64) Coordinate corner[4][3][barycentric_block];
 };
 
-// Weights of the first `count` points of a block, four a point; computes, and reads, whole registers of
-// eight. Bit i of the result: those of point i are not certain, and unspecified.
+// Computes the weights of the first `count` points of a block, four a point. Reads and writes whole registers
+// of eight points. Bit i of the result is set when the weights of point i are uncertain; they are unspecified
+// then.
 std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t count, float* weights);
 
 using BarycentricWeights = std::array<std::array<float, 4>, barycentric_block>;
 
-// Weights of the corners of the tetrahedra for the vertices of hits[first], hits[first + 1], ... as far as
-// there are hits and the block has room; the same bits as barycentric() of predicates.hpp gives. `rounded`:
-// some body's positions are (see Positions). `first` is below the number of hits; those after the block are
-// looked at to prefetch what they need.
+// Computes the weights of hits[first], hits[first + 1], ... until the hits end or the block is full, with the
+// same bits as barycentric() of predicates.hpp. `rounded` says whether any body has rounded positions
+// (Positions::rounded). `first` is below the number of hits. Hits after the block are read too, to prefetch
+// what they will need.
 void barycentric(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits, std::size_t first,
                  BarycentricWeights& weights);
 

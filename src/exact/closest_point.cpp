@@ -6,10 +6,9 @@
 
 namespace vox {
 
-
 namespace {
 
-// How far along from a to b, in [0, 1].
+// The closest point, as a fraction in [0, 1] of the way from a to b.
 double closest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexcept {
     const Vec3d ab = b - a;
     const double length = dot(ab, ab);
@@ -24,7 +23,7 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
     const Vec3d normal = cross(b - a, c - a);
     const double area = dot(normal, normal);
     if (area > 0) {
-        // Areas, over the whole, of the triangles that p's projection makes with the edges.
+        // Areas of the triangles that the projection of p makes with the edges, divided by the whole area.
         double weight[3];
         for (int i = 0; i < 3; ++i) {
             const Vec3d &from = corner[(i + 1) % 3], &to = corner[(i + 2) % 3];
@@ -33,7 +32,7 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
         if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0) {
             const double height = dot(p - a, normal);
             const double squared = height * height;
-            constexpr double small = 0x1p-900; // below, digits are lost
+            constexpr double small = 0x1p-900; // below it, digits are lost
             return {squared > small ? squared / area : height * (height / area),
                     {weight[0], weight[1], weight[2]}};
         }

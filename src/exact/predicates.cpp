@@ -1,9 +1,9 @@
-// The exact part of predicates.hpp: determinants as integers.
+// The exact part of predicates.hpp, which computes determinants as integers.
 //
-// A finite double is an integer times a power of two, so the coordinates of a few points are integers in
-// units of the largest power of two that divides all of them: for points of one scene small ones, of two or
-// three words. Their differences, products and sums take as many words as they need and are never rounded,
-// whatever the doubles (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
+// A finite double is an integer times a power of two. So the coordinates of a few points are integers in
+// units of the largest power of two that divides all of them; for the points of one scene these have two or
+// three words. Differences, products and sums take as many words as they need, so that nothing is ever
+// rounded (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
 #include "exact/predicates.hpp"
 
 #include <algorithm>
@@ -112,7 +112,7 @@ Parts parts(double value) {
     return {mantissa >> zeros, std::max(biased, 1) - 1075 + zeros};
 }
 
-// Points as integers, in the largest unit that suits all of them.
+// A point in units of the largest power of two that divides all coordinates of a few points.
 struct IntegerPoint {
     Integer x, y, z;
 };
@@ -158,7 +158,8 @@ int bit_count(const Integer& i) {
     return i.size == 0 ? 0 : 32 * i.size - std::countl_zero(i.word[i.size - 1]);
 }
 
-// i / 2^bits, rounded to nearest once: its top 64 bits, the last of them set when anything below is.
+// i / 2^bits, rounded to nearest once. What is rounded are the top 64 bits, the last of which is set when any
+// bit below is.
 double scaled(const Integer& i, int bits) {
     if (i.size == 0) return 0;
     const auto word = [&i](int index) { return index >= 0 ? std::uint64_t{i.word[index]} : 0; };
@@ -173,8 +174,8 @@ double scaled(const Integer& i, int bits) {
     return i.negative ? -value : value;
 }
 
-// A product of three differences of coordinates that are 0 or at least 2^-240, hence multiples of 2^-292, is
-// 0 or at least 2^-876.
+// Coordinates that are 0 or at least 2^-240 are multiples of 2^-292. So the product of three differences of
+// them is 0 or at least 2^-876.
 bool products_may_underflow(std::span<const Vec3d> points) {
     return std::any_of(points.begin(), points.end(), [](const Vec3d& p) {
         const auto tiny = [](double value) { return value != 0 && std::abs(value) < 0x1p-240; };
@@ -191,7 +192,7 @@ int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3
 
 int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                           const Vec3d& d, std::uint64_t& exact_tests) {
-    // The products add up to less than 2^-900: each has a factor that is exactly zero, unless one
+    // The products add up to less than 2^-900. So each has a factor that is exactly zero, unless a product
     // underflowed.
     if (volume.error == underflow_error && !products_may_underflow(std::array{a, b, c, d})) return 0;
     ++exact_tests;
@@ -204,14 +205,15 @@ std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b,
     double volume[4] = {bounded[0].volume, bounded[1].volume, bounded[2].volume, bounded[3].volume};
     double total = volume[0] + volume[1] + volume[2] + volume[3];
     const double error = std::max({bounded[0].error, bounded[1].error, bounded[2].error, bounded[3].error});
-    // A volume is off by `error`, their sum by four of it: below 2^-24 of the sum, a weight is off by at most
-    // five times that. Otherwise the exact volumes are rounded once; they have one sign, so nothing cancels
-    // in the sum.
+    // A volume is off by `error` at most, the sum by four times as much. If `error` is below 2^-24 of the
+    // sum, a weight is off by at most 5 * 2^-24. Otherwise the exact volumes are rounded once. They have one
+    // sign, so nothing cancels in their sum.
     if (!(error < 0x1p-24 * std::abs(total))) {
         const auto q = in_units(std::array{a, b, c, d, p});
         const Integer exact[4] = {exact_volume(q[4], q[1], q[2], q[3]), exact_volume(q[0], q[4], q[2], q[3]),
                                   exact_volume(q[0], q[1], q[4], q[3]), exact_volume(q[0], q[1], q[2], q[4])};
-        int bits = 0; // of the largest: it goes to about 1, and what vanishes beside it is nothing to a float
+        int bits =
+            0; // of the largest volume, which becomes about 1; what underflows then is no loss to a float
         for (const Integer& v : exact) bits = std::max(bits, bit_count(v));
         for (int i = 0; i < 4; ++i) volume[i] = scaled(exact[i], bits);
         total = volume[0] + volume[1] + volume[2] + volume[3];

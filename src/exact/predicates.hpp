@@ -1,17 +1,18 @@
-// Exact geometric decisions: point in closed tetrahedron, orientation. Double input (a float is one too), of
-// magnitude below 2^128; the sign as if computed in infinite precision.
+// Exact geometric decisions: orientation, and whether a point is in a closed tetrahedron. Coordinates are
+// doubles (any float is one) of magnitude below 2^128. Every decision is that of infinite precision.
 //
-// Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete &
-// Computational Geometry 18, 1997: the determinant in double with the error bound A of ORIENT3D (Sect. 4.3),
-// and where the bound does not decide, integers of as many digits as it takes (predicates.cpp).
+// The determinant is computed in double with the error bound A of ORIENT3D (Shewchuk, "Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18,
+// 1997, Sect. 4.3). Where the bound does not decide, exact integers do (predicates.cpp).
 //
-// The bound presumes that no operation overflows or underflows. Nothing overflows: differences are below
-// 2^129, a product of three below 2^387. Sums and differences do not underflow. A product that does is off by
-// at most 2^-1075: the two of a minor, times the third factor, and the product with that factor, three times
-// over, are off by less than 2^-940 together, for which the bound has a summand of 2^-900.
+// The bound assumes that no operation overflows or underflows. None overflows, since differences are below
+// 2^129 and products of three below 2^387. Sums and differences do not underflow. A product that underflows
+// is off by at most 2^-1075. The determinant has three minors of two products each, times a third factor of
+// less than 2^129. Even if all of these products underflow, it is off by less than 2^-940, for which the
+// bound has a summand of 2^-900.
 #pragma once
 
-#include "base/scene.hpp"
+#include "base/vectors.hpp"
 
 #include <array>
 #include <cmath>
@@ -32,14 +33,10 @@ struct BoundedVolume {
     bool certain() const { return volume > error || -volume > error; }
 };
 
-// exact_orientation() of points whose volume is not certain, and its count, unless a look at it is enough.
+// The orientation of points whose volume is not certain. Counts an exact test, unless the volume is seen to
+// be zero without one.
 int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                           const Vec3d& d, std::uint64_t& exact_tests);
-
-// p - origin, each coordinate rounded once.
-inline Vec3d difference(const Vec3d& p, const Vec3d& origin) {
-    return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-}
 
 // The minor ux*vy - vx*uy and, for the error bound, the same with absolute values.
 struct Minor {
@@ -53,7 +50,7 @@ inline Minor minor(const Vec3d& u, const Vec3d& v) {
     return {left - right, std::abs(left) + std::abs(right)};
 }
 
-// det[u, v, w] by its z column, from the minors of the two other rows.
+// det[u, v, w], expanded by the z coordinates, from the minors of the other two coordinates.
 inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Minor& uw, double wz,
                                  const Minor& uv) {
     constexpr double epsilon = 0x1p-53;
@@ -63,11 +60,11 @@ inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Mi
     return {uz * vw.value - vz * uw.value + wz * uv.value, bound * permanent + underflow_error};
 }
 
-// Sign (-1, 0, +1) of det[b-a, c-a, d-a]: positive when d lies on the side of triangle abc that its
-// counter-clockwise normal points to. `exact_tests` counts the calls that the filter could not decide.
+// The sign (-1, 0, +1) of det[b-a, c-a, d-a]. It is positive when d is on the side of triangle abc to which
+// its counter-clockwise normal points. `exact_tests` counts the calls that the error bound could not decide.
 inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                        std::uint64_t& exact_tests) {
-    const Vec3d u = difference(b, a), v = difference(c, a), w = difference(d, a);
+    const Vec3d u = b - a, v = c - a, w = d - a;
     const BoundedVolume det = determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
     if (det.certain()) return det.volume > 0 ? 1 : -1;
     return uncertain_orientation(det, a, b, c, d, exact_tests);
@@ -80,23 +77,23 @@ enum class Containment : std::uint8_t {
     degenerate // the tetrahedron has exactly zero volume and holds nothing
 };
 
-// The volumes (times 6) of abcd with one corner replaced by p: they add up to the volume of abcd, and over it
+// Six times the volumes of abcd with one corner replaced by p. They add up to that of abcd; divided by it,
 // they are the barycentric coordinates of p.
 inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& a, const Vec3d& b,
                                                    const Vec3d& c, const Vec3d& d) {
-    const Vec3d u = difference(a, p), v = difference(b, p), w = difference(c, p), x = difference(d, p);
+    const Vec3d u = a - p, v = b - p, w = c - p, x = d - p;
     const Minor uv = minor(u, v), uw = minor(u, w), ux = minor(u, x);
     const Minor vw = minor(v, w), vx = minor(v, x), wx = minor(w, x);
     std::array<BoundedVolume, 4> volumes = {
         determinant(v.z, wx, w.z, vx, x.z, vw), determinant(u.z, wx, w.z, ux, x.z, uw),
         determinant(u.z, vx, v.z, ux, x.z, uv), determinant(u.z, vw, v.z, uw, w.z, uv)};
-    volumes[1].volume = -volumes[1].volume; // p stands second and fourth: an odd number of row swaps
+    volumes[1].volume = -volumes[1].volume; // p is second and fourth, an odd number of row swaps from first
     volumes[3].volume = -volumes[3].volume;
     return volumes;
 }
 
-// As locate(), for a tetrahedron of non-zero volume. The volume is the sum of the four corner volumes, so p
-// is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the winding.
+// Like locate(), but for a tetrahedron of non-zero volume. The volume is the sum of the four corner volumes.
+// So p is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the winding.
 inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                    const Vec3d& d, std::uint64_t& exact_tests) {
     const std::array<BoundedVolume, 4> volumes = corner_volumes(p, a, b, c, d);
@@ -128,9 +125,9 @@ inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
     return in_solid;
 }
 
-// Weights of the corners for a point p in the closed tetrahedron abcd of non-zero volume: each in [0, 1],
-// within 2^-20 of the true weight. The one function that makes them, so that every engine gives the same
-// bits.
+// The barycentric coordinates of a point p in the closed tetrahedron abcd of non-zero volume. Each is in [0,
+// 1] and within 2^-20 of the true one. Every engine takes them from this function, so that the bits are the
+// same.
 std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                  const Vec3d& d);
 

@@ -1,7 +1,7 @@
-// The lanes of a mask moved to the front. Included once per SIMD target, after hwy/highway.h.
+// Moves the lanes of a mask to the front. Included once for each SIMD target, after hwy/highway.h.
 //
-// hn::Compress looks its shuffles up in a table too where registers are shorter than 512 bits, but in one
-// that gcc 12 copies to the stack every time.
+// Where registers are shorter than 512 bits, hn::Compress looks up its shuffles in a table too, but gcc 12 copies that
+// table to the stack in each call.
 #if defined(VOX_FAST_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_COMPRESS_INL
 #undef VOX_FAST_COMPRESS_INL
@@ -18,7 +18,7 @@
 
 namespace vox::fast {
 
-// For each set of eight lanes the lanes in it, in order, and then the others.
+// For each set of eight lanes: the lanes in it, in order, then the others.
 struct CompressTable {
     std::uint8_t lane[256][8];
 };
@@ -43,8 +43,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One mask for several registers of floats or 32-bit words. What comes after the lanes of the mask means
-// nothing.
+// One mask for several registers of floats or 32-bit words. In the result, the lanes after those of the mask are
+// undefined.
 class Compressor {
 public:
     using Floats = hn::CappedTag<float, 16>;

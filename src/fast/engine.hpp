@@ -49,22 +49,20 @@ public:
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
 
-    // What the last step found, for the cost model: valid until the next one, while the bodies and their positions are
-    // those of that step.
+    // What the last step found, for the cost model: good until the next one, pointers and spans of the Step excepted,
+    // which are no longer valid.
     const fast::Step& last_step() const noexcept { return step_; }
     const fast::StepBoxes& boxes() const noexcept { return boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept { return broad_phase_; }
     const fast::Windows& windows() const noexcept { return windows_; }
 
-    // Whether a body of the last step may have moved before it: all of them unless FastSettings::carry.
-    bool moved(std::size_t body) const noexcept { return step_.of[body].moved; }
+    // Whether a body moved before the last step, as far as FastSettings::carry lets the engine know. Bodies added since
+    // count as moved.
+    bool moved(std::size_t body) const noexcept { return body >= step_.of.size() || step_.of[body].moved; }
 
-    // Whether the last step had to look for self-collision of a body of `vertices`: not where winding numbers excluded
-    // most of it.
-    bool met_itself(std::size_t body, std::uint32_t vertices) const noexcept {
-        const fast::BodyWindow& window = windows_.of[body];
-        return !is_empty(window.own) && window.count > vertices / 2;
-    }
+    // Whether winding numbers excluded most of the self-collision of a body in the last step: what is left of it costs
+    // next to nothing. The body has so many vertices.
+    bool cleared(std::size_t body, std::uint32_t vertices) const noexcept;
 
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }

@@ -20,7 +20,7 @@ bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positi
 
 namespace {
 
-// Compares with the copy; copies where that is due.
+// Compares with the copy, and makes a new copy where one is needed.
 template <class IsSame, class Copy>
 bool compare(LastPositions::Part& part, const Box& box, IsSame&& is_same, Copy&& copy) {
     const bool same = part.copied && is_same();

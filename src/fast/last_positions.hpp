@@ -11,24 +11,25 @@
 
 namespace vox::fast {
 
-// What is kept of a body from step to step. Its vertices come in parts, always the same ones.
+// What is kept of a body from step to step. Its vertices are cut into parts, the same ones in each step.
 struct LastPositions {
     explicit LastPositions(std::pmr::memory_resource* memory) noexcept
         : positions(memory), exact(memory), parts(memory) {}
 
-    // Makes room for what is to come: rounded positions, or floats. Forgets the other kind.
+    // Makes room for doubles if positions are `rounded`, and drops that room if they are not. What was kept of the other
+    // kind is invalid then.
     void expect(bool rounded);
 
     struct Part {
         Box box = empty_box; // in the last step; empty before the first
-        bool copied = false; // `positions` has those of the last step
+        bool copied = false; // whether `positions` or `exact` has those of the last step
     };
-    std::pmr::vector<float> positions; // packed; room for all
+    std::pmr::vector<float> positions; // packed; with room for all vertices
     std::pmr::vector<Vec3d> exact;     // of bodies whose positions are rounded; else empty
     std::pmr::vector<Part> parts;
 };
 
-// The caller's positions are an array of packed, aligned floats.
+// Whether the caller's positions are an array of packed, aligned floats.
 inline bool is_packed(const Positions& positions) noexcept {
     return !positions.rounded() && positions.byte_stride == sizeof(Vec3f) &&
            reinterpret_cast<std::uintptr_t>(positions.data) % alignof(float) == 0;
@@ -39,9 +40,9 @@ inline bool is_packed(const Positions& positions) noexcept {
 bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                   std::uint32_t last) noexcept;
 
-// Returns whether the packed vertices [first, last) of a part, `box` around them, are those of the last step,
-// bit by bit. That is known of parts that were copied: when they are new, and when their box stays the same,
-// so that what moves in every step is not copied in every step.
+// Returns whether the packed vertices [first, last) of a part are those of the last step, bit by bit. `box` is the box
+// around them. Only parts that were copied can be compared. A part is copied when it is new, and when its box stays
+// the same: so a part that moves in every step is not copied in every step.
 bool compare_packed(LastPositions& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept;
 

@@ -1,6 +1,6 @@
-// The narrow phase of a tile: decides pairs of candidates and tets in single precision with a bound on the
-// rounding errors; what that leaves open is decided exactly by who takes the findings. Included once per SIMD
-// target, after hwy/highway.h.
+// The last part of the query of a tile: it decides pairs of candidates and tets in single precision with a bound on the
+// rounding errors. What that leaves open is decided exactly by the receiver of the findings (decide.hpp). Included once
+// for each SIMD target, after hwy/highway.h.
 //
 // The float filter. Let p be in the closed box of tet abcd, w the sides of that box (rounded up by at most
 // one relative u = 2^-24), and W = w_x w_y w_z. All of b-a, c-a, d-a, p-a are within w component by
@@ -40,7 +40,7 @@
 #define VOX_FAST_NARROW_ONCE
 namespace vox::fast {
 
-// Out of line and compiled once: may call anything.
+// Out of line and compiled once, so it may call functions that are not compiled for the target.
 void hand_over(QueryScratch& scratch, Findings& out);
 
 } // namespace vox::fast
@@ -50,7 +50,7 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// The coordinates of the corners of some tets, looked up by lane.
+// The coordinates of the corners of some tets, one tet in each lane.
 #if HWY_TARGET == HWY_AVX3
 // In tables of floats in registers.
 template <class TableOf>
@@ -79,8 +79,8 @@ private:
 using FewCorners = Corners<SmallTable>; // of at most few_vertices
 using ManyCorners = Corners<Table>;
 #else
-// Vertex by vertex, transposed: with AVX2, 0.89 of the time of a scene in half overlap when they were looked
-// up by permutations of tables in registers.
+// Loaded vertex by vertex and transposed. With AVX2, a scene in half overlap takes 0.89 of the time that it took with
+// permutations of tables in registers.
 class Corners {
 public:
     struct Tets {
@@ -118,7 +118,7 @@ using FewCorners = Corners;
 using ManyCorners = Corners;
 #endif
 
-constexpr std::uint32_t certain_pair = 1u << 31; // a bit that pairs have not set
+constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pairs
 
 // Decides `count` pairs.
 template <bool kRounded, class CornersOf>
@@ -134,7 +134,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
     std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
         const auto pair = hn::LoadU(du, s.pairs + i);
-        // Pairs go by candidates, none of which is left out: those of a register are next to each other.
+        // Pairs are sorted by candidate and each candidate has some, so the candidates of a register are consecutive.
         const std::uint32_t first = s.pairs[i] >> 6;
         const auto candidate =
             hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
@@ -175,14 +175,14 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
         const Compressor kept(hn::AndNot(outside, inside));
         const auto marked =
             hn::Or(pair, hn::IfThenElseZero(hn::RebindMask(du, certain), hn::Set(du, certain_pair)));
-        hn::StoreU(kept(marked), du, s.pairs + kept_count); // behind what is still to be read
+        hn::StoreU(kept(marked), du, s.pairs + kept_count); // overwrites only pairs that were read
         kept_count += kept.count();
     }
     for (std::uint32_t i = 0; i < kept_count; ++i) {
         const std::uint32_t pair = s.pairs[i] & ~certain_pair;
         const std::uint32_t place = pair >> 6, tet = pair & 63, f = s.finding_count++;
-        // As a whole: bit fields set one by one are slow to read back. The weights come when there are
-        // enough.
+        // Written as a whole, as bit fields set one by one are slow to read back. The weights are computed when the
+        // buffer is full.
         s.findings[f] = {s.candidate_body[s.meeting[place]],
                          s.candidate_id[s.meeting[place]],
                          tets[tet] & 0x7fffffffu,

@@ -1,6 +1,7 @@
-// A tile at a time: fetch the points in its box from the rows of cells the box meets; quantise points and
-// vertices to 8 bits within the box (monotone, so a point in a tet's box is in its quantised box); test each
-// point against the 64 boxes at once; decide the pairs that are left in single precision (narrow-inl.hpp).
+// The query takes a tile at a time. It fetches the points in the tile's box from the rows of cells that the box meets;
+// quantises points and vertices to 8 bits within the box (monotone, so a point in a tet's box is in its quantised box);
+// tests each point against the 64 boxes of the tets at once; and decides the pairs that are left in single precision
+// (narrow-inl.hpp).
 #include "fast/query.hpp"
 #include "base/simd.hpp"
 
@@ -15,105 +16,14 @@
 #include <hwy/highway.h>
 
 #include "fast/narrow-inl.hpp"
+#include "fast/quantise-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-using Bytes = hn::CappedTag<std::uint8_t, 64>;
-
-// How coordinates of a box along one axis go to 0 .. 255: (c - origin) * scale, cut. Both 0 where that could
-// not be computed: everything is 0 then, which is monotone too.
-struct Scale {
-    float origin, scale;
-};
-
-HWY_INLINE Scale MakeScale(float lo, float hi) {
-    const float side = hi - lo;
-    if (side > 0x1p-100f && side < 0x1p+120f) return {lo, 255.0f / side};
-    return {0, 0};
-}
-
-HWY_INLINE void Quantise(const float* HWY_RESTRICT values, std::uint32_t count, Scale scale,
-                         std::uint8_t* HWY_RESTRICT out) {
-    const Floats d;
-    const hn::RebindToSigned<Floats> di;
-    const hn::Rebind<std::uint8_t, Floats> db;
-    const auto origin = hn::Set(d, scale.origin), factor = hn::Set(d, scale.scale);
-    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
-        const auto q = hn::ConvertTo(di, hn::Mul(hn::Sub(hn::LoadU(d, values + i), origin), factor));
-        hn::StoreU(hn::DemoteTo(db, q), db, out + i);
-    }
-}
-
-// Indices below 16 stay, others get their top bit set: a lookup gives 0 for them.
-HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
-    const Bytes d;
-    const auto biased = hn::Add(index, hn::Set(d, 0x70));
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
-    return biased; // pshufb looks at the top bit and the low four alone
-#else
-    return hn::And(biased, hn::Set(d, 0x8f));
-#endif
-}
-
-constexpr std::uint32_t few_vertices = 48; // most tiles have no more
-
-// A table of bytes looked up 16 at a time, a lookup giving 0 where an index is not in that quarter (its top
-// bit is set by the sum then).
-template <std::uint32_t kQuarters>
-struct ByteTable {
-    hn::Vec<Bytes> quarter[kQuarters];
-
-    HWY_INLINE explicit ByteTable(const std::uint8_t* values) {
-        for (std::uint32_t q = 0; q < kQuarters; ++q)
-            quarter[q] = hn::LoadDup128(Bytes(), values + std::size_t{16} * q);
-    }
-    HWY_INLINE hn::Vec<Bytes> operator()(hn::Vec<Bytes> index) const {
-        const Bytes d;
-        auto found = hn::TableLookupBytesOr0(quarter[0], QuarterIndex(index));
-        for (std::uint32_t q = 1; q < kQuarters; ++q) {
-            const auto in_quarter = hn::Xor(index, hn::Set(d, static_cast<std::uint8_t>(16 * q)));
-            found = hn::Or(found, hn::TableLookupBytesOr0(quarter[q], QuarterIndex(in_quarter)));
-        }
-        return found;
-    }
-};
-
-// Local indices of the corners, and the quantised boxes of the tets; of at most 16 kQuarters vertices.
-template <std::uint32_t kQuarters>
-HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScratch& s) {
-    const Bytes d;
-    for (std::size_t j = 0; j < tile_size; j += hn::Lanes(d)) {
-        const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
-        const auto c2 = hn::LoadU(d, corners + 2 * tile_size + j),
-                   c3 = hn::LoadU(d, corners + 3 * tile_size + j);
-        hn::StoreInterleaved4(c0, c1, c2, c3, d, reinterpret_cast<std::uint8_t*>(s.corners) + 4 * j);
-        for (std::size_t a = 0; a < 3; ++a) {
-            const ByteTable<kQuarters> table(s.quantised[a]);
-            const auto v0 = table(c0), v1 = table(c1), v2 = table(c2), v3 = table(c3);
-            const auto lo = hn::Min(hn::Min(v0, v1), hn::Min(v2, v3)),
-                       hi = hn::Max(hn::Max(v0, v1), hn::Max(v2, v3));
-            hn::Store(lo, d, s.lo[a] + j);
-            hn::Store(hn::Sub(hi, lo), d, s.side[a] + j);
-        }
-    }
-}
-
-HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
-                             std::uint32_t vertex_count, QueryScratch& s) {
-    Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
-    Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
-    Quantise(s.z, vertex_count, scales[2], s.quantised[2]);
-    if (vertex_count <= few_vertices)
-        QuantiseTets<few_vertices / 16>(corners, s);
-    else
-        QuantiseTets<4>(corners, s);
-}
-
-// For each candidate the set of tets whose quantised box it meets, less those that `own` it. Candidates that
-// meet none are dropped; returns how many are left. Nothing branches: what a candidate meets is hard to
-// predict.
+// Finds for each candidate the set of tets whose quantised box it is in, without those that `own` it. Drops candidates
+// whose set is empty, and returns how many are left. Nothing branches, as these sets are hard to predict.
 template <class Own>
 HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::uint32_t end,
                                    std::uint32_t left, std::uint64_t valid, Own own) {
@@ -125,7 +35,7 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
     std::uint64_t* HWY_RESTRICT masks = s.masks;
     std::uint32_t* HWY_RESTRICT meeting = s.meeting;
     constexpr std::size_t parts = tile_size / lanes;
-    hn::Vec<Bytes> lo[3][parts], side[3][parts]; // in registers, as far as there are so many
+    hn::Vec<Bytes> lo[3][parts], side[3][parts]; // in registers, as far as there are enough
     for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t j = 0; j < parts; ++j) {
             lo[a][j] = hn::Load(d, s.lo[a] + j * lanes);
@@ -135,7 +45,7 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
         const auto x = hn::Set(d, qx[i]), y = hn::Set(d, qy[i]), z = hn::Set(d, qz[i]);
         std::uint64_t mask = 0;
         for (std::size_t j = 0; j < parts; ++j) {
-            // Where it is below lo, x - lo wraps round to more than the side, as no side is longer than 255.
+            // For x below lo, x - lo wraps round to more than the side, as lo + side is no more than 255.
             const auto beyond_x = hn::SaturatedSub(hn::Sub(x, lo[0][j]), side[0][j]);
             const auto beyond_y = hn::SaturatedSub(hn::Sub(y, lo[1][j]), side[1][j]);
             const auto beyond_z = hn::SaturatedSub(hn::Sub(z, lo[2][j]), side[2][j]);
@@ -157,7 +67,7 @@ HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::ui
     return left;
 }
 
-// Index of the lowest bit that is set; some number when none is.
+// Index of the lowest bit that is set; any number when none is.
 HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
 #if defined(__GNUC__) && HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     return static_cast<std::uint32_t>(_tzcnt_u64(mask));
@@ -173,8 +83,8 @@ struct TileWork {
     Findings& out;
     const Tile& tile;
     Box box;
-    bool ready;  // the tile is in scratch, with its boxes
-    bool loaded; // its vertices are
+    bool ready;  // whether the tile is in scratch, with the boxes of its tets
+    bool loaded; // whether its vertices are
     bool stamped;
     Scale scales[3];
     FilterConstants constants;
@@ -233,7 +143,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         std::uint32_t* to = s.pairs + pairs;
         pairs += static_cast<std::uint32_t>(hwy::PopCount(mask));
         do {
-            // Four at a time; of those past the last bit the next candidate's take the place.
+            // Four at a time. Those past the last bit are overwritten by the pairs of the next candidate.
             for (int j = 0; j < 4; ++j) {
                 to[j] = candidate | (LowestBit(mask) & 63);
                 mask &= mask - 1;
@@ -248,14 +158,14 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     if (pairs) w.narrow(tets, pairs);
 }
 
-// Runs of points of a window, of a register each: first[i] and those that follow it below end[i].
+// Runs of points of a window, each at most a register long: from first[i], below end[i].
 struct Runs {
     static constexpr std::uint32_t most = 64, at_once = 4; // are added
     alignas(16) std::uint32_t first[most + at_once], end[most + at_once];
     std::uint32_t count = 0;
 };
 
-// Appends the points of the runs that lie in `box` to the candidates.
+// Appends the points of the runs that are in `box` to the candidates.
 HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& box, const Runs& runs,
                                   bool own, std::uint32_t n, std::uint32_t& own_count) {
     const Floats d;
@@ -283,7 +193,7 @@ HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& 
         const auto inside_z = hn::And(hn::Ge(vz, lz), hn::Le(vz, hz));
         const auto inside =
             hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, runs.end[r] - i)));
-        // Also when there is none: a branch would be mispredicted too often.
+        // Stored also when none is inside: a branch would be mispredicted too often.
         const Compressor compress(inside);
         hn::StoreU(compress(vx), d, s.candidate_x + n);
         hn::StoreU(compress(vy), d, s.candidate_y + n);
@@ -301,15 +211,15 @@ HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& 
     return n;
 }
 
-// Appends the points of a source that lie in the tile's box to the candidates. Rows of cells are first listed
-// as runs: how many registers a row takes is hard to predict, and a loop over them would wait for memory
-// whenever it was predicted wrongly.
+// Appends the points of a source that are in the tile's box to the candidates. Rows of cells are first listed
+// as runs: the number of registers in a row is hard to predict, and a loop over them would wait for memory
+// at each misprediction.
 HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std::uint32_t n,
                                std::uint32_t& own_count) {
     const hn::FixedTag<std::uint32_t, Runs::at_once> d4;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(Floats()));
     const auto steps = hn::Mul(hn::Iota(d4, 0), hn::Set(d4, lanes));
-    Box box = w.box; // no further than the source matters
+    Box box = w.box; // the part of it in the region of the source
     intersect(box, source.region);
     const Window& window = source.window;
     const WindowLattice& lattice = window.lattice;
@@ -355,7 +265,7 @@ HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(line + i);
 }
 
-// What is made of the tile when it has candidates; it comes while those are fetched.
+// What is read of the tile when it has candidates arrives in the cache while those are fetched.
 HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     const auto index = static_cast<std::size_t>(&tile - tiles.tiles.data());
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
@@ -364,7 +274,8 @@ HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     if (own) PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
-// Of a window of few points the tiles of a super-tile together read more or less all.
+// Of a window with few points, the tiles of a super-tile together read nearly all: 8 KiB of coordinates and
+// indices at most.
 HWY_INLINE void PrefetchWindow(const Window& window) {
     constexpr std::uint32_t few = 512;
     if (window.count > few) return;
@@ -407,7 +318,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-// Barycentric coordinates of the findings: the points are at hand here, and anywhere in memory later.
+// Computes the barycentric coordinates of the findings here, where the points are in the cache; later they would not be.
 void weigh(QueryScratch& s) {
     for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
         Finding* findings = s.findings + first;
@@ -459,7 +370,8 @@ void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t
     for (const std::uint32_t r : broad.of_b(body)) add(broad.regions[r].a, broad.regions[r].region);
 }
 
-// One stamp a vertex. The stamps of a tile must not be mistaken for another's, also not after the tag has run over.
+// Makes room for one stamp for each vertex. No tile may mistake the stamps of another for its own, also when the tag
+// wraps round.
 void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<std::uint32_t>& stamps,
                     QueryScratch& scratch) {
     if (stamps.size() < vertices) stamps.resize(vertices, 0);
@@ -500,7 +412,7 @@ void query(const Step& step, const BroadPhase& broad, const Windows& windows, co
         near.clear();
         for (const Source& source : buffers.sources) {
             if (!overlap(super_boxes[s], source.region)) continue;
-            if (source.body == b) { // where most of a body is certified, few meet what is left
+            if (source.body == b) { // where most of a body is certified, few super-tiles meet the other vertices
                 Box met = super_boxes[s];
                 intersect(met, source.region);
                 if (!holds_point(source.window, met)) continue;

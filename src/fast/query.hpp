@@ -15,13 +15,13 @@
 
 namespace vox::fast {
 
-// A vertex in the box of a tetrahedron that the float filter did not clear away.
+// A vertex in the box of a tetrahedron that the float filter did not exclude.
 struct Finding {
     std::uint32_t body;   // of the vertex
     std::uint32_t vertex; // the caller's indices
     std::uint32_t tet : 31;
-    std::uint32_t certain : 1; // strictly inside; else only exact arithmetic can tell
-    Weights weights;           // where they are known
+    std::uint32_t certain : 1; // strictly inside; else exact arithmetic has to decide
+    Weights weights;           // or Weights::unknown()
 };
 
 struct QueryCounters {
@@ -44,61 +44,58 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of one query at a time (one worker). About 40 KiB.
+// Buffers of a worker, for one tile at a time. About 40 KiB.
 struct alignas(64) QueryScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 512; // handled at a time
     static constexpr std::uint32_t most_pairs = 2048;
     static constexpr std::uint32_t most_findings = 128;
 
-    // the tile
-    alignas(
-        64) float xyz[4 * tile_size]; // its vertices, x y z and something, where that is faster to look up
+    // The tile. Its vertices again as x, y, z and an unused float, where that is faster to look up.
+    alignas(64) float xyz[4 * tile_size];
     alignas(64) std::uint32_t corners[tile_size]; // the four local vertices of a tet, 8 bits each
     alignas(64) std::uint8_t quantised[3][tile_size];
     alignas(64) std::uint8_t lo[3][tile_size], side[3][tile_size]; // boxes of the tets
-    alignas(64) std::uint64_t own[tile_size] = {}; // where stamps are in use: Tiles::own of its vertices
-    // candidates: points in the tile's box
+    alignas(64) std::uint64_t own[tile_size] = {}; // Tiles::own of its vertices, where stamps are in use
+    // Candidates: points in the tile's box.
     alignas(64) float candidate_x[most_candidates + 64], candidate_y[most_candidates + 64],
         candidate_z[most_candidates + 64];
     alignas(64) std::uint32_t candidate_id[most_candidates + 64];
     alignas(64) std::uint32_t candidate_body[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
-    // candidates in the box of some tet: their coordinates move up to these places in candidate_x, _y, _z
-    alignas(64) std::uint64_t masks[most_candidates + 64]; // the tets whose box the candidate meets: not none
-    alignas(64) std::uint32_t meeting[most_candidates + 64]; // where its other properties stayed
-    // pairs: place of the candidate << 6 | tet
+    // Candidates in the box of some tet. Their coordinates move up to these places in candidate_x, _y, _z.
+    alignas(64) std::uint64_t masks[most_candidates + 64];   // the tets in whose box the candidate is, one at least
+    alignas(64) std::uint32_t meeting[most_candidates + 64]; // the place where its other properties stayed
+    // Pairs: place of the candidate << 6 | tet.
     alignas(64) std::uint32_t pairs[most_pairs + 64];
     Finding findings[most_findings];
     BarycentricBlock<float> points[most_findings / barycentric_block]; // of findings
     std::uint32_t finding_count = 0;
-    // Self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the tile at
-    // hand.
+    // For self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the current tile.
     std::uint32_t tag = 0;
     QueryCounters counters;
 };
 
-// Points to test against tiles: a window, or what of it matters.
+// Points to test against tiles: those of a window that are in `region`.
 struct Source {
     Window window;
-    Box region; // only tiles that meet it
+    Box region; // only tiles that meet it are tested
     std::uint32_t body;
 };
 
 struct Query {
     const Tiles* tiles;
     const float* positions; // packed, of the body of the tiles
-    // Boxes of the tiles of the body; one that is not known is made when it is needed.
+    // Boxes of the tiles of the body. One that is not known is made when it is needed.
     Box* boxes;
     std::uint8_t* known;
     // Not null: the first source, and all of the same body that follow it, hold vertices of the body of the
-    // tiles, and tets do not meet their own corners. One zeroed word a vertex, kept with the scratch.
+    // tiles, and tets do not meet their own corners. One word for each vertex, zeroed at first, kept with the scratch.
     std::uint32_t* stamps;
-    bool rounded; // some positions, of the tiles or the sources
+    bool rounded; // whether some positions of the tiles or the sources are
 };
 
-// Finds every point of the sources in the closed box of a tet of the tiles [first, last) and, as far as
-// floats can tell, in the tet. Nothing is lost: what is not certain is reported as such. Findings are left in
-// scratch; flush() hands the rest over.
+// Finds every point of the sources that is in the closed box of a tet of the tiles [first, last) and not certainly, by
+// floats, outside the tet. Full buffers of findings go to `out`; flush() hands over the rest, which stays in scratch.
 void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
                  QueryScratch& scratch, Findings& out);
 void flush(QueryScratch& scratch, Findings& out);

@@ -1,5 +1,5 @@
-// Minimum and maximum of positions, a position a register; and of the bits of all coordinates, for the finite
-// check.
+// Minimum and maximum of positions, with a position or several in a register. Whether all coordinates are finite is a
+// maximum too, of their bits.
 #include "fast/stream.hpp"
 
 #include "base/error.hpp"
@@ -24,7 +24,7 @@
 #define VOX_FAST_STREAM_ONCE
 namespace vox::fast {
 
-constexpr double beyond_floats = 0x1.ffffffp127; // the least double that rounds to an infinite float
+constexpr double beyond_floats = 0x1.ffffffp127; // the smallest double that rounds to an infinite float
 constexpr float largest_float = std::numeric_limits<float>::max();
 
 inline float nearest_float(double value, double origin) {
@@ -41,7 +41,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// All of `values` are: the bits without the sign are below those of infinity.
+// Whether all of `values` are finite: without the sign, their bits are below those of infinity.
 HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     const hn::CappedTag<std::uint32_t, 16> du;
     const hn::RebindToFloat<decltype(du)> df;
@@ -51,11 +51,11 @@ HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     for (; i + hn::Lanes(du) <= count; i += hn::Lanes(du))
         largest = hn::Max(largest, hn::And(hn::BitCast(du, hn::LoadU(df, values + i)), magnitude));
     bool finite = hn::GetLane(hn::MaxOfLanes(du, largest)) < 0x7f800000u;
-    for (; i < count; ++i) finite &= values[i] - values[i] == 0; // not so for infinities and NaN
+    for (; i < count; ++i) finite &= values[i] - values[i] == 0; // false for infinities and NaN
     return finite;
 }
 
-// x, y, z of a position; the fourth lane is the next one's x, or nothing for the last one there is.
+// x, y, z of a position. The fourth lane is the x of the next position; for the last position it is unused.
 using Four = hn::FixedTag<float, 4>;
 
 HWY_INLINE hn::Vec<Four> LoadLast(const float* HWY_RESTRICT p) {
@@ -79,9 +79,9 @@ HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec
     }
 }
 
-// Several positions a register, three lanes each, and a third as many lanes of the positions that follow.
-// Where registers are wide, all positions of a block take two or four of them, overlapping where it has fewer
-// than block_size: a minimum does not care.
+// Several positions in a register, three lanes each, and a third as many lanes of the positions that follow.
+// Where registers are wide, all positions of a block take two or four of them. These overlap where the block has fewer
+// than block_size positions, which does not change a minimum.
 using Wide = hn::CappedTag<float, 16>;
 constexpr std::uint32_t wide_lanes = hn::MaxLanes(Wide());
 constexpr std::uint32_t wide_positions = wide_lanes / 4;
@@ -94,7 +94,7 @@ HWY_INLINE hn::Vec<Four> FirstFour(Vec v) {
         return v;
 }
 
-// In the first lanes: the result over all positions of a register.
+// Returns the result over all positions of a register in the first lanes.
 template <class Reduce>
 HWY_INLINE hn::Vec<Four> Fold(hn::Vec<Wide> v, Reduce reduce) {
     const Wide d;
@@ -123,7 +123,7 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
     const auto most = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
     for (std::size_t b = 0; b < blocks; ++b) {
         const std::uint32_t end = first[b + 1];
-        if (end > checked) { // a few kilobytes at a time, which the boxes then find in the cache
+        if (end > checked) { // a few kilobytes at a time, which are in the cache for the boxes then
             const std::uint32_t next = count - end > 256 ? end + 256 : count;
             finite &= AllFinite(positions + std::size_t{checked} * 3, std::size_t{next - checked} * 3);
             checked = next;
@@ -183,7 +183,7 @@ bool StreamMoves(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT 
     return Stream<true>(positions, reference, first, blocks, boxes, moves, all);
 }
 
-// nearest_float() of doubles that are three to a position.
+// nearest_float() of the coordinates of positions that are three packed doubles.
 void RoundPacked(const double* HWY_RESTRICT from, const double* HWY_RESTRICT origin, std::size_t count,
                  float* HWY_RESTRICT to) {
     std::size_t i = 0;
@@ -191,7 +191,7 @@ void RoundPacked(const double* HWY_RESTRICT from, const double* HWY_RESTRICT ori
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> df;
     constexpr std::size_t lanes = hn::MaxLanes(d);
-    alignas(64) double pattern[3 * lanes]; // the origin, over and over: three registers of it
+    alignas(64) double pattern[3 * lanes]; // the origin, repeated: three registers of it
     for (std::size_t j = 0; j < 3 * lanes; ++j) pattern[j] = origin[j % 3];
     const auto limit = hn::Set(d, beyond_floats), most = hn::Set(d, double{largest_float});
     const auto nan = hn::NaN(d);

@@ -14,14 +14,14 @@
 namespace vox::fast {
 
 // Writes the floats nearest to the exact positions [first, last), less `origin`, packed to out + 3 * first
-// and so on. Coordinates without a finite float near them give NaN; those that have one, but too far from the
-// origin, the largest float.
+// and so on. A coordinate that no finite float is nearest to gives NaN; one that is only too far from the origin gives
+// the largest float.
 void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
                      float* out);
 
 // Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
-// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes mean
-// nothing then.
+// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes are undefined
+// then.
 bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
 
 // The same, and the boxes around the displacements from `reference`, which are packed positions too, to

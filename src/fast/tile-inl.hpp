@@ -1,5 +1,5 @@
-// What the stages that work on whole tiles share: their vertices in registers, and determinants. Included
-// once per SIMD target, after hwy/highway.h.
+// What the stages that work on whole tiles share: loading their vertices into registers, and determinants. Included
+// once for each SIMD target, after hwy/highway.h.
 #if defined(VOX_FAST_TILE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_TILE_INL
 #undef VOX_FAST_TILE_INL
@@ -21,7 +21,7 @@ using Four = hn::FixedTag<float, 4>;
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
 
-// x, y, z of a vertex and one float more, which is the next vertex's x: not for the mesh's last vertex.
+// x, y, z of a vertex and one float more, which is the x of the next vertex. Not for the last vertex of the mesh.
 HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
     return hn::LoadU(Four(), positions + std::size_t{v} * 3);
 }
@@ -70,7 +70,7 @@ HWY_INLINE void StoreTransposed(hn::Vec<Four> p0, hn::Vec<Four> p1, hn::Vec<Four
     hn::Store(xyz[2], d, z);
 }
 
-// The tile's vertices as a structure of arrays; their box unless kBox is false.
+// Loads the tile's vertices as a structure of arrays, and makes their box unless kBox is false.
 template <bool kBox, class Load>
 HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, std::uint32_t padded,
                          Load load, TileVertices& s, Box& box) {
@@ -85,7 +85,7 @@ HWY_INLINE void LoadTile(const float* positions, const std::uint32_t* vertices, 
         }
         StoreTransposed(p0, p1, p2, p3, s.x + i, s.y + i, s.z + i);
     }
-    for (std::uint32_t i = padded; i % 16; i += 4) { // whole registers of something harmless
+    for (std::uint32_t i = padded; i % 16; i += 4) { // fill the last register with a valid vertex
         hn::Store(hn::Set(d, s.x[0]), d, s.x + i);
         hn::Store(hn::Set(d, s.y[0]), d, s.y + i);
         hn::Store(hn::Set(d, s.z[0]), d, s.z + i);
@@ -166,7 +166,7 @@ HWY_INLINE V Dot(const V* a, const V* b) {
     return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// What covers underflow for tets of these sides; infinite when some product could overflow.
+// A bound on errors by underflow for tets with a box of these sides; infinite when some product could overflow.
 HWY_INLINE float Underflow(float x, float y, float z) {
     const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
     const float largest = x * y * z * 64;
@@ -176,7 +176,7 @@ HWY_INLINE float Underflow(float x, float y, float z) {
 // The constants of the filter for tets in `box`: see the top of narrow-inl.hpp.
 struct FilterConstants {
     float underflow;
-    float rounding[3]; // of coordinates along each axis, six times; 0 where the floats are exact
+    float rounding[3]; // six times the error of coordinates along each axis; 0 where the floats are exact
 };
 
 HWY_INLINE FilterConstants MakeConstants(const Box& box, bool rounded) {
@@ -191,7 +191,7 @@ HWY_INLINE FilterConstants MakeConstants(const Box& box, bool rounded) {
     return {Underflow(side[0], side[1], side[2]), {rounding[0], rounding[1], rounding[2]}};
 }
 
-// The summand of the filter for rounded coordinates; `side` are those of the tet's box.
+// The summand of the filter for rounded coordinates. `side` has the sides of the tet's box.
 HWY_INLINE V RoundingError(const V* side, const float* rounding) {
     const Floats d;
     V e[3], s[3];

@@ -1,6 +1,6 @@
 // Binning by counting sort (D. E. Knuth, The Art of Computer Programming, vol. 3, 5.2): count, sum, place.
 // Sparse space is halved at the middle of the longest side, as in a k-d tree (J. L. Bentley, Multidimensional
-// binary search trees used for associative searching, CACM 18, 1975), until what is left is not sparse.
+// binary search trees used for associative searching, CACM 18, 1975), until the parts are not sparse.
 #include "fast/window.hpp"
 #include "base/simd.hpp"
 
@@ -21,8 +21,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on; returns how many.
-// `count`: of all positions. Runs are short: what is left of one is a register too, where others follow.
+// Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on, and returns their number. `count`
+// is the number of all positions. Runs are short, so the end of a run takes a whole register too, where other
+// positions follow it.
 std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, std::uint32_t last,
                       std::uint32_t count, const Box& region, float* HWY_RESTRICT x, float* HWY_RESTRICT y,
                       float* HWY_RESTRICT z, std::uint32_t* HWY_RESTRICT id) {
@@ -105,9 +106,9 @@ HWY_AFTER_NAMESPACE();
 namespace vox::fast {
 
 void Points::reserve(std::size_t most) {
-    if (id.size() >= most + padding) return; // the last one: an earlier call may have run out of memory
-    // A little more, so that points that come and go need no new room in every step; and no more than that,
-    // as resize() alone would take.
+    if (id.size() >= most + padding) return; // `id` grows last, so this holds after an earlier call ran out of memory
+    // An eighth more, so that a number of points that varies needs no new room in every step. resize() alone would
+    // double the room.
     const std::size_t size = most + most / 8 + padding;
     const auto grow = [size](auto& list) {
         list.reserve(size);
@@ -125,7 +126,7 @@ WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_ce
         extent[a] = double{box.hi[a]} - double{box.lo[a]};
         longest = std::max(longest, extent[a]);
     }
-    // Numbers a float holds well, whatever was asked for: a cell index stays below 2^23, the inverse normal.
+    // Whatever was asked for, a cell index stays below 2^23, where floats are exact, and the inverse is normal.
     cell_size = std::clamp(std::max(cell_size, longest * 0x1p-20), 0x1p-100, 0x1p+125);
     const auto most = static_cast<double>(std::max<std::size_t>(most_cells, 1));
     WindowLattice lattice;
@@ -136,7 +137,7 @@ WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_ce
         if (count <= most) break;
         cell_size *= std::max(1.05, 0.99 * std::cbrt(count / most));
         if (!(cell_size < 0x1p+125)) {
-            // One cell: coordinates that span all of what a float can hold.
+            // The coordinates span all that a float can hold: one cell.
             cell_size = 0x1p+125;
             for (double& c : cells) c = 1;
             break;
@@ -158,21 +159,25 @@ struct Range {
     std::uint32_t first, count;
 };
 
-constexpr std::uint32_t few_points = 128;  // are never too many for a cell
-constexpr std::uint64_t most_crowded = 16; // other points in the cell of a point, on average
-
+// A window is crowded when a point shares its cell with this many others on average: one register of them, so that up
+// to there a row of cells takes little longer to read than an empty one. bench/README.md has what halving crowded windows
+// gains ("A k-d tree of windows") and what it costs where nothing is gained.
+constexpr std::uint64_t most_crowded = 16;
+// So few points are never halved: they are read in a few registers, whatever cells they are in.
+constexpr std::uint32_t few_points = 128;
+// Points looked at to judge a window of at least four times as many.
 constexpr std::uint32_t most_samples = 256;
 
-// Its cells are much larger than wanted.
+// Whether the cells of the lattice are much larger than wanted.
 bool is_coarse(const WindowLattice& lattice, double cell_size) { return double{lattice.inverse} * cell_size < 0.5; }
 
-// The lattice covers the bulk of some points where a few that lie far away would make the cells large.
+// Covers the bulk of some points where a few far from it would make the cells large.
 WindowLattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
-                     std::size_t most_cells) {
+                           std::size_t most_cells) {
     const WindowLattice lattice = make_lattice(box, cell_size, most_cells);
-    constexpr std::uint32_t tail = 4; // samples on either side that are no bulk, at most
+    constexpr std::uint32_t tail = 4; // samples at either end that are not of the bulk: some 3 % of the points
     if (range.count < 4 * most_samples || !is_coarse(lattice, cell_size)) return lattice;
-    // The bulk: what is left of some samples without the outermost on either side, and half of that again.
+    // The bulk is the interval of the samples without those tails, and a quarter of it more on either side.
     const float* coordinates[3] = {points.x.data(), points.y.data(), points.z.data()};
     Box bulk = box;
     for (int a = 0; a < 3; ++a) {
@@ -198,7 +203,7 @@ Box bounds(const Points& points, Range range) {
     return box;
 }
 
-// Some points by themselves: far too many of them share a cell.
+// Whether far too many of some sampled points share a cell: then it is not worth binning all of them to know.
 bool looks_crowded(const Points& points, Range range, const WindowLattice& lattice) {
     if (range.count < 4 * most_samples) return false;
     std::array<std::size_t, most_samples> cell;
@@ -216,17 +221,18 @@ bool looks_crowded(const Points& points, Range range, const WindowLattice& latti
         pairs += same;
     }
     constexpr std::uint64_t all_pairs = most_samples * (most_samples - 1) / 2;
+    // Four times what counts as crowded, and more pairs than chance makes: samples only decide clear cases.
     return pairs > 8 && pairs * range.count > 4 * most_crowded * all_pairs;
 }
 
-// By the number of points in each cell: a point finds too many others in its own.
+// Whether a point finds too many others in its own cell, by the number of points in each.
 bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t points) {
     std::uint64_t sum = 0;
     for (std::size_t c = 0; c < cells; ++c) sum += std::uint64_t{counts[c]} * counts[c];
     return sum > (most_crowded + 1) * points;
 }
 
-// Adds a window of some points, unless `unless_crowded` and it would be; returns whether it did.
+// Adds a window of some points, and returns whether it did. With `unless_crowded`, adds none that would be crowded.
 bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box, bool unless_crowded,
              std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
     const std::uint32_t n = range.count;

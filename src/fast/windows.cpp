@@ -9,19 +9,21 @@ namespace vox::fast {
 
 namespace {
 
-// Edge length of a cell in mean box sides of a tile: the optimum is flat from 0.4 to 0.9.
+// Edge length of a cell, in mean box sides of a tile. The optimum is flat from 0.4 to 0.9.
 constexpr double cells_per_tile = 0.6;
 // A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
 // The same as cells_per_tile for the winding numbers of self-collision.
 constexpr double winding_cells_per_tile = 0.55;
-// A body with self-collision of so many tets is worth sharing among the workers; so many such bodies are at
-// most, to stay below VOX_MAX_TASKS.
+// The winding numbers of a body with so many tets are worth sharing among the workers: by bench_stages, they take
+// 0.2 ms of one. Each such body is a task of the step, so their number is limited to stay below VOX_MAX_TASKS.
 constexpr std::size_t many_tets = 1u << 17;
 constexpr std::size_t most_shared = 16;
 
-constexpr std::size_t group_vertices = 2048; // make up a group
+// Bodies are grouped up to so many vertices, and two groups are worth a task: by bench_stages, their windows take ten
+// microseconds. That is long beside handing out a task, and short enough to share a scene evenly.
+constexpr std::size_t group_vertices = 2048;
 
 bool is_large(const Body& body) { return body.self_collision && body.tets.size() >= many_tets; }
 
@@ -176,8 +178,8 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
     }
 }
 
-// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, these share
-// the first part of each.
+// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, all workers share the
+// winding numbers of each, before the groups.
 void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes, Windows& out) {
     prepare(step, out);
     std::size_t vertices = 0, large = 0;

@@ -143,7 +143,7 @@ void vox_grid::clear() {
     contacts_hold_ = false;
     events_.hide_pairs();
     readings_.forget();
-    queries_.forget();
+    queries_.invalidate();
     ++epoch_;
 }
 
@@ -512,9 +512,9 @@ void vox_grid::describe(CellSizeScene& scene) const {
         scene.bodies.push_back(s.mesh.body(id));
         scene.tiles.push_back(s.mesh.tiles_if_made());
         scene.meshes.push_back(&s.mesh);
-        const bool stepped = s.body < fast_engine_.last_step().of.size();
-        scene.at_rest.push_back(stepped && !fast_engine_.moved(s.body));
-        scene.cleared.push_back(stepped && !fast_engine_.met_itself(s.body, s.mesh.vertex_count()));
+        const bool in_last_step = s.body < fast_engine_.last_step().of.size();
+        scene.at_rest.push_back(in_last_step && !fast_engine_.moved(s.body));
+        scene.cleared.push_back(in_last_step && fast_engine_.cleared(s.body, s.mesh.vertex_count()));
     }
     if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }

@@ -42,13 +42,13 @@ void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, v
     const std::size_t lowest =
         static_cast<std::size_t>(std::min_element(triangle.v, triangle.v + 3) - triangle.v);
     std::rotate(order, order + lowest, order + 3);
-    const auto corner = [&](std::size_t i) { return position_of(solid.positions, triangle.v[order[i]]); };
+    const auto corner = [&](std::size_t i) { return solid.at(triangle.v[order[i]]); };
 
     std::uint64_t exact_tests = 0;
     const auto side_of = [&](const Vec3d& q) {
         return orientation(corner(0), corner(1), corner(2), q, exact_tests);
     };
-    int inside = side_of(position_of(solid.positions, triangle.apex));
+    int inside = side_of(solid.at(triangle.apex));
     if (inside == 0) inside = side_of(p);
     if (inside > 0 || (inside == 0 && triangle.v[order[1]] > triangle.v[order[2]]))
         std::swap(order[1], order[2]);
@@ -195,7 +195,7 @@ void Readings::read_vertex(const Run& run, std::span<const std::uint32_t> same,
     out.user_data_a = run.user_data_a;
     out.user_data_b = run.user_data_b;
     if (!run.a->topology || vertex >= a.vertex_count || has_bit(a.removed_vertices, vertex)) return;
-    const Vec3d p = position_of(a.positions, vertex);
+    const Vec3d p = a.positions.exact(vertex);
     write(out.position, p);
     out.known |= VOX_READING_POSITION;
     // The first of the tetrahedra with the vertex that still is one.

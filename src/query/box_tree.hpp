@@ -1,12 +1,10 @@
-// Boxes of a tree over doubles: single precision, rounded outwards, so that a box never misses what it
-// bounds; and the walk through such a tree that meets what is nearest first.
+// The search of a tree of boxes, nearest first. The boxes are in single precision, rounded
+// outwards, so that they contain the doubles that they bound.
 #pragma once
 
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -14,9 +12,9 @@
 
 namespace vox {
 
-// A complete binary tree: the root is 1, the children of i are 2 i and 2 i + 1. Calls visit(leaf) for each
-// leaf whose bound(box) is no more than `most`, which visit() may lower, the nearer child first. bound() is
-// infinite for an empty box.
+// Calls visit(leaf) for each leaf whose bound(box) is at most `most`, which visit() may lower; the nearer
+// child comes first. bound() is infinite for an empty box. The tree is a complete binary one, with the root 1
+// and the children 2 i and 2 i + 1 of i.
 template <class Bound, class Visit>
 void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&& bound,
                          Visit&& visit) noexcept {
@@ -24,7 +22,7 @@ void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&
         std::size_t node;
         double bound;
     };
-    Entry stack[64]; // two a level at most
+    Entry stack[64]; // at most two a level
     std::size_t size = 0;
     const auto put = [&](const Entry& entry) {
         if (entry.bound <= most && entry.bound < std::numeric_limits<double>::infinity())
@@ -33,7 +31,7 @@ void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&
     put({1, bound(tree[1])});
     while (size > 0) {
         const Entry entry = stack[--size];
-        if (!(entry.bound <= most)) continue; // any more
+        if (!(entry.bound <= most)) continue; // `most` was lowered in between
         if (entry.node >= tree.size() / 2) {
             visit(entry.node - tree.size() / 2);
             continue;

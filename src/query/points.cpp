@@ -1,5 +1,5 @@
-// Points and boxes against the tree. Many points go down together, split in place at every node, so that each
-// node is read once for all of them.
+// Queries with points and boxes. Many points descend the tree together, partitioned in place at every node,
+// so that each node is read once for all of them.
 #include "query/queries.hpp"
 
 #include "exact/predicates.hpp"
@@ -44,8 +44,8 @@ void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
                           found[end].mesh == found[begin].mesh;
              ++end)
             any_interior |= found[end].interior;
-        // Every one that has the point in its interior, or else the first of those that have it on their
-        // boundary.
+        // Report every tetrahedron with the point in its interior, or if there is none, the first with the
+        // point on its boundary.
         for (std::size_t i = begin; i < (any_interior ? end : begin + 1); ++i) {
             if (any_interior && !found[i].interior) continue;
             const Tetrahedron& t = tetrahedra_[found[i].tetrahedron];
@@ -56,7 +56,7 @@ void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
     }
 }
 
-// `which` of the points are to be looked for below the node; their order changes.
+// Searches below the node for the points in `which`, whose order changes.
 void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
                    std::pmr::vector<PointHit>& found) const {
     const Box3f& box = tree_[node];
@@ -82,7 +82,7 @@ void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& 
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
         if (!overlap(boxes_[i], at)) continue;
         const Tetrahedron& t = tetrahedra_[i];
-        // One of zero volume has sides of both signs, or none: it is never found to hold the point.
+        // A tetrahedron of zero volume never holds the point, as its corner volumes have both signs, or none.
         const Containment where =
             locate_in_solid(p, corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3), exact_tests);
         if (where == Containment::interior || where == Containment::boundary)
@@ -92,11 +92,11 @@ void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& 
 
 void Queries::box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
                   std::pmr::vector<vox_tet_hit>& hits) const {
-    // Finite, so that it meets no empty box; no vertex lies beyond.
+    // A finite box, which meets no empty one; no vertex is beyond.
     const auto low = [](double x) { return std::max(round_down(x), -std::numeric_limits<float>::max()); };
     const auto high = [](double x) { return std::min(round_up(x), std::numeric_limits<float>::max()); };
     const Box3f around{{low(min.x), low(min.y), low(min.z)}, {high(max.x), high(max.y), high(max.z)}};
-    const auto meets = [&](const Tetrahedron& t) { // as doubles
+    const auto meets = [&](const Tetrahedron& t) { // in double
         bool below[3] = {true, true, true}, above[3] = {true, true, true};
         for (std::size_t c = 0; c < 4; ++c) {
             const Vec3d& p = corner(t, c);

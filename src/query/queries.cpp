@@ -1,8 +1,9 @@
-// A bounding volume hierarchy over the tiles of all meshes: sorted along a Morton curve (G. M. Morton, A
-// computer oriented geodetic data base, 1966), halved by count, boxes from the leaves up. The order costs one
-// sort of few tiles per call, and follows bodies that deform.
+// A bounding volume hierarchy over the tiles of all meshes. The tiles are sorted along a Morton curve
+// (morton_code) and halved by count; boxes are made from the leaves up. Sorting is quick, as there are few
+// tiles, and is done in every call, so that the order suits bodies that deform.
 #include "query/queries.hpp"
 
+#include "base/bits.hpp"
 #include "base/error.hpp"
 #include "query/box_tree.hpp"
 
@@ -19,15 +20,6 @@ void reserve(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(count + count / 8);
 }
 
-// 21 bits spread out to every third one.
-std::uint64_t spread(std::uint64_t x) noexcept {
-    x = (x | x << 32) & 0x1f00000000ffffu;
-    x = (x | x << 16) & 0x1f0000ff0000ffu;
-    x = (x | x << 8) & 0x100f00f00f00f00fu;
-    x = (x | x << 4) & 0x10c30c30c30c30c3u;
-    return (x | x << 2) & 0x1249249249249249u;
-}
-
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
@@ -39,7 +31,7 @@ void Queries::require_prepared() const {
         throw Error(VOX_ERROR_INVALID_STATE, "the grid is not prepared: call vox_grid_prepare_queries first");
 }
 
-void Queries::forget() noexcept {
+void Queries::invalidate() noexcept {
     prepared_ = false;
     meshes_.clear();
     vertices_.clear();
@@ -58,7 +50,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
         leaves += body.tiles->tiles.size();
     }
     const std::size_t nodes = 2 * std::bit_ceil(std::max<std::size_t>(leaves, 1));
-    // Room for all first: nothing can fail after that.
+    // Reserve everything first, so that nothing after it can fail.
     reserve(meshes_, bodies.size());
     reserve(vertices_, vertices);
     reserve(tetrahedra_, tets);
@@ -69,7 +61,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
     reserve(tree_, nodes);
     reserve(surface_tree_, nodes);
 
-    forget();
+    invalidate();
     for (const QueryBody& body : bodies) {
         add(body, static_cast<std::uint32_t>(meshes_.size()));
         meshes_.push_back({body.body.mesh_id, body.body.filter.category});
@@ -84,10 +76,10 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
 void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
     const Body& body = from.body;
     const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    const bool rounded = body.positions.rounded(); // else all are floats
+    const bool rounded = body.positions.rounded(); // otherwise all are floats
     for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
     for (const Tile& tile : from.tiles->tiles) {
-        if (tile.tet_count == 0) continue; // all of them are off
+        if (tile.tet_count == 0) continue; // all its tetrahedra are off
         Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box3f()};
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t index = from.tiles->tets[tile.first_tet + i];
@@ -103,8 +95,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
                     extend(box, {at, at});
                 }
                 const std::uint32_t across = from.topology->across[index][c];
-                if (across != Topology::nothing && (across & Topology::surface_bit))
-                    t.facets |= 1u << c;
+                if (across != Topology::nothing && (across & Topology::surface_bit)) t.facets |= 1u << c;
             }
             tetrahedra_.push_back(t);
             boxes_.push_back(box);
@@ -117,7 +108,7 @@ void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
 void Queries::sort_leaves() noexcept {
     Box3f all = empty_box3f();
     for (const Leaf& leaf : leaves_) extend(all, leaf.box);
-    const auto part = [](float lo, float hi, float min, float max) { // of the way along one axis, in 21 bits
+    const auto part = [](float lo, float hi, float min, float max) { // 21 bits of the place along one axis
         const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
         return side > 0 ? static_cast<std::uint64_t>((centre - double{min}) / side * 0x1fffff) : 0u;
     };
@@ -125,10 +116,10 @@ void Queries::sort_leaves() noexcept {
     places_.clear();
     for (const Leaf& leaf : leaves_) {
         const Box3f& b = leaf.box;
-        const std::uint64_t code = spread(part(b.min.x, b.max.x, all.min.x, all.max.x)) |
-                                   spread(part(b.min.y, b.max.y, all.min.y, all.max.y)) << 1 |
-                                   spread(part(b.min.z, b.max.z, all.min.z, all.max.z)) << 2;
-        // The upper bits of the place, and the index: no two are equal.
+        const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
+                                               part(b.min.y, b.max.y, all.min.y, all.max.y),
+                                               part(b.min.z, b.max.z, all.min.z, all.max.z));
+        // The upper bits are of the place, the lower ones the index, so no two are equal.
         places_.push_back((code >> 31) << 32 | unsorted_.size());
         unsorted_.push_back(leaf);
     }

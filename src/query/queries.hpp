@@ -1,5 +1,5 @@
-// Queries between steps: a copy of the enabled meshes as they were at one moment, and a tree of boxes over
-// it. Once prepared it is only read, by any number of threads.
+// Queries between steps, on a copy of the enabled meshes at one moment and a tree of boxes over it. Once
+// prepared, it is only read, by any number of threads.
 #pragma once
 
 #include "base/scene.hpp"
@@ -27,20 +27,21 @@ class Queries {
 public:
     explicit Queries(std::pmr::memory_resource* memory);
 
-    // Copies the bodies, whose positions are finite. Throws what the memory throws, and leaves all as it was
-    // then.
+    // Copies the bodies, whose positions must be finite. Throws what the memory resource throws, and changes
+    // nothing then.
     void prepare(std::span<const QueryBody> bodies);
-    void forget() noexcept;
-    // Throws Error(INVALID_STATE) when it is not.
+    void invalidate() noexcept;
+    // Throws Error(INVALID_STATE) when it is not prepared.
     void require_prepared() const;
 
-    // Hits of points[0], points[1], ... in canonical order. Takes memory from `hits`.
+    // The hits of points[0], points[1], ... in canonical order, into an empty `hits`, whose memory resource
+    // is used for everything.
     void points(std::span<const Vec3d> points, std::uint64_t mask,
                 std::pmr::vector<vox_point_hit>& hits) const;
-    // Sorted by mesh and tet.
+    // The tetrahedra sorted by mesh and tet, into an empty `hits`.
     void box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
              std::pmr::vector<vox_tet_hit>& hits) const;
-    // mesh 0 where there is none.
+    // The mesh of a result is 0 when nothing was hit.
     vox_surface_hit closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept;
     vox_ray_hit ray(const Vec3d& from, const Vec3d& to, std::uint64_t mask) const noexcept;
 
@@ -49,18 +50,16 @@ private:
         vox_mesh id;
         std::uint64_t category;
     };
-    // Up to 64 tetrahedra that lie close together: a tile.
+    // A tile, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
         std::uint32_t mesh;         // in meshes_
         std::uint32_t first, count; // in tetrahedra_
         Box3f box;
     };
-    // As copied: the tetrahedron's index in its mesh, its corners in vertices_, and bit i for facet i (see
-    // facet_corners) on the surface.
     struct Tetrahedron {
-        std::uint32_t index;
-        std::uint32_t facets;
-        std::uint32_t corner[4];
+        std::uint32_t index;     // in its mesh
+        std::uint32_t facets;    // bit i is set when facet i (facet_corners) is on the surface
+        std::uint32_t corner[4]; // in vertices_
     };
     struct Points {
         std::span<const Vec3d> points;
@@ -86,25 +85,28 @@ private:
     void find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& asked,
                       std::pmr::vector<PointHit>& found) const;
     const Vec3d& corner(const Tetrahedron& t, std::size_t i) const noexcept { return vertices_[t.corner[i]]; }
+    template <class Bound, class Visit>
+    void visit_facets(std::uint64_t mask, const double& most, const Bound& bound,
+                      Visit&& visit) const noexcept;
     void find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,
                         vox_ray_hit& hit) const noexcept;
     void find_first_facet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,
                           vox_ray_hit& hit) const noexcept;
 
-    // Bounding boxes with every float rounded outwards, so that what is decided by doubles is never missed.
     std::pmr::vector<Mesh> meshes_;
     std::pmr::vector<Vec3d> vertices_; // mesh after mesh
     std::pmr::vector<Tetrahedron> tetrahedra_;
-    std::pmr::vector<Box3f> boxes_; // of tetrahedra_
+    // Of tetrahedra_. All boxes are rounded outwards, so that they miss nothing that doubles decide.
+    std::pmr::vector<Box3f> boxes_;
     std::pmr::vector<Leaf> leaves_; // in the order of a space-filling curve
-    // While they are sorted: each one's place on the curve and index, and the leaves themselves.
+    // For sorting leaves_, the place of each on the curve with its index, and a copy of the leaves.
     std::pmr::vector<std::uint64_t> places_;
     std::pmr::vector<Leaf> unsorted_;
-    // A complete binary tree: the root is 1, the children of i are 2 i and 2 i + 1, the leaves its second
-    // half.
+    // A complete binary tree, with the root 1, the children 2 i and 2 i + 1 of i, and the leaves in its
+    // second half.
     std::pmr::vector<Box3f> tree_;
-    std::pmr::vector<Box3f>
-        surface_tree_; // the same of facets on the surface alone; empty boxes where there are none
+    // The same over facets on the surface only, with empty boxes where there are none.
+    std::pmr::vector<Box3f> surface_tree_;
     bool prepared_ = false;
 };
 

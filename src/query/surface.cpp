@@ -1,7 +1,7 @@
-// The closest point of the surface, and what a segment meets first, by branch and bound over the tree (N.
-// Roussopoulos, S. Kelley, F. Vincent, Nearest neighbor queries, SIGMOD 1995). Whether a segment meets a
-// facet is decided exactly, by the sides of the facet its ends are on and the sides of the segment the
-// facet's edges are on.
+// Queries for the closest point of the surface, and for what a segment meets first, by branch and bound over
+// the tree (N. Roussopoulos, S. Kelley, F. Vincent, Nearest neighbor queries, SIGMOD 1995). Whether a segment
+// meets a facet is decided exactly, by the sides of the facet on which its ends are, and the sides of the
+// segment on which the edges of the facet are.
 #include "query/queries.hpp"
 
 #include "base/vectors.hpp"
@@ -17,11 +17,10 @@
 
 namespace vox {
 
-
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// What is computed of boxes is off by a few roundings: less than this in proportion.
+// What is computed of boxes is off by a few roundings, in proportion by less than this.
 constexpr double slack = 0x1p-48;
 
 double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) noexcept {
@@ -29,11 +28,11 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) no
     return dot(cross(u, v), w);
 }
 
-// Where the segment meets the closed triangle; `t` 0 at its beginning and 1 at its end, to rounding.
+// Where a segment meets a closed triangle. `t` runs from 0 at its beginning to 1 at its end, and is rounded.
 struct Crossing {
-    double t = infinity; // infinite: nowhere
+    double t = infinity; // infinite when it does not
     double weight[3] = {};
-    int from_side = 0, to_side = 0; // of the triangle, as orientation() says
+    int from_side = 0, to_side = 0; // the ends' orientation() to the triangle
 };
 
 Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
@@ -42,7 +41,7 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const
     Crossing crossing;
     crossing.from_side = orientation(a, b, c, from, exact_tests);
     crossing.to_side = orientation(a, b, c, to, exact_tests);
-    if (crossing.from_side == crossing.to_side) return crossing; // beside it, or within its plane
+    if (crossing.from_side == crossing.to_side) return crossing; // both ends on one side, or in its plane
     const Vec3d* const corner[3] = {&a, &b, &c};
     bool positive = false, negative = false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +66,7 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const
     return crossing;
 }
 
-// Not more than the t at which a segment enters a box; infinite when it misses it.
+// A lower bound of the t at which a segment enters a box, infinite when the segment misses the box.
 class EntryBound {
 public:
     EntryBound(const Vec3d& from, const Vec3d& to) noexcept : from_{from.x, from.y, from.z} {
@@ -80,14 +79,14 @@ public:
         double enter = 0, leave = 1;
         for (int axis = 0; axis < 3; ++axis) {
             if (lo[axis] > hi[axis]) return infinity;
-            if (inverse_[axis] == 0) { // no way along this axis
+            if (inverse_[axis] == 0) { // the segment does not move along this axis
                 if (from_[axis] < double{lo[axis]} || from_[axis] > double{hi[axis]}) return infinity;
                 continue;
             }
             double t0 = (double{lo[axis]} - from_[axis]) * inverse_[axis];
             double t1 = (double{hi[axis]} - from_[axis]) * inverse_[axis];
             if (t0 > t1) std::swap(t0, t1);
-            // Not a number (0 times infinity) leaves both as they are.
+            // A NaN (0 times infinity) leaves both as they are.
             enter = std::max(enter, t0 - std::abs(t0) * slack);
             leave = std::min(leave, t1 + std::abs(t1) * slack);
         }
@@ -98,13 +97,13 @@ private:
     double from_[3], inverse_[3];
 };
 
-// The corners of facet i of a tetrahedron in ascending order, so that both sides of a facet compute the same;
-// `place` is where each of them stands in facet_corners.
-struct Facet {
+// The corners of facet i of a tetrahedron in ascending order, so that the tetrahedra on both sides of a facet
+// compute the same. `place` is the index of each in facet_corners.
+struct OrderedFacet {
     std::uint32_t vertex[3];
     std::size_t place[3] = {0, 1, 2};
 
-    Facet(const std::uint32_t* corner, std::size_t i) noexcept {
+    OrderedFacet(const std::uint32_t* corner, std::size_t i) noexcept {
         for (std::size_t c = 0; c < 3; ++c) vertex[c] = corner[facet_corners[i][c]];
         const auto order = [this](std::size_t x, std::size_t y) {
             if (vertex[x] <= vertex[y]) return;
@@ -119,44 +118,42 @@ struct Facet {
 
 } // namespace
 
-vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept {
-    double most = radius * radius;
-    SeenPoint best{};
-    std::tuple<std::uint32_t, std::uint32_t, std::size_t> best_key; // mesh, tet, facet
-    const Tetrahedron* best_tet = nullptr;
-    const auto bound = [&](const Box3f& box) noexcept {
-        if (box.min.x > box.max.x) return infinity;
-        const auto beyond = [](double x, float lo, float hi) {
-            return std::max({double{lo} - x, x - double{hi}, 0.0});
-        };
-        const Vec3d d{beyond(p.x, box.min.x, box.max.x), beyond(p.y, box.min.y, box.max.y),
-                      beyond(p.z, box.min.z, box.max.z)};
-        return dot(d, d) * (1 - slack);
-    };
+// Calls visit(mesh, tetrahedron, facet) for each facet of a surface whose tetrahedron's bound is no more than
+// `most`, as visit_nearest_first() does.
+template <class Bound, class Visit>
+void Queries::visit_facets(std::uint64_t mask, const double& most, const Bound& bound,
+                           Visit&& visit) const noexcept {
     visit_nearest_first(surface_tree_, most, bound, [&](std::size_t l) {
         const Leaf& leaf = leaves_[l];
         if (!wants(leaf, mask)) return;
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
             const Tetrahedron& t = tetrahedra_[i];
             if (t.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
-            for (std::size_t facet = 0; facet < 4; ++facet) {
-                if (!(t.facets >> facet & 1)) continue;
-                const SeenPoint found =
-                    closest_seen_from(p, corner(t, facet_corners[facet][0]),
-                                      corner(t, facet_corners[facet][1]), corner(t, facet_corners[facet][2]));
-                const double squared = found.at.squared_distance;
-                const std::tuple key(leaf.mesh, t.index, facet);
-                if (squared < most || (squared == most && (!best_tet || key < best_key))) {
-                    most = squared;
-                    best = found;
-                    best_key = key;
-                    best_tet = &t;
-                }
-            }
+            for (std::size_t facet = 0; facet < 4; ++facet)
+                if (t.facets >> facet & 1) visit(leaf.mesh, t, facet);
         }
     });
+}
+
+vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept {
+    double most = radius * radius;
+    SeenPoint best{};
+    std::tuple<std::uint32_t, std::uint32_t, std::size_t> best_key; // mesh, tet, facet
+    bool any = false;
+    const auto bound = [&p](const Box3f& box) noexcept { return squared_distance_bound(p, box); };
+    visit_facets(mask, most, bound, [&](std::uint32_t mesh, const Tetrahedron& t, std::size_t facet) {
+        const std::uint8_t* c = facet_corners[facet];
+        const SeenPoint found = closest_seen_from(p, corner(t, c[0]), corner(t, c[1]), corner(t, c[2]));
+        const double squared = found.at.squared_distance;
+        const std::tuple key(mesh, t.index, facet);
+        if (!(squared < most || (squared == most && (!any || key < best_key)))) return;
+        most = squared;
+        best = found;
+        best_key = key;
+        any = true;
+    });
     vox_surface_hit hit{};
-    if (!best_tet) return hit;
+    if (!any) return hit;
     const auto [mesh, tet, facet] = best_key;
     hit.mesh = meshes_[mesh].id;
     hit.tet = tet;
@@ -173,7 +170,7 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, std::uint64_t ma
 vox_ray_hit Queries::ray(const Vec3d& from, const Vec3d& to, std::uint64_t mask) const noexcept {
     vox_ray_hit hit{};
     find_first_tet(from, to, mask, hit);
-    if (hit.mesh) find_first_facet(from, to, mask, hit); // no surface without tetrahedra
+    if (hit.mesh) find_first_facet(from, to, mask, hit); // whatever meets a surface meets a tetrahedron
     return hit;
 }
 
@@ -195,7 +192,7 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t m
             const bool holds = where == Containment::interior || where == Containment::boundary;
             double t = holds ? 0 : infinity;
             for (std::size_t facet = 0; facet < 4 && t > 0; ++facet) {
-                const Facet f(tet.corner, facet);
+                const OrderedFacet f(tet.corner, facet);
                 t = std::min(t, find_crossing(from, to, vertices_[f.vertex[0]], vertices_[f.vertex[1]],
                                               vertices_[f.vertex[2]])
                                     .t);
@@ -204,7 +201,7 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t m
             if (!(t < most || (t == most && (!any || key < best)))) continue;
             if (!holds &&
                 orientation(corner(tet, 0), corner(tet, 1), corner(tet, 2), corner(tet, 3), exact_tests) == 0)
-                continue; // of zero volume: holds nothing
+                continue; // it has zero volume and holds nothing
             most = t;
             best = key;
             any = true;
@@ -222,32 +219,21 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, std::uint64_t
     double most = 1;
     std::tuple<std::uint32_t, std::uint32_t, std::size_t> best; // mesh, tet, facet
     bool any = false;
-    visit_nearest_first(surface_tree_, most, bound, [&](std::size_t l) {
-        const Leaf& leaf = leaves_[l];
-        if (!wants(leaf, mask)) return;
-        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-            const Tetrahedron& tet = tetrahedra_[i];
-            if (tet.facets == 0 || !(bound(boxes_[i]) <= most)) continue;
-            for (std::size_t facet = 0; facet < 4; ++facet) {
-                if (!(tet.facets >> facet & 1)) continue;
-                const Facet f(tet.corner, facet);
-                const Vec3d &a = vertices_[f.vertex[0]], &b = vertices_[f.vertex[1]],
-                            &c = vertices_[f.vertex[2]];
-                const Crossing crossing = find_crossing(from, to, a, b, c);
-                const std::tuple key(leaf.mesh, tet.index, facet);
-                if (!(crossing.t < most || (crossing.t == most && (!any || key < best)))) continue;
-                most = crossing.t;
-                best = key;
-                any = true;
-                for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
-                std::uint64_t exact_tests = 0;
-                const int inside =
-                    orientation(a, b, c, corner(tet, facet), exact_tests); // 0: no volume, no inside
-                const bool enters =
-                    crossing.to_side != 0 ? crossing.to_side == inside : crossing.from_side == -inside;
-                hit.surface_side = inside == 0 ? VOX_SIDE_NONE : enters ? VOX_SIDE_ENTERS : VOX_SIDE_LEAVES;
-            }
-        }
+    visit_facets(mask, most, bound, [&](std::uint32_t mesh, const Tetrahedron& tet, std::size_t facet) {
+        const OrderedFacet f(tet.corner, facet);
+        const Vec3d &a = vertices_[f.vertex[0]], &b = vertices_[f.vertex[1]], &c = vertices_[f.vertex[2]];
+        const Crossing crossing = find_crossing(from, to, a, b, c);
+        const std::tuple key(mesh, tet.index, facet);
+        if (!(crossing.t < most || (crossing.t == most && (!any || key < best)))) return;
+        most = crossing.t;
+        best = key;
+        any = true;
+        for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
+        std::uint64_t exact_tests = 0;
+        const int inside = orientation(a, b, c, corner(tet, facet), exact_tests); // 0 without volume
+        const bool enters =
+            crossing.to_side != 0 ? crossing.to_side == inside : crossing.from_side == -inside;
+        hit.surface_side = inside == 0 ? VOX_SIDE_NONE : enters ? VOX_SIDE_ENTERS : VOX_SIDE_LEAVES;
     });
     if (!any) return;
     const auto [mesh, tet, facet] = best;

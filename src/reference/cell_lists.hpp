@@ -1,11 +1,10 @@
-// The voxel grid of the reference engine: cubic cells, each with the list of the particles in it. Two
-// storages and two hashes that differ only in how a cell's coordinates become a bucket:
+// The voxel grid of the reference engine, with a list of particles for each cubic cell. Two storages and two
+// hashes differ only in how the coordinates of a cell become a bucket:
 //   dense   linear id k*nx*ny + j*nx + i in a box of cells (paper, Sect. 3)
-//   hashed  a hash modulo a prime: Teschner, Heidelberger, Mueller, Pomeranets, Gross, "Optimized Spatial
-//   Hashing for
-//           Collision Detection of Deformable Objects", VMV 2003; or a well-mixed 64-bit hash
-// A bucket holds the occupied cells that fell into it, by their true coordinates, so two cells that share a
-// bucket are never taken for one another.
+//   hashed  the hash of Teschner, Heidelberger, Mueller, Pomeranets, Gross, "Optimized Spatial Hashing for
+//           Collision Detection of Deformable Objects", VMV 2003, or a well-mixed 64-bit hash, modulo a prime
+// A bucket holds the occupied cells that fell into it with their coordinates, so that two cells in one bucket
+// are never confused.
 #pragma once
 
 #include "base/scene.hpp"
@@ -25,8 +24,8 @@ struct CellCoord {
     bool operator==(const CellCoord&) const = default;
 };
 
-// The only way from a position to a cell, for particles and for the corners of boxes alike. It is monotone on
-// each axis, rounding and clamping included, so a particle inside a box is always in one of the box's cells.
+// Maps positions to cells, both for particles and for the corners of boxes. The map is monotone on each axis,
+// rounding and clamping included, so a particle in a box is always in one of the cells of the box.
 class Lattice {
 public:
     Lattice(const Vec3d& origin, double cell_size, const CellCoord& min, const CellCoord& max)
@@ -70,8 +69,8 @@ private:
     std::uint64_t reciprocal_;
 };
 
-// The three addresses: row(j, k) is the part that is the same for a row of cells along x, bucket(row, i) the
-// rest.
+// The three ways from a cell to a bucket. row(j, k) is the part that is the same for all cells along x,
+// bucket(row, i) does the rest.
 struct DenseAddress {
     std::uint32_t nx, ny;
 
@@ -129,7 +128,8 @@ public:
     // Empties the grid and makes room for `particle_count` occupied cells.
     void reset(std::size_t bucket_count, std::size_t particle_count) {
         cells_.clear();
-        // Given back before more is taken, so that the two never count against the budget together.
+        // The old array is released before the new one is allocated, so that the budget never has to hold
+        // both.
         if (bucket_count > heads_.capacity())
             heads_ = std::pmr::vector<std::uint32_t>(heads_.get_allocator());
         heads_.assign(bucket_count, none);
@@ -165,7 +165,7 @@ private:
     std::pmr::vector<Cell> cells_;
 };
 
-// The smallest prime that is at least `number`, or the largest of 32 bits.
+// The smallest prime that is at least `number`, or else the largest prime of 32 bits.
 inline std::uint32_t next_prime(std::uint64_t number) {
     const auto is_prime = [](std::uint64_t n) {
         if (n % 2 == 0) return n == 2;

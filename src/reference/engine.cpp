@@ -1,6 +1,6 @@
-// The paper, Sect. 3 and Fig. 1, step by step: pass one recomputes the boxes and classifies all particles;
-// pass two runs the broad and the narrow phase for each tetrahedron. With levels of cell sizes, which the
-// paper does not have, the second half of pass one and pass two run for each of them.
+// The paper's algorithm as in Sect. 3 and Fig. 1. Pass one recomputes the boxes and classifies all particles.
+// Pass two runs the broad and the narrow phase for each tetrahedron. With levels of cell sizes, which the
+// paper does not have, classification and pass two run once for each level.
 #include "reference/engine.hpp"
 
 #include "base/bits.hpp"
@@ -23,7 +23,7 @@ struct ReferenceEngine::Step {
     std::pmr::vector<Hit>& hits;
     vox_counters& counters;
     vox_profile& profile;
-    bool some_filtered = false; // some bodies may not collide with some others
+    bool some_filtered = false; // whether some pairs of bodies must not collide
 };
 
 namespace {
@@ -42,7 +42,7 @@ ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
     : particles_(memory), exact_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
-                       std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
+                             std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
     counters.exact_tests = counters.filtered = counters.skipped_degenerate = 0;
@@ -68,8 +68,8 @@ void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettin
 
 void ReferenceEngine::detect_level(Step& step, double cell_size, const Sizes& sizes) {
     const ReferenceSettings& settings = step.settings;
-    // Hashed storage knows no borders; 2^30 cells each way are enough for floats at any sensible cell size,
-    // and clamping beyond keeps the order.
+    // Hashed storage has no bounds. 2^30 cells each way are enough for floats at any sensible cell size, and
+    // clamping beyond that keeps the order.
     constexpr std::int32_t far = 1 << 30;
     const Lattice unbounded({0, 0, 0}, cell_size, {-far, -far, -far}, {far, far, far});
     if (settings.storage == VOX_STORAGE_DENSE) {
@@ -125,13 +125,13 @@ void ReferenceEngine::load_particles(std::span<const Body> bodies) {
     }
 }
 
-// The particle's position as the predicates take it.
+// The exact position, for the predicates.
 inline Vec3d ReferenceEngine::position(std::size_t particle) const {
     return exact_.empty() ? Vec3d(particles_[particle].position) : exact_[particle];
 }
 
-// Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an empty
-// box.
+// Boxes from the deformed positions. A tetrahedron that is off or of zero volume holds nothing and gets an
+// empty box.
 void ReferenceEngine::compute_boxes(Step& step) {
     std::size_t count = 0;
     for (const Body& body : step.bodies) count += body.tets.size();
@@ -157,8 +157,9 @@ void ReferenceEngine::compute_boxes(Step& step) {
     }
 }
 
-// The box of cells of dense storage; its lattice counts from the box's corner.
-Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address) {
+// Makes the cells of dense storage, and a lattice that counts from the corner of their box.
+Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double cell_size,
+                                       DenseAddress& address) {
     Vec3d min = settings.world_min, max = settings.world_max;
     const bool automatic = min.x == 0 && min.y == 0 && min.z == 0 && max.x == 0 && max.y == 0 && max.z == 0;
     if (automatic && !particles_.empty()) {
@@ -191,7 +192,8 @@ Lattice ReferenceEngine::prepare_dense(const ReferenceSettings& settings, double
                    {std::int32_t(nx) - 1, std::int32_t(ny) - 1, std::int32_t(nz) - 1});
 }
 
-// The hash table: prime, and at least twice the number of particles unless the caller says otherwise.
+// Makes the hash table. Its size is a prime, at least twice the number of particles unless the caller sets
+// it.
 Modulus ReferenceEngine::prepare_hashed(const ReferenceSettings& settings) {
     const std::uint64_t wanted =
         settings.hash_table_size != 0 ? settings.hash_table_size : std::uint64_t(particles_.size()) * 2;
@@ -214,8 +216,8 @@ void ReferenceEngine::classify(Step& step, const Lattice& lattice, const Address
     step.counters.fullest_cell = std::max<std::uint64_t>(step.counters.fullest_cell, fullest);
 }
 
-// Marks the particles that do not collide with `body` in skipped_; false: there are none but, perhaps, its
-// own.
+// Marks in skipped_ the particles of other bodies that must not collide with `body`. Returns false when there
+// are none.
 bool ReferenceEngine::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
     const auto is_filtered = [&](std::size_t a) { return a != body && !collide(bodies[a], bodies[body]); };
     bool any = false;
@@ -231,11 +233,11 @@ bool ReferenceEngine::filter_particles(std::span<const Body> bodies, std::uint32
 
 template <class Address>
 void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
-                            const Lattice& lattice, const Address& address) {
+                                  const Lattice& lattice, const Address& address) {
     const std::span<const Tet> tets = step.bodies[body].tets;
     const Particle* particles = particles_.data();
     const std::uint32_t first_own = first_[body];
-    // Particles of the body itself are passed over; where it collides with itself, only the corners are.
+    // The body's own particles are left out, or if it collides with itself, only the tetrahedron's corners.
     const std::uint32_t own_count = step.bodies[body].self_collision ? 0 : step.bodies[body].vertex_count;
     const bool filtered = step.some_filtered && filter_particles(step.bodies, body);
     std::uint64_t visited_cells = 0, visited_entries = 0;
@@ -251,7 +253,8 @@ void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* b
             for (std::uint32_t p = cell.first; p != CellLists::none; p = particles[p].next) {
                 if (p - first_own < own_count || !contains(box, particles[p].position)) continue;
                 if (filtered && skipped_[p]) continue;
-                // In the numbering of this body; beyond it for the particles of others.
+                // The number of the vertex in this body; a particle of another body has a number beyond its
+                // last.
                 const std::uint32_t v = p - first_own;
                 const std::uint32_t* corner = tets[t].v;
                 if (v == corner[0] || v == corner[1] || v == corner[2] || v == corner[3]) continue;
@@ -262,9 +265,9 @@ void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* b
 
         const CellCoord min = lattice.cell_of(box.min), max = lattice.cell_of(box.max);
         if (cells_between(min, max) > double(cells_.occupied().size())) {
-            // More objective voxels than occupied ones (a sliver, a far vertex, tiny cells): go through the
-            // occupied ones instead. The same particles are met, and a tetrahedron never costs more than one
-            // such pass.
+            // There are more objective voxels than occupied ones (a sliver, a far vertex, tiny cells). Going
+            // through the occupied ones instead meets the same particles, and bounds what a tetrahedron
+            // costs.
             for (const Cell& cell : cells_.occupied()) {
                 if (!in_range(cell.at, min, max)) continue;
                 ++visited_cells;
@@ -299,7 +302,7 @@ void ReferenceEngine::narrow_phase(Step& step, std::uint32_t body) {
             locate_in_solid(position(candidate.particle), position(own + tet.v[0]), position(own + tet.v[1]),
                             position(own + tet.v[2]), position(own + tet.v[3]), step.counters.exact_tests);
         if (found == Containment::outside) continue;
-        // The body of the particle: the last one that does not start after it.
+        // The body of the particle is the last one that does not start after it.
         const auto after = std::upper_bound(first_.begin(), first_.end(), candidate.particle);
         const auto body_a = std::uint32_t(after - first_.begin() - 1);
         if (body_a == body && self_filter && self_filter->skips(candidate.particle - first_[body_a], tet)) {

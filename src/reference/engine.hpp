@@ -1,6 +1,6 @@
-// The paper's algorithm as printed (Sect. 3): every particle is classified into a uniform grid, then every
-// tetrahedron tests the particles of the cells that its box covers. Baseline, oracle, and the subject of the
-// paper's cost function.
+// The paper's algorithm as printed (Sect. 3). Every particle is classified into a uniform grid, then every
+// tetrahedron tests the particles in the cells that its box covers. The engine is the baseline and the oracle
+// of the fast one, and what the paper's cost function describes.
 #pragma once
 
 #include "base/scene.hpp"
@@ -22,25 +22,25 @@ struct ReferenceSettings {
     vox_hash hash = VOX_HASH_MIXED;
     std::uint64_t hash_table_size = 0;
     Vec3d world_min{}, world_max{}; // dense storage: both zero means the box of all positions
-    // Instead of the cell size, where there are any: ascending, one grid after the other.
+    // If not empty, these replace the cell size. They ascend, and each has a grid of its own.
     std::span<const CellLevel> levels{};
 };
 
-// The engine's buffers live here from step to step, so that the steady state allocates nothing (dense storage
-// in the box of all positions may, when that box grows).
+// Keeps the engine's buffers from step to step, so that the steady state allocates nothing. The one exception
+// is dense storage in the box of all positions, when that box grows.
 class ReferenceEngine {
 public:
     explicit ReferenceEngine(std::pmr::memory_resource* memory);
 
-    // Appends a Hit for every vertex in a closed tetrahedron that does not own it (all of them: canonical
-    // filtering is contacts.hpp's), in the order of (body_b, tet) level by level. Throws Error(NON_FINITE)
-    // naming mesh and vertex, Error(LIMIT or BUDGET) when the cells do not fit; may be called again after
-    // that. Sets the counters from `cells` to `skipped_degenerate` and the stage times from `bin_ns` to
-    // `narrow_ns`.
+    // Appends a Hit for every vertex in a closed tetrahedron that does not own it, level after level in the
+    // order of (body_b, tet). make_contacts() chooses the canonical ones later. Throws Error(NON_FINITE)
+    // naming mesh and vertex, or Error(LIMIT or BUDGET) when the cells do not fit; the engine can be used
+    // again after that. Sets the counters from `cells` to `skipped_degenerate` and the stage times from
+    // `bin_ns` to `narrow_ns`.
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
-    // Held for the buckets of the cells.
+    // Bytes held by the buckets of the cells.
     std::size_t cell_bytes() const noexcept { return cells_.bucket_bytes(); }
 
 private:
@@ -49,9 +49,9 @@ private:
         std::uint32_t particle;
     };
 
-    struct Step; // arguments of detect() and what is found on the way
+    struct Step; // the arguments of detect(), for its parts
 
-    // Tetrahedra whose boxes have a longest side above the one and of at most the other.
+    // Chooses the tetrahedra whose boxes have a longest side in (above, most].
     struct Sizes {
         double above, most;
     };
@@ -72,12 +72,11 @@ private:
                      const Lattice& lattice, const Address& address);
     void narrow_phase(Step& step, std::uint32_t body);
 
-    std::pmr::vector<Particle> particles_;  // of all bodies, one after the other
-    std::pmr::vector<Vec3d> exact_;         // their positions, where floats are not enough; else empty
-    std::pmr::vector<std::uint32_t> first_; // each body's first particle, and the end
-    std::pmr::vector<std::uint8_t>
-        skipped_;                   // of each particle: filtered from the body whose tetrahedra are at hand
-    std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty when degenerate
+    std::pmr::vector<Particle> particles_;   // of all bodies, one after the other
+    std::pmr::vector<Vec3d> exact_;          // their positions; empty where floats are enough
+    std::pmr::vector<std::uint32_t> first_;  // each body's first particle, and the end
+    std::pmr::vector<std::uint8_t> skipped_; // whether a particle is filtered from the current body
+    std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
     std::size_t candidate_count_ = 0;

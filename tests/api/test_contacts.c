@@ -2,6 +2,7 @@
  * into. The exact sets on random scenes are tests/internal's. */
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -534,6 +535,48 @@ START_TEST(counters_and_profile) {
 }
 END_TEST
 
+/* bin, broad and narrow are sums of the fast engine's stages. The reference engine has these three alone. */
+START_TEST(stage_times_add_up) {
+    body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
+    vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
+    a.flags |= VOX_MESH_SELF_COLLISION;
+    scene s = new_scene(&a, &b, 0.25);
+    (void)stepped(s.grid);
+    vox_profile p = {.struct_size = sizeof p};
+    ck_ok(vox_grid_profile(s.grid, &p));
+    const uint64_t stages =
+        p.stream_ns + p.winding_ns + p.broad_phase_ns + p.windows_ns + p.query_ns + p.decide_ns;
+    if (suite_engine == VOX_ENGINE_REFERENCE) {
+        ck_assert_uint_eq(stages, 0);
+        ck_assert_uint_gt(p.bin_ns, 0);
+    } else {
+        ck_assert_uint_eq(p.bin_ns, p.stream_ns + p.winding_ns + p.windows_ns);
+        ck_assert_uint_eq(p.broad_ns, p.broad_phase_ns + p.query_ns);
+        ck_assert_uint_eq(p.narrow_ns, p.decide_ns);
+        ck_assert_uint_gt(p.stream_ns, 0);
+        ck_assert_uint_gt(p.winding_ns, 0);
+        ck_assert_uint_gt(p.broad_phase_ns, 0);
+        ck_assert_uint_gt(p.windows_ns, 0);
+        ck_assert_uint_gt(p.query_ns, 0);
+        ck_assert_uint_le(stages + p.contacts_ns + p.depth_ns + p.events_ns, p.step_ns);
+    }
+    /* Callers from before the stages: nothing is written past their struct. */
+    vox_profile old;
+    memset(&old, 0xee, sizeof old);
+    old.struct_size = offsetof(vox_profile, stream_ns);
+    ck_ok(vox_grid_profile(s.grid, &old));
+    ck_assert_uint_eq(old.struct_size, offsetof(vox_profile, stream_ns));
+    ck_assert_uint_eq(old.step_ns, p.step_ns);
+    ck_assert_uint_eq(old.bin_ns, p.bin_ns);
+    ck_assert_uint_eq(old.events_ns, p.events_ns);
+    ck_assert_uint_eq(old.stream_ns, 0xeeeeeeeeeeeeeeee);
+    ck_assert_uint_eq(old.decide_ns, 0xeeeeeeeeeeeeeeee);
+    vox_grid_destroy(s.grid);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_test(tests, inside_and_on_the_boundary);
     tcase_add_test(tests, shared_boundary_gives_one_contact);
@@ -552,6 +595,7 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, flat_and_repeated_tets_hold_nothing);
     tcase_add_test(tests, removal_between_steps);
     tcase_add_test(tests, counters_and_profile);
+    tcase_add_test(tests, stage_times_add_up);
 }
 
 static void add_long_tests(TCase* tests) {

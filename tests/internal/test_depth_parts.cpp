@@ -1,4 +1,4 @@
-// The parts of the depth stage by themselves: topology, the walk out of a mesh, normals, closest points.
+// Tests each part of the depth stage by itself: topology, the walk out of a mesh, normals, closest points.
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/normals.hpp"
@@ -53,7 +53,8 @@ std::array<std::uint32_t, 3> facet(const Tet& tet, int left_out) {
 // ---- topology -------------------------------------------------------------------------------------
 
 START_TEST(topology_of_anything) {
-    // Few vertices and many tets: doubled ones, facets of many, vertices named twice, vertices of no tet.
+    // With few vertices and many tets, there are duplicate tets, facets of many tets, tets that name a vertex
+    // twice, and vertices in no tet.
     Random random{std::uint64_t(_i)};
     const std::uint32_t vertices = 4 + random.below(20), tets = random.below(60);
     const Prepared p(soup(random, vertices, tets, [](Random& r) { return r.uniform(0, 1); }));
@@ -108,7 +109,7 @@ START_TEST(no_tets_no_topology) {
     Topology t{memory()};
     make_topology({}, 7, t);
     ck_assert_uint_eq(t.neighbours_of(3).size() + t.ring_of(6).size() + t.triangles.size(), 0);
-    ck_assert(t.neighbours.empty() && t.rings.empty()); // nor any memory
+    ck_assert(t.neighbours.empty() && t.rings.empty()); // and no memory either
     ck_assert_uint_eq(t.across.capacity() + t.triangles.capacity(), 0);
 }
 END_TEST
@@ -119,7 +120,7 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
     return dot(cross(b - a, c - a), d - a);
 }
 
-// A tetrahedron of a lattice that holds p, which is in it.
+// A tetrahedron of the mesh that holds the point. The test fails when there is none.
 std::uint32_t tet_with(const Prepared& p, const Vec3d& point) {
     for (std::uint32_t t = 0; t < p.mesh.tets.size(); ++t) {
         const std::uint32_t* v = p.mesh.tets[t].v;
@@ -134,7 +135,7 @@ std::uint32_t tet_with(const Prepared& p, const Vec3d& point) {
     return 0;
 }
 
-// Where the segment from p, inside the box [0, side]^3, to q outside leaves it.
+// Where the segment from p, inside the box [0, side]^3, to q outside leaves the box.
 Vec3d exit_of_box(const Vec3d& p, const Vec3d& q, double side) {
     double t = 1;
     const double from[3] = {p.x, p.y, p.z}, to[3] = {q.x, q.y, q.z};
@@ -163,14 +164,14 @@ void expect_exit(const Prepared& p, const Vec3d& from, const Vec3d& to, const Ve
 }
 
 START_TEST(walks_leave_where_the_segment_does) {
-    // Inner vertices moved about; some segments are long, some leave at once.
+    // Inner vertices are moved at random. Some segments are long, and some leave at once.
     Random random{std::uint64_t(_i) + 1};
     Mesh box = block(5, 5, 5, {0, 0, 0}, 1);
     for (Vec3f& v : box.positions)
-        if (!outside_box(vec(v) - Vec3d{0.5, 0.5, 0.5}, 4)) // no vertex of the surface
+        if (!outside_box(vec(v) - Vec3d{0.5, 0.5, 0.5}, 4)) // an inner vertex
             v = {v.x + random.uniform(-0.15, 0.15), v.y + random.uniform(-0.15, 0.15),
                  v.z + random.uniform(-0.15, 0.15)};
-    if (_i % 2) // all wound the other way, or every other
+    if (_i % 2) // wind all the other way, or every third
         for (std::size_t t = 0; t < box.tets.size(); t += std::size_t(_i % 4))
             std::swap(box.tets[t].v[1], box.tets[t].v[2]);
     const Prepared p(std::move(box));
@@ -192,7 +193,7 @@ START_TEST(walks_along_facets_edges_and_through_vertices) {
         for (int x = -8; x <= 20; x += 4)
             for (int y = -8; y <= 20; y += 4)
                 for (int z = -8; z <= 20; z += 4) {
-                    // Through the lattice point (x, y, z) / 4, and as far again.
+                    // Through the lattice point (x, y, z) / 4, and eight times as far.
                     const Vec3d through{x / 4.0, y / 4.0, z / 4.0};
                     const Vec3d to = start + 8.0 * (through - start);
                     if (!outside_box(to, 3)) continue;
@@ -216,8 +217,8 @@ START_TEST(walks_that_lead_nowhere) {
 END_TEST
 
 START_TEST(walks_through_inverted_tets) {
-    // One inner vertex is pulled far out of its star: lines through the fold still find the surface, or say
-    // no.
+    // One inner vertex is pulled far out of its star. Walks through the fold still find the surface, or
+    // return false.
     for (int i = 0; i < 200; ++i) {
         Random random{std::uint64_t(i) + 1};
         Mesh box = block(4, 4, 4, {0, 0, 0}, 1);
@@ -237,7 +238,7 @@ START_TEST(walks_through_inverted_tets) {
 END_TEST
 
 START_TEST(walks_do_not_go_round) {
-    // All five tetrahedra of five vertices: every facet has one on either side of it, so there is no surface,
+    // All five tetrahedra of five vertices. Every facet has one on either side of it, so there is no surface,
     // and a line that leaves one of them is in another, for ever.
     Mesh box = block(12, 12, 12, {0, 0, 0}, 1);
     const auto first = static_cast<std::uint32_t>(box.positions.size());
@@ -263,7 +264,8 @@ END_TEST
 // ---- normals --------------------------------------------------------------------------------------
 
 START_TEST(normals_on_a_sphere) {
-    // A lattice cube pushed onto the unit ball: at corners the normal is exact, between them nearly.
+    // A lattice cube is pushed onto the unit ball. Normals are exact at its corners, and nearly exact between
+    // them.
     Mesh ball = block(12, 12, 12, {-1, -1, -1}, 2.0 / 12);
     for (Vec3f& v : ball.positions) {
         const double most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), l = length(vec(v));
@@ -280,7 +282,7 @@ START_TEST(normals_on_a_sphere) {
             const Vec3d at = p.at(point), normal = normals.at(point, at),
                         inward = normals.at(point, -1.0 * at);
             ck_assert(std::abs(length(normal) - 1) < 1e-12);
-            ck_assert(length(normal + inward) == 0); // the other side's
+            ck_assert(length(normal + inward) == 0); // of the other side
             ck_assert_msg(length(normal - normalised(at)) < (i < 3 ? 0.01 : 0.02), "corner %d: %g off", i,
                           length(normal - normalised(at)));
         }
@@ -310,7 +312,7 @@ START_TEST(normals_of_a_tetrahedron_are_those_of_its_faces) {
         Normals normals(memory());
         normals.begin(p.solid());
         for (std::uint32_t t = 0; t < 4; ++t) {
-            // The upper faces of a flat one are nearly one face.
+            // The upper faces of a flat tetrahedron are nearly one face.
             if (std::abs(height) < 1 && p.topology.triangles[t].apex != 3) continue;
             const SurfacePoint point{t, {0.2, 0.1, 0.7}, {0, 0, 0}};
             const std::uint32_t* v = p.topology.triangles[t].v;
@@ -336,7 +338,8 @@ START_TEST(closest_of_all_triangles) {
     for (int i = 0; i < 200; ++i) {
         const double reach = i % 4 == 0 ? 50 : 3;
         Vec3d at{random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)};
-        if (i % 5 == 0) at = p.at(random.below(std::uint32_t(p.mesh.positions.size()))); // many equally far
+        if (i % 5 == 0)
+            at = p.at(random.below(std::uint32_t(p.mesh.positions.size()))); // many triangles are equally far
         const Fold fold{random.below(std::uint32_t(p.mesh.positions.size())), 0, false};
         for (const Fold* limit : {static_cast<const Fold*>(nullptr), &fold}) {
             Closest found{};
@@ -363,8 +366,8 @@ START_TEST(closest_of_all_triangles) {
 END_TEST
 
 START_TEST(closest_on_the_fold_that_is_entered) {
-    // Two blocks of one mesh, a little apart. For a point of the upper one that is said to be in the lower
-    // one, only the surface of the lower one counts, though that of its own is closer.
+    // Two blocks of one mesh that overlap a little. For a vertex of the upper block in a tetrahedron of the
+    // lower one, only the surface of the lower one counts, though that of its own block is closer.
     Mesh mesh = block(3, 3, 3, {0, 0, 0}, 1);
     const Mesh upper = block(3, 3, 3, {0.1, 0.2, 2.6}, 1);
     const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
@@ -374,7 +377,7 @@ START_TEST(closest_on_the_fold_that_is_entered) {
     }
     mesh.positions.insert(mesh.positions.end(), upper.positions.begin(), upper.positions.end());
     const Prepared p(std::move(mesh));
-    const std::uint32_t vertex = shift + 5; // of the upper one's underside, not at its rim
+    const std::uint32_t vertex = shift + 5; // on the underside of the upper block, not at its rim
     const Vec3d at = p.at(vertex);
     SurfaceTree tree(memory());
     tree.build(p.solid());

@@ -1,5 +1,5 @@
-// The predicates against GMP: every sign, every containment, every weight, on points of every kind, floats
-// and doubles.
+// Compares every sign, containment and weight of the predicates with those that GMP gives, on points of many
+// kinds, floats and doubles.
 #include "exact/predicates.hpp"
 #include "internal/random.hpp"
 #include "support/oracle.h"
@@ -32,7 +32,9 @@ struct Case {
 double unit_range(Random& r) { return r.uniform(-1, 1); }
 double small_grid(Random& r) { return r.below(4); } // most determinants are 0
 double fine_grid(Random& r) { return r.below(257) / 64.0 - 2.0; }
-double far_away(Random& r) { return 1e6f + r.uniform(-1, 1); } // few bits are left: near-degenerate
+double far_away(Random& r) {
+    return 1e6f + r.uniform(-1, 1);
+} // few bits are left, so all is nearly degenerate
 double huge(Random& r) { return r.uniform(-1e30, 1e30); }
 double largest(Random& r) { return r.below(2) ? FLT_MAX : r.below(2) ? -FLT_MAX : r.uniform(-1, 1); }
 double denormal(Random& r) { return r.below(9) * double{FLT_TRUE_MIN}; }
@@ -52,7 +54,7 @@ double one_huge_among_tiny_d(Random& r) { return r.below(8) == 0 ? 3e38 : betwee
 double exponents_apart_d(Random& r) {
     return std::ldexp(between(r, -1, 1), static_cast<int>(r.below(1200)) - 1074);
 }
-// Products of three differences are near the least of doubles, and around where they start to underflow.
+// Products of three differences are near the smallest doubles, around where they start to underflow.
 double vanishing_d(Random& r) { return std::ldexp(between(r, -1, 1), -358 + static_cast<int>(r.below(20))); }
 double near_bound_d(Random& r) {
     return std::ldexp(static_cast<double>(r.below(5)), -242 - static_cast<int>(r.below(60)));
@@ -99,8 +101,8 @@ Case independent_points(Random& r, Coordinate coordinate) {
     return c;
 }
 
-// A point rounded from a combination of some of the corners: in, on, or an ulp off the tetrahedron or its
-// parts.
+// A point rounded from a combination of some of the corners. It is in or on the tetrahedron or one of its
+// parts, or off by an ulp.
 Case point_on_part(Random& r, Coordinate coordinate) {
     Case c = independent_points(r, coordinate);
     const std::uint32_t parts = 1 + r.below(4);
@@ -115,7 +117,8 @@ Case point_on_part(Random& r, Coordinate coordinate) {
     return c;
 }
 
-// The fourth corner is rounded from the plane of the others: a sliver of a few ulps, or flat.
+// The fourth corner is rounded from the plane of the others, so the tetrahedron is flat, or a sliver of a few
+// ulps.
 Case flattened(Random& r, Coordinate coordinate) {
     Case c = point_on_part(r, coordinate);
     const double s = r.unit(), t = r.unit() * (1 - s);
@@ -181,7 +184,7 @@ START_TEST(orientation_has_the_exact_sign) {
             expected);
         ++seen[expected + 1];
     });
-    for (const int count : seen) ck_assert_int_gt(count, 10000); // the cases are of every sign
+    for (const int count : seen) ck_assert_int_gt(count, 10000); // the cases have every sign
     ck_assert_uint_gt(exact_tests, 1000);                        // and the exact path was taken
 }
 END_TEST

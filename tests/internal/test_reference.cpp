@@ -1,5 +1,5 @@
-// The reference engine against brute force in exact arithmetic, on scenes of every kind, for all storages and
-// for cell sizes from absurdly small to absurdly large.
+// Compares the reference engine with brute force in exact arithmetic, on scenes of every kind, for all
+// storages and for cell sizes from absurdly small to absurdly large.
 #include "base/error.hpp"
 #include "grid/contacts.hpp"
 #include "internal/counting_memory.hpp"
@@ -38,7 +38,7 @@ struct Storage {
     vox_storage storage;
     vox_hash hash;
     std::uint64_t table_size;
-    bool small_world; // dense storage in a box that much of the scene lies outside of
+    bool small_world; // dense storage in a box that leaves out much of the scene
 };
 
 constexpr Storage storages[] = {
@@ -48,7 +48,7 @@ constexpr Storage storages[] = {
     {VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, true},
 };
 
-// In mean edges.
+// In units of the mean edge.
 constexpr double cell_sizes[] = {0.2, 0.5, 1, 1.5, 3, 8, 1e-6, 1e6};
 
 ReferenceSettings settings_of(const Storage& storage, double cell_size) {
@@ -60,7 +60,7 @@ ReferenceSettings settings_of(const Storage& storage, double cell_size) {
     return settings;
 }
 
-// Cells that dense storage needs for the box of all positions.
+// The number of cells that dense storage needs for the box of all positions.
 double dense_cells(const Scene& scene, double cell_size) {
     double count = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -92,7 +92,7 @@ void check_contacts(const std::pmr::vector<vox_contact>& found, const oracle_con
     }
 }
 
-// Every storage and cell size gives the oracle's contacts. Returns their number.
+// Checks that every storage and cell size gives the oracle's contacts, and returns their number.
 std::size_t check_scene(Engine& engine, const Scene& scene) {
     const std::vector<oracle_mesh> meshes = oracle_meshes(scene);
     const auto mesh_count = static_cast<std::uint32_t>(meshes.size());
@@ -111,7 +111,7 @@ std::size_t check_scene(Engine& engine, const Scene& scene) {
             try {
                 engine.step(scene, settings);
             } catch (const Error& error) {
-                // Only dense storage may refuse, and only when its cells are too many.
+                // Only dense storage may refuse, and only when there are too many cells.
                 ck_assert(storage.storage == VOX_STORAGE_DENSE && !storage.small_world);
                 ck_assert_double_gt(dense_cells(scene, settings.cell_size), 1e6);
                 ck_assert(error.result() == VOX_ERROR_LIMIT || error.result() == VOX_ERROR_BUDGET);
@@ -183,7 +183,8 @@ START_TEST(jittered_blocks_in_all_units) {
             contacts += check_scene(engine, mapped(scene, [=](const Vec3f& p) {
                                         return Vec3f{p.x * scale, p.y * scale, p.z * scale};
                                     }));
-        for (const float far : {1e6f, -1e6f}) // few bits are left: vertices coincide, tetrahedra are flat
+        for (const float far :
+             {1e6f, -1e6f}) // few bits are left, so vertices coincide and tetrahedra are flat
             contacts += check_scene(engine, mapped(scene, [=](const Vec3f& p) {
                                         return Vec3f{p.x + far, p.y - far, p.z + far};
                                     }));
@@ -216,8 +217,8 @@ START_TEST(coincident_bodies_and_duplicate_tets) {
     Scene scene{block(2, 2, 2, {0, 0, 0}, 1), block(2, 2, 2, {0, 0, 0}, 1)};
     scene[0].tets.insert(scene[0].tets.end(), scene[1].tets.begin(), scene[1].tets.end());
     scene[0].self_collision = true;
-    // Every vertex of each body lies on corners of the other: one contact each. Within a body, all tetrahedra
-    // that touch a vertex own it.
+    // Every vertex of each body is at a corner of the other, which gives one contact each. Within a body, all
+    // tetrahedra that touch a vertex own it.
     ck_assert_uint_eq(check_scene(engine, scene), 2 * 27);
 }
 END_TEST
@@ -230,7 +231,8 @@ START_TEST(shared_parts_give_one_contact) {
         scene[1].positions = {p};
         ck_assert_uint_eq(check_scene(engine, scene), 1);
     }
-    // Interior to a tetrahedron and on a face of another: the interior ones alone are reported.
+    // The vertex is in the interior of two new tetrahedra and on a face of old ones. Only the new ones are
+    // reported.
     scene[1].positions = {on_face};
     scene[0].positions.insert(scene[0].positions.end(), {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 8}});
     scene[0].tets.push_back({{27, 28, 29, 30}});
@@ -245,7 +247,7 @@ START_TEST(flat_tets_hold_nothing) {
     Engine engine;
     Scene scene = two_blocks({0.5, 0.5, 0.5});
     for (Vec3f& p : scene[0].positions) p.z = 0.5f;
-    check_scene(engine, scene); // the flat body's vertices still lie in the other one
+    check_scene(engine, scene); // the flat body's vertices are still in the other one
     ck_assert_uint_gt(engine.contacts.size(), 0);
     for (const vox_contact& contact : engine.contacts) ck_assert_uint_eq(contact.mesh_b, 1);
     ck_assert_uint_eq(engine.counters.skipped_degenerate, 48);
@@ -301,7 +303,7 @@ END_TEST
 
 // ---- properties -----------------------------------------------------------------------------------
 
-// What does not change when a scene is moved, scaled, or turned inside out.
+// The part of the hits that does not change when a scene is moved, scaled, or turned inside out.
 std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, bool>>
 sorted_hits(Engine& engine, const Scene& scene, double cell_size) {
     engine.detect(scene, settings_of(storages[0], cell_size));
@@ -325,7 +327,7 @@ START_TEST(moving_and_scaling_change_nothing) {
         const Scene scene = quantised_scene(random);
         const auto expected = sorted_hits(engine, scene, 0.7);
         ck_assert_uint_gt(expected.size(), 0);
-        for (const float d : {1.0f, -1024.0f, 65536.0f}) // exact: the coordinates are multiples of 1/4
+        for (const float d : {1.0f, -1024.0f, 65536.0f}) // exact, because coordinates are multiples of 1/4
             ck_assert(sorted_hits(engine,
                                   mapped(scene,
                                          [=](const Vec3f& p) {
@@ -380,9 +382,9 @@ END_TEST
 // ---- counters, errors, memory ---------------------------------------------------------------------
 
 START_TEST(counters_of_a_scene_counted_by_hand) {
-    // Cells of size 1. The tetrahedron's box is [0.5, 2.5]^3: 27 objective voxels. Points: two in one of
-    // them, of which one is outside the box; one in another, inside the box but outside the tetrahedron; one
-    // elsewhere.
+    // Cells have size 1. The tetrahedron's box is [0.5, 2.5]^3, which gives 27 objective voxels. Two points
+    // are in one of these, and one of the two is outside the box. A third point is in another voxel, inside
+    // the box but outside the tetrahedron. The last one is elsewhere.
     const Scene scene{
         Mesh{{{0.5f, 0.5f, 0.5f}, {2.5f, 0.5f, 0.5f}, {0.5f, 2.5f, 0.5f}, {0.5f, 0.5f, 2.5f}},
              {{{0, 1, 2, 3}}},
@@ -393,17 +395,17 @@ START_TEST(counters_of_a_scene_counted_by_hand) {
         engine.step(scene, {1, VOX_STORAGE_HASHED, hash, 0, {}, {}});
         const vox_counters& c = engine.counters;
         ck_assert_uint_eq(c.entries, 8);
-        ck_assert_uint_eq(c.cells,
-                          6); // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2), (-5,-5,-5) one
+        // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2) and (-5,-5,-5) hold one each.
+        ck_assert_uint_eq(c.cells, 6);
         ck_assert_uint_eq(c.fullest_cell, 3);
-        ck_assert_uint_eq(c.visited_cells,
-                          5); // 27 voxels are more than the 6 occupied: only these are visited
+        // 27 voxels are more than the 6 occupied ones, so the occupied ones in the box are visited instead.
+        ck_assert_uint_eq(c.visited_cells, 5);
         ck_assert_uint_eq(c.visited_entries, 7);
         ck_assert_uint_eq(c.candidates, 2);
         ck_assert_uint_eq(c.exact_tests, 0);
         ck_assert_uint_eq(engine.contacts.size(), 1);
     }
-    // Two cells an axis: the far point has one for itself, all others share one.
+    // With two cells an axis, the far point has a cell for itself, and all others share one.
     engine.step(scene, {5, VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, {-5, -5, -5}, {5, 5, 5}});
     ck_assert_uint_eq(engine.counters.cells, 2);
     ck_assert_uint_eq(engine.counters.visited_cells, 1);
@@ -454,7 +456,7 @@ START_TEST(non_finite_positions_are_named) {
                     ck_assert_int_eq(error.result(), VOX_ERROR_NON_FINITE);
                     ck_assert_ptr_nonnull(std::strstr(error.what(), "mesh 1, vertex 17: position ("));
                 }
-                engine.step(scene, settings_of(storage, 1)); // usable again
+                engine.step(scene, settings_of(storage, 1)); // the engine is usable again
                 ck_assert_uint_eq(engine.contacts.size(), expected);
             }
         }

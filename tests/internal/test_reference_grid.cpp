@@ -1,4 +1,4 @@
-// The arithmetic of the reference engine's grid: which cell a position is in, which bucket a cell.
+// Tests the arithmetic of the reference engine's grid, from positions to cells and from cells to buckets.
 #include "internal/random.hpp"
 #include "reference/cell_lists.hpp"
 #include "support/suite.h"

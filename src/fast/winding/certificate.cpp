@@ -1,20 +1,19 @@
 // Where all tets are positive, the number of tets that cover a point off the facets is the winding number of
 // the boundary around it (the degree of the map; e.g. A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust
-// inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013). Say a vertex v lies in a tet
-// that does not own it. Then next to v are points that this tet covers and that v's own tets cover as well,
-// so some winding number next to v is above one, or else v and that tet meet at the boundary only (below). So
-// a region where no winding number exceeds one has no such vertex.
+// inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013). Suppose that a vertex v is in a tet
+// that does not own it. Then next to v there are points that both this tet and v's own tets cover, so some winding
+// number next to v is above one; or v and that tet meet at the boundary only (see below). So a region where no winding
+// number exceeds one has no such vertex.
 //
-// Space is cut into cells. A cell that no boundary triangle touches has one winding number, shared by the
-// untouched cells next to it: 0 outside, else counted at one point. A cell that is touched is safe if there
-// is a direction d such that the normals of all triangles there have a positive product with d and the cells
-// one gets into going against d are safe: along d the winding number only falls, from one at most. Two pieces
-// of boundary that touch each other from outside face opposite ways, so no d suits both: exact contact
-// without overlap is not certified away. Neither is a vertex of two pieces that share a d: both have their
-// inside against d there, and overlap.
+// Space is cut into cells. A cell that no boundary triangle touches has one winding number, the same as the
+// untouched cells next to it: 0 outside, else it is counted at one point. A touched cell is safe if there is a direction
+// d such that the normals of all its triangles have a positive product with d, and the cells that are entered from it
+// by going against d are safe: along d the winding number only falls, from one at most. Two pieces of boundary that
+// touch each other from outside face opposite ways, so no d suits both, and exact contact without overlap is not
+// certified away. Neither is a vertex where two pieces that share a d meet: the inside of both is against d there, so
+// they overlap.
 //
-// Tets that are not positive, or not surely so, make every cell of their box unsafe; they count neither way
-// elsewhere.
+// Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count elsewhere.
 #include "fast/winding/certificate.hpp"
 #include "base/simd.hpp"
 
@@ -37,7 +36,7 @@
 #define VOX_FAST_WINDING_ONCE
 namespace vox::fast {
 
-// Some triangles of a surface.
+// Some triangles of a boundary.
 struct TriangleBatch {
     static constexpr std::size_t size = 64;
     alignas(64) float corner[3][3][size];   // [corner][axis]
@@ -53,7 +52,7 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Corners of `count` triangles; of so many that a register is full, the last one again and again.
+// Loads the corners of `count` triangles, and repeats the last one until a register is full.
 void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_vertex,
                    const std::array<std::uint32_t, 3>* HWY_RESTRICT triangles, std::size_t count,
                    TriangleBatch& batch) {
@@ -75,11 +74,10 @@ void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_verte
     }
 }
 
-// The directions that the normals of triangles surely have a positive product with. The components of a
-// normal are off by less than 9 u L^2, where L is the largest difference of coordinates, and sums of three of
-// them by less than 64 u L^2. Where coordinates are rounded and a difference is off by at most e, a component
-// is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e). Writes those sets, and the cells that
-// meet the boxes.
+// Writes the set of directions that the normal of each triangle certainly has a positive product with, and the cells
+// that meet its box. The components of a normal are off by less than 9 u L^2, where L is the largest difference of
+// coordinates, and sums of three of them by less than 64 u L^2. Where coordinates are rounded and a difference is off
+// by at most e, a component is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e).
 void Facing(TriangleBatch& batch, std::size_t count, const WindowLattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
@@ -163,14 +161,14 @@ public:
 
     bool run() {
         const bool certified = certify();
-        if (!oriented_) body_.turning.is_known = false; // no use for it
+        if (!oriented_) body_.orientation.is_known = false; // it was not used, so it is not worth keeping
         return certified;
     }
 
 private:
     bool certify() {
         const std::size_t most_cells = std::min<std::size_t>(
-            2 * (body_.surface.triangles.size() + body_.tiles.vertices.size()) + 64, 1u << 31);
+            2 * (body_.boundary.triangles.size() + body_.tiles.vertices.size()) + 64, 1u << 31);
         Box around = body_.box;
         for (int a = 0; a < 3; ++a) {
             around.lo[a] -= static_cast<float>(1.5 * body_.cell_size);
@@ -182,12 +180,15 @@ private:
         nx_ = l.cells[0];
         nxy_ = nx_ * l.cells[1];
         cells_ = l.count();
-        work_left_ = 8 * cells_ + 16 * body_.surface.triangles.size();
+        // Visits of cells by large triangles and boxes. More than a few for each cell and each triangle means that the
+        // lattice is too fine for them, and certifying takes longer than testing all vertices.
+        work_left_ = 8 * cells_ + 16 * body_.boundary.triangles.size();
         out_.directions.assign(cells_, untouched);
         if (!mark_surface()) return false;
         // The corner cell reaches out to infinity: nothing there, unless rounding ate the margin.
         if (out_.directions[0] != untouched) return false;
-        // First as if all that is not outside were covered once: cheap, and tells whether it is worth more.
+        // First as if all untouched cells that are not outside were covered once. This is cheap, and decides whether
+        // more is worth doing.
         judge(false);
         if (!worthwhile()) return false;
         out_.bad.resize(body_.tiles.tiles.size());
@@ -222,43 +223,44 @@ private:
         return corners;
     }
 
-    // Looks at the tets that may have turned over.
+    // Finds the tets that are not certainly positive, among those that may have turned over.
     void orient_tets() {
         const Tiles& tiles = body_.tiles;
-        OrientationCache& turning = body_.turning;
+        OrientationCache& cache = body_.orientation;
         const std::uint32_t supers = tiles.super_tile_count();
-        const auto upright = static_cast<std::uint32_t>(
-            std::count(body_.super_upright, body_.super_upright + supers, std::uint8_t{1}));
-        measure_ = wants_reference(turning, supers - upright, supers);
+        const auto positive = static_cast<std::uint32_t>(
+            std::count(body_.super_positive, body_.super_positive + supers, std::uint8_t{1}));
+        measure_ = wants_reference(cache, supers - positive, supers);
         if (measure_) {
             const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
-            turning.is_known = false;
-            turning.reference.assign(body_.positions, body_.positions + coordinates);
-            turning.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
-            turning.slack.resize(supers);
+            cache.is_known = false;
+            cache.reference.assign(body_.positions, body_.positions + coordinates);
+            cache.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
+            cache.slack.resize(supers);
         }
         const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t s = begin; s < end; ++s) {
                 const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
                 if (measure_)
-                    turning.slack[s] =
-                        orient_and_measure(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                    cache.slack[s] =
+                        orient_and_measure(tiles, body_.boundary, body_.positions, body_.rounded, first, last,
                                            body_.tile_boxes, body_.tile_known, out_.bad.data()) -
                         rounding;
-                else if (!body_.super_upright[s])
-                    orient(tiles, body_.surface, body_.positions, body_.rounded, first, last,
+                else if (!body_.super_positive[s])
+                    orient(tiles, body_.boundary, body_.positions, body_.rounded, first, last,
                            body_.tile_boxes, body_.tile_known, out_.bad.data());
             }
         };
+        constexpr std::size_t task_supers = 16; // are worth a task: by bench_stages, 20 microseconds
         if (body_.workers)
-            body_.workers->for_ranges(supers, 16, part);
+            body_.workers->for_ranges(supers, task_supers, part);
         else
             part(0, supers, 0);
-        if (measure_) turning.is_known = true;
+        if (measure_) cache.is_known = true;
     }
 
-    // Keeps of the sets of some cells only `set`; false when that becomes too much work.
+    // Intersects the sets of some cells with `set`. False when that becomes too much work.
     bool mark(const std::uint32_t (&first)[3], const std::uint32_t (&more)[3], std::uint32_t set) {
         std::uint32_t* sets =
             out_.directions.data() + std::size_t{first[2]} * nxy_ + std::size_t{first[1]} * nx_ + first[0];
@@ -277,7 +279,7 @@ private:
         return true;
     }
 
-    // Nothing is safe where the box is.
+    // Makes all cells of the box unsafe. False as mark().
     bool mark_unsafe(const Box& box) {
         const WindowLattice& l = out_.lattice;
         std::uint32_t first[3], more[3];
@@ -295,7 +297,7 @@ private:
         for (int a = 0; a < 3 && body_.rounded; ++a)
             e_of_rounding = std::max({e_of_rounding, -body_.box.lo[a] * (1.125f * 0x1p-23f),
                                       body_.box.hi[a] * (1.125f * 0x1p-23f)});
-        const std::span<const std::array<std::uint32_t, 3>> triangles = body_.surface.triangles;
+        const std::span<const std::array<std::uint32_t, 3>> triangles = body_.boundary.triangles;
         TriangleBatch batch;
         for (std::size_t first = 0; first < triangles.size(); first += TriangleBatch::size) {
             const std::size_t count = std::min(TriangleBatch::size, triangles.size() - first);
@@ -309,8 +311,8 @@ private:
         return true;
     }
 
-    // The untouched cells: those outside are safe; the others too, or, if they are to be counted, by the
-    // winding number at one point of each component. Then the touched ones.
+    // Decides which cells are safe. Untouched cells outside are. The other untouched ones are assumed to be or, with
+    // `count`, decided by the winding number at one point of each component. Then the touched ones follow.
     void judge(bool count) {
         const Components& components = find_components();
         bool safe[most_components + 1];
@@ -323,8 +325,8 @@ private:
         judge_touched();
     }
 
-    // The first of them is outside. Each of the others may have to be looked at among all tets: no more than
-    // a few count.
+    // Finds the components of untouched cells. The first is outside. For each of the others the tets around a point may
+    // have to be counted, so only the first few are used.
     const Components& find_components() {
         Components& components = out_.components;
         components.find(out_.directions.data(), untouched, out_.lattice.cells);
@@ -338,7 +340,9 @@ private:
         return components;
     }
 
-    // A thin body has surface everywhere, facing both ways; so has one that lies on itself.
+    // A thin body has boundary everywhere, facing both ways, and so has one that lies on itself: most of it stays
+    // uncertified. bench/README.md has what certifying such bodies costs ("Culling by winding numbers also for bodies
+    // that are mostly surface").
     bool worthwhile() const {
         std::size_t inside = inside_;
         for (const std::uint32_t set : out_.directions) inside += set != untouched;
@@ -349,14 +353,14 @@ private:
         const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            if (!measure_ && body_.super_upright[s]) continue; // there are none
+            if (!measure_ && body_.super_positive[s]) continue; // it has none
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                     const Vertices corners =
                         corners_of(t, static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left)));
                     int sign = orientation(exact(corners[0]), exact(corners[1]), exact(corners[2]),
                                            exact(corners[3]), exact_tests_);
-                    if (body_.surface.mirrored[t] & (left & (~left + 1))) sign = -sign;
+                    if (body_.boundary.mirrored[t] & (left & (~left + 1))) sign = -sign;
                     if (sign > 0) continue;
                     any = true;
                     Box box = empty_box;
@@ -364,6 +368,7 @@ private:
                         const float* p = body_.positions + std::size_t{v} * 3;
                         add(box, {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}});
                     }
+                    // With that many, little of the body would be certified.
                     if (++bad > tiles.tets.size() / 16 || !mark_unsafe(box)) return false;
                 }
         }
@@ -410,9 +415,9 @@ private:
         return covering <= 1;
     }
 
-    // Touched cells, again and again while there is one more that is safe.
+    // Decides touched cells, in passes over the unsafe ones until a pass finds none that is safe.
     void judge_touched() {
-        // enterable[n]: the directions that are open when the neighbours n (bits x-, x+, y-, y+, z-, z+) are
+        // enterable[n] is the set of directions that are open when the neighbours n (bits x-, x+, y-, y+, z-, z+) are
         // safe.
         std::uint32_t enterable[64];
         for (std::uint32_t n = 0; n < 64; ++n) {
@@ -460,7 +465,7 @@ private:
         }
     }
 
-    // At the far end of a row the next cell is the first of another row: one more that has to be certified.
+    // At the far end of a row the next cell is the first of another row: one condition too many, which does no harm.
     void find_with_next() {
         out_.complete = out_.touched.empty();
         std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
@@ -469,7 +474,7 @@ private:
             for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
-    static constexpr std::size_t most_components = 64;
+    static constexpr std::size_t most_components = 64; // whose cells can be certified; a body with more is no solid
 
     const WindingBody& body_;
     Certificate& out_;

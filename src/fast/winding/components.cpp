@@ -4,17 +4,18 @@
 
 namespace vox::fast {
 
-// While runs are joined, `component` is that of another run of the same component, with a lower number, or of
-// the run itself.
+// While runs are joined, `component` is the index of another run of the same component, a lower one, or of the run
+// itself.
 std::uint32_t Components::root(std::uint32_t run) noexcept {
     while (runs[run].component != run) {
-        runs[run].component = runs[runs[run].component].component; // half the way for the next one
+        runs[run].component = runs[runs[run].component].component; // halves the path for the next search
         run = runs[run].component;
     }
     return run;
 }
 
-// Joins the runs of a row with those of another that they meet, whose cells are `cells_between` before.
+// Joins the runs of a row with those runs of another one that they touch; its cells have indices lower by
+// `cells_between`.
 void Components::join(std::uint32_t row, std::uint32_t other, std::uint32_t cells_between) noexcept {
     std::uint32_t i = rows[row], j = rows[other];
     while (i < runs.size() && j < rows[other + 1]) {
@@ -48,7 +49,7 @@ void Components::find(const std::uint32_t* values, std::uint32_t wanted, const s
         if (row >= ny) join(row, row - ny, nx * ny);
         rows.push_back(static_cast<std::uint32_t>(runs.size()));
     }
-    // A root comes before all other runs of its component, so it has its number when they ask for it.
+    // A root comes before all other runs of its component, so its number is set before theirs.
     count = 0;
     for (std::uint32_t i = 0; i < runs.size(); ++i)
         runs[i].component = runs[i].component == i ? count++ : runs[runs[i].component].component;

@@ -17,11 +17,10 @@ namespace HWY_NAMESPACE {
 
 HWY_INLINE V SquaredLength(const V* a) { return Dot(a, a); }
 
-// A lower bound on the widths of tets with edges e1, e2, e3 at the first corner, the longest difference of
-// coordinates in which is `longest`; `volume` is six times their volume, less what it may be off by. The
-// width is that volume over the longest of seven cross products: of the edges of each facet, and of each two
-// opposite edges. A cross product is off by less than 16 u L^2. Zero where squares would leave the range of
-// floats.
+// A lower bound on the widths of tets with edges e1, e2, e3 at the first corner. `longest` is the largest difference of
+// coordinates of these; `volume` is six times the volume, less what it may be off by. The width is that volume over the
+// longest of seven cross products: of the edges of each facet, and of each two opposite edges. A cross product is off
+// by less than 16 u L^2. The bound is zero where squares would leave the range of floats.
 HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longest, V volume) {
     const Floats d;
     V n12[3], n31[3], s[3];
@@ -44,7 +43,7 @@ HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longes
 }
 
 template <bool kMeasure>
-HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions,
+HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions,
                              bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
                              std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
@@ -60,7 +59,7 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& surface, const 
         const std::uint8_t* corners = tiles.corners.data() + std::size_t{t} * 4 * tile_size;
         const Table table[3] = {Table(vertices.x), Table(vertices.y), Table(vertices.z)};
         const FilterConstants constants = MakeConstants(boxes[t], rounded);
-        const std::uint64_t counted = tile.all_tets() & ~surface.ignored.data()[t];
+        const std::uint64_t counted = tile.all_tets() & ~boundary.ignored.data()[t];
         std::uint64_t not_positive = 0, not_negative = 0;
         for (std::uint32_t i = 0; i < tile.tet_count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
             const auto ia = hn::PromoteTo(du, hn::LoadU(db, corners + i));
@@ -73,7 +72,7 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& surface, const 
                 e1[a] = hn::Sub(vb, va);
                 e2[a] = hn::Sub(vc, va);
                 e3[a] = hn::Sub(vd, va);
-                // The filter's box: here it is enough that no edge at the first corner is longer.
+                // In place of the sides of the filter's box: no edge at the first corner is longer.
                 side[a] = hn::Max(hn::Max(hn::Abs(e1[a]), hn::Abs(e2[a])), hn::Abs(e3[a]));
                 bound = hn::Mul(bound, side[a]);
             }
@@ -94,23 +93,23 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& surface, const 
                 bits[byte] = static_cast<std::uint8_t>(counted >> i >> 8 * byte);
             least = hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, float_infinity)));
         }
-        const std::uint64_t mirrored = surface.mirrored.data()[t];
+        const std::uint64_t mirrored = boundary.mirrored.data()[t];
         bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & counted;
         any_bad |= bad[t];
     }
     return any_bad ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-void Orient(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions, bool rounded,
+void Orient(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
-    (void)OrientTiles<false>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+    (void)OrientTiles<false>(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
 }
 
-float OrientAndMeasure(const Tiles& tiles, const Boundary& surface, const float* HWY_RESTRICT positions,
+float OrientAndMeasure(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions,
                        bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
                        std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
-    return OrientTiles<true>(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+    return OrientTiles<true>(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
 }
 
 } // namespace HWY_NAMESPACE
@@ -122,8 +121,8 @@ namespace vox::fast {
 
 namespace {
 
-// The diagonal of a box around differences of floats, or more. Such a difference x - y is off by at most u |x
-// - y|; so is what is computed here, a few times; and underflow takes away less than what is added.
+// An upper bound on the diagonal of a box around differences of floats. Such a difference x - y is off by at most
+// u |x - y|, and so is, a few times, what is computed here; underflow takes away less than what is added.
 float diagonal(const Box& moves) noexcept {
     float square = 0;
     for (int a = 0; a < 3; ++a) {
@@ -153,9 +152,9 @@ Box box_of(std::span<const std::uint32_t> items, const Box* boxes) noexcept {
 
 } // namespace
 
-// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a
-// coordinate: two of them, the extents of tets, and so widths, by 2 sqrt(3) r; the sides of boxes around
-// displacements by 2 r for either end, their diagonals by 2 sqrt(3) r.
+// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a coordinate. So
+// the extents of tets, and their widths, are off by 2 sqrt(3) r for two of them; sides of boxes around displacements by
+// 2 r at either end, and their diagonals by 2 sqrt(3) r.
 float slack_of_rounding(const Box& box) noexcept {
     float largest = 0;
     for (int a = 0; a < 3; ++a) largest = std::max({largest, -box.lo[a], box.hi[a]});
@@ -178,7 +177,7 @@ void track_orientation(const Tiles& tiles, const OrientationCache& cache, const 
 }
 
 void track_orientation(Step& step, StepBoxes& boxes) {
-    constexpr std::size_t task_tiles = 256; // as in the broad phase
+    constexpr std::size_t task_tiles = 256; // are worth a task: by bench_stages, six microseconds
     std::size_t tiles = 0;
     for (StepBody& body : step.of) {
         body.has_super_boxes = body.moved && body.boundary;
@@ -200,32 +199,34 @@ void track_orientation(Step& step, StepBoxes& boxes) {
                     });
 }
 
-bool wants_reference(OrientationCache& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
+bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
+    // Taking a reference costs about as much as orienting all tets once, so it has to serve several steps. A body for
+    // which it did not deforms too fast, and is left alone for a while.
     constexpr std::uint32_t young = 4, pause = 32; // steps
-    ++turning.age;
-    if (turning.wait > 0) {
-        --turning.wait;
+    ++cache.age;
+    if (cache.wait > 0) {
+        --cache.wait;
         return false;
     }
-    if (turning.is_known && doubtful <= super_tiles / 8) return false;
-    if (turning.is_known && turning.age < young) { // the body deforms too fast
-        turning.is_known = false;
-        turning.wait = pause;
+    if (cache.is_known && doubtful <= super_tiles / 8) return false;
+    if (cache.is_known && cache.age < young) {
+        cache.is_known = false;
+        cache.wait = pause;
         return false;
     }
-    turning.age = 0;
+    cache.age = 0;
     return true;
 }
 
-void orient(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
+void orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
-    VOX_SIMD_DISPATCH(Orient)(tiles, surface, positions, rounded, first, last, boxes, known, bad);
+    VOX_SIMD_DISPATCH(Orient)(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
 }
 
-float orient_and_measure(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
+float orient_and_measure(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad) {
-    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, surface, positions, rounded, first, last, boxes, known,
+    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, boundary, positions, rounded, first, last, boxes, known,
                                                bad);
 }
 

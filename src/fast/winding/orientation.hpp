@@ -1,10 +1,10 @@
-// Which tets of a body may have turned over since they were last found positive: few, as a rule, where bodies
-// deform a little, so that few have to be looked at.
+// Which tets of a body may have turned over since they were last found positive. Where bodies deform a little these are
+// few, and only they have to be oriented again.
 //
-// The width of a tet is the least distance of two parallel planes that have it between them. When the
-// displacements of its corners lie in a box, its extent in any direction, and so its width, changes by the
-// diagonal of the box at most. Less than the width, and the corners never come to lie in one plane on a
-// straight way from the old positions to the new ones: the tet does not turn over.
+// The width of a tet is the smallest distance of two parallel planes that have it between them. When the displacements
+// of its corners are in a box, its extent in any direction, and so its width, changes by the diagonal of the box at
+// most. If that is less than the width, the corners are never in one plane on a straight way from the old positions
+// to the new ones, and the tet does not turn over.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -18,23 +18,23 @@
 
 namespace vox::fast {
 
-// Kept of a body from step to step: its positions in some earlier one, and what was found then.
+// What is kept of a body from step to step: its positions in an earlier step, and what was found then.
 struct OrientationCache {
     explicit OrientationCache(std::pmr::memory_resource* memory) noexcept
         : reference(memory), slack(memory), boxes(memory) {}
 
     std::pmr::vector<float> reference; // the positions, packed
     // Of each super-tile, a lower bound on the widths of its tets then, less slack_of_rounding() where the
-    // positions were rounded. Not above 0: nothing is known, or some of them were not positive.
+    // positions were rounded. Where it is not above 0, nothing is known, or some of them were not positive.
     std::pmr::vector<float> slack;
-    std::pmr::vector<Box> boxes; // around the vertices of those that have slack
-    bool is_known = false;       // all these are
+    std::pmr::vector<Box> boxes; // around the vertices of super-tiles that have slack
+    bool is_known = false;       // whether all these are valid
     std::uint32_t age = 0;       // steps since then
-    std::uint32_t wait = 0;      // steps to go without
+    std::uint32_t wait = 0;      // steps before a new reference may be taken
 };
 
-// What rounding positions in `box` takes from the slack: when they become the reference, and again when they
-// are compared with it.
+// What rounding positions in `box` takes from the slack, once when they become the reference, and again when they are
+// compared with it.
 float slack_of_rounding(const Box& box) noexcept;
 
 // Makes boxes that hold the super-tiles [first, last) of a body, and finds out which of them hold no tet that may have
@@ -47,18 +47,17 @@ void track_orientation(const Tiles& tiles, const OrientationCache& cache, const 
 // The same for all bodies that moved and that winding numbers may be of use for (StepBody::boundary).
 void track_orientation(Step& step, StepBoxes& boxes);
 
-// Called once in a step, when `doubtful` of all super-tiles may hold a tet that turned over: whether a new
-// reference is worth its while.
-bool wants_reference(OrientationCache& turning, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
+// Whether to take a new reference, when `doubtful` of all super-tiles may hold a tet that turned over. Called once in a
+// step.
+bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter
 // (narrow-inl.hpp) does not find positive.
-void orient(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
+void orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
 
-// Returns a lower bound on the widths of the tets, too, with their positions as they are rounded; 0 where
-// some are in a set.
-float orient_and_measure(const Tiles& tiles, const Boundary& surface, const float* positions, bool rounded,
+// The same, and returns a lower bound on the widths of the tets, of their rounded positions; 0 when a tet is in a set.
+float orient_and_measure(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
                          std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
                          std::uint64_t* bad);
 
