@@ -8,6 +8,7 @@
 #include "fast/last_positions.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/sample.hpp"
 
 #include <algorithm>
@@ -110,78 +111,53 @@ double median(std::span<std::pair<double, double>> values) {
 
 constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-// Calls visit(first, rest, multiplicity) once for every different (first, rest) pair that `generate(emit)`
-// emits. A counting sort by `first` (a vertex) makes short lists, which are then sorted by `rest`; `generate`
-// is called twice, to count and to place.
-template <class Rest, class Generate, class Visit>
-void for_each_unique(std::uint32_t vertex_count, std::pmr::memory_resource* memory, Generate&& generate,
-                     Visit&& visit) {
+// Calls visit(a, b) once for every edge, a < b, of tetrahedra that name no vertex twice: a counting sort by `a` makes
+// short lists, which are then sorted by `b`.
+template <class Visit>
+void for_each_edge(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
+                   Visit&& visit) {
     std::pmr::vector<std::uint64_t> ends(std::size_t{vertex_count} + 1, 0, memory);
-    generate([&](std::uint32_t first, Rest) { ++ends[std::size_t{first} + 1]; });
-    for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
-
-    std::pmr::vector<Rest> rests(static_cast<std::size_t>(ends[vertex_count]), memory);
-    // Placing moves ends[v] from the start of list v to its end, the start of list v + 1.
-    generate([&](std::uint32_t first, Rest rest) { rests[static_cast<std::size_t>(ends[first]++)] = rest; });
-
-    std::size_t begin = 0;
-    for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const auto end = static_cast<std::size_t>(ends[v]);
-        std::sort(rests.begin() + static_cast<std::ptrdiff_t>(begin),
-                  rests.begin() + static_cast<std::ptrdiff_t>(end));
-        while (begin < end) {
-            std::size_t next = begin + 1;
-            while (next < end && rests[next] == rests[begin]) ++next;
-            visit(v, rests[begin], next - begin);
-            begin = next;
+    const auto for_all = [&](auto&& emit) {
+        for (Tet tet : tets) {
+            if (names_a_vertex_twice(tet)) continue;
+            std::sort(tet.v, tet.v + 4);
+            for (const auto& edge : edge_corners) emit(tet.v[edge[0]], tet.v[edge[1]]);
         }
+    };
+    for_all([&](std::uint32_t a, std::uint32_t) { ++ends[std::size_t{a} + 1]; });
+    for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
+    std::pmr::vector<std::uint32_t> others(static_cast<std::size_t>(ends[vertex_count]), memory);
+    // Placing moves ends[a] from the start of list a to its end, the start of list a + 1.
+    for_all([&](std::uint32_t a, std::uint32_t b) { others[static_cast<std::size_t>(ends[a]++)] = b; });
+    auto first = others.begin();
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        const auto last = others.begin() + static_cast<std::ptrdiff_t>(ends[v]);
+        std::sort(first, last);
+        std::for_each(first, std::unique(first, last), [&](std::uint32_t b) { visit(v, b); });
+        first = last;
     }
 }
 
-// Returns the box of the vertices that tetrahedra use.
+// Returns the box of the vertices that tetrahedra use. Those that are off name one vertex four times, and so have no
+// edges and facets.
 Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means) {
     const auto at = [&](std::uint64_t v) { return body.positions.exact(v); };
-    // Calls visit(corners) for tetrahedra that are on.
-    const auto for_tets = [&](auto&& visit) {
-        for (std::size_t t = 0; t < body.tets.size(); ++t)
-            if (!has_bit(body.off, t)) visit(body.tets[t]);
-    };
-    // The same with corners in ascending order, so that an edge or a facet has one name in all tetrahedra, for
-    // those that name no vertex twice.
-    const auto for_sorted_tets = [&](auto&& visit) {
-        for_tets([&](Tet tet) {
-            std::sort(tet.v, tet.v + 4);
-            if (!names_a_vertex_twice(tet)) visit(tet.v);
-        });
-    };
     Bounds bounds;
-    for_tets([&](const Tet& tet) {
+    for (std::size_t t = 0; t < body.tets.size(); ++t) {
+        if (has_bit(body.off, t)) continue;
+        const std::uint32_t* v = body.tets[t].v;
+        const Vec3d p[4] = {at(v[0]), at(v[1]), at(v[2]), at(v[3])};
         double facets[4];
-        const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
         add_tet(p, 1, means, facets);
         bounds.add(min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3])));
+    }
+    for_each_edge(body.tets, body.vertex_count, memory,
+                  [&](std::uint32_t a, std::uint32_t b) { means.edge.add(length(at(b) - at(a)), 1); });
+    for_each_facet(body.tets, body.vertex_count, memory, [&](std::uint32_t v, std::span<const TetFacet> same) {
+        const double size = area(at(v), at(same[0].others >> 32), at(same[0].others & 0xffffffffu));
+        means.facet.add(size, 1);
+        if (same.size() == 1) means.boundary_facet.add(size, 1);
     });
-    for_each_unique<std::uint32_t>(
-        body.vertex_count, memory,
-        [&](auto&& emit) {
-            for_sorted_tets([&](const std::uint32_t* v) {
-                for (const auto& edge : edge_corners) emit(v[edge[0]], v[edge[1]]);
-            });
-        },
-        [&](std::uint32_t a, std::uint32_t b, std::size_t) { means.edge.add(length(at(b) - at(a)), 1); });
-    for_each_unique<std::uint64_t>(
-        body.vertex_count, memory,
-        [&](auto&& emit) {
-            for_sorted_tets([&](const std::uint32_t* v) {
-                for (std::size_t f = 0; f < 4; ++f) // without corner 3 - f
-                    emit(v[f == 3], std::uint64_t{v[f < 2 ? 1 : 2]} << 32 | v[f == 0 ? 2 : 3]);
-            });
-        },
-        [&](std::uint32_t a, std::uint64_t rest, std::size_t tets) {
-            const double size = area(at(a), at(rest >> 32), at(rest & 0xffffffffu));
-            means.facet.add(size, 1);
-            if (tets == 1) means.boundary_facet.add(size, 1);
-        });
     return bounds;
 }
 

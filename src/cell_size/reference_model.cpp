@@ -82,7 +82,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
             const Vec3d p[4] = {body.positions[v[0]], body.positions[v[1]], body.positions[v[2]],
                                 body.positions[v[3]]};
             // The engine gives a flat tetrahedron no box.
-            if (dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])) == 0) return;
+            if (determinant(p[1] - p[0], p[2] - p[0], p[3] - p[0]) == 0) return;
             const Vec3d lo = min(min(p[0], p[1]), min(p[2], p[3])), hi = max(max(p[0], p[1]), max(p[2], p[3]));
             std::copy_n(&lo.x, 3, lookup.lo);
             std::copy_n(&hi.x, 3, lookup.hi);

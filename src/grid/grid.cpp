@@ -90,6 +90,14 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
+// What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its facets.
+void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
+    if (find_penetrations_) mesh.make_topology();
+    if (!fast_ || !mesh.has_positions()) return;
+    mesh.make_tiles();
+    state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+}
+
 vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     check_limit(vertex_count_, view.vertex_count, VOX_MAX_VERTICES, "vertices");
     check_limit(tet_count_, view.tets.size(), VOX_MAX_TETS, "tets");
@@ -101,11 +109,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     if (desc.flags & VOX_MESH_SELF_COLLISION) filter.self_collision = 1;
     Mesh mesh(desc, view, filter, &memory_);
     fast::MeshState state(&memory_);
-    if (fast_ && mesh.has_positions()) {
-        mesh.make_tiles();
-        state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
-    }
-    if (find_penetrations_) mesh.make_topology();
+    prepare(mesh, state);
     if (fresh_slot) {
         grow_capacity(slots_, slots_.size() + 1);
         grow_capacity(free_slots_, slots_.size() + 1);
@@ -194,11 +198,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
     Mesh made = changed.with_topology(desc, view);
     fast::MeshState state(&memory_);
-    if (fast_ && made.has_positions()) {
-        made.make_tiles();
-        state.update(made.tiled(), made.tiles_version(), made.vertex_count());
-    }
-    if (find_penetrations_) made.make_topology();
+    prepare(made, state);
     vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
     tet_count_ += view.tets.size() - changed.tet_count();
     made.take_over(std::move(changed));
@@ -407,11 +407,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         s.body = static_cast<std::uint32_t>(bodies_.size());
         // Of meshes that were inserted without positions, and after edits.
         s.mesh.make_rings();
-        if (find_penetrations_) s.mesh.make_topology();
-        if (fast_) {
-            s.mesh.make_tiles();
-            s.state.update(s.mesh.tiled(), s.mesh.tiles_version(), s.mesh.vertex_count());
-        }
+        prepare(s.mesh, s.state);
         Body& body = bodies_.emplace_back(s.mesh.body(id));
         if (body.off_count == body.tets.size()) { // no stage need know of them
             body.tets = {};
@@ -562,8 +558,8 @@ void vox_grid::prepare_queries() {
                         format("mesh %u has no positions: bind some before the queries", id));
         const Body body = s.mesh.body(id);
         check_finite(body);
-        s.mesh.make_tiles(); // of the reference engine's meshes too
         s.mesh.make_topology();
+        s.mesh.make_tiles(); // of the reference engine's meshes too
         bodies.push_back({body, &s.mesh.tiled().tiles, &s.mesh.topology()});
     }
     queries_.prepare(bodies);

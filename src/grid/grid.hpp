@@ -106,6 +106,7 @@ private:
 
     const vox::Mesh* find(vox_mesh mesh) const noexcept;
     void vacate(std::uint32_t slot) noexcept;
+    void prepare(vox::Mesh& mesh, vox::fast::MeshState& state) const;
     void was_cut(vox_mesh mesh, std::uint64_t count);
     void gather_bodies(vox_counters& counters);
     void drop_removed_vertices();
