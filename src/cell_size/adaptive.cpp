@@ -1,10 +1,9 @@
 #include "cell_size/adaptive.hpp"
 
-#include "cell_size/reference_model.hpp"
-#include "cell_size/weights.hpp"
-
 #include "base/error.hpp"
 #include "base/sampling.hpp"
+#include "cell_size/reference_model.hpp"
+#include "cell_size/weights.hpp"
 #include "mesh/check.hpp"
 
 #include <algorithm>

@@ -11,9 +11,8 @@
 // steps, estimated from counters, so that the same calls always give the same sizes.
 #pragma once
 
-#include "cell_size/levels.hpp"
-
 #include "base/scene.hpp"
+#include "cell_size/levels.hpp"
 
 #include <vox/vox.h>
 

@@ -3,11 +3,10 @@
 // six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the machine's speed.
 #include "cell_size/calibrate.hpp"
 
+#include "base/clock.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/reference_model.hpp"
 #include "cell_size/weights.hpp"
-
-#include "base/clock.hpp"
 #include "fast/engine.hpp"
 #include "reference/engine.hpp"
 

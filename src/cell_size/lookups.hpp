@@ -10,7 +10,6 @@
 #pragma once
 
 #include "cell_size/branch_misses.hpp"
-
 #include "fast/window.hpp"
 
 #include <vox/vox.h>
