@@ -1110,7 +1110,7 @@ typedef struct vox_cost_weights {
     uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
     double reference_classify_vertex;
     double reference_prepare_tet; /* its box */
-    double reference_visit_cell; /* whose list is as long as the one before; others in proportion */
+    double reference_visit_cell; /* whose list is as long as the one before */
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;
@@ -1122,6 +1122,8 @@ typedef struct vox_cost_weights {
     double fast_visit_row;
     double fast_read_vertex;
     double fast_test_vertex; /* one in a tile's box, against its tets */
+    double reference_changed_list; /* in a visited cell, of another length than the one before */
+    double reference_fetch_vertex; /* passed over, and not read just before */
 } vox_cost_weights;
 
 /* Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for all
@@ -1131,8 +1133,9 @@ VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
 
 /* The weights in use: those calibrated or set last, or else those shipped with the library. Any thread. */
 VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
-/* Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library; with
- * null, all of them do. Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
+/* Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the last
+ * two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values. Any thread.
+ * Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
 VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "cell_size/suggest.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -89,6 +90,14 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
+// What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its facets.
+void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
+    if (find_penetrations_) mesh.make_topology();
+    if (!fast_ || !mesh.has_positions()) return;
+    mesh.make_tiles();
+    state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
+}
+
 vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     check_limit(vertex_count_, view.vertex_count, VOX_MAX_VERTICES, "vertices");
     check_limit(tet_count_, view.tets.size(), VOX_MAX_TETS, "tets");
@@ -100,11 +109,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
     if (desc.flags & VOX_MESH_SELF_COLLISION) filter.self_collision = 1;
     Mesh mesh(desc, view, filter, &memory_);
     fast::MeshState state(&memory_);
-    if (fast_ && mesh.has_positions()) {
-        mesh.make_tiles();
-        state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
-    }
-    if (find_penetrations_) mesh.make_topology();
+    prepare(mesh, state);
     if (fresh_slot) {
         grow_capacity(slots_, slots_.size() + 1);
         grow_capacity(free_slots_, slots_.size() + 1);
@@ -193,11 +198,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
     Mesh made = changed.with_topology(desc, view);
     fast::MeshState state(&memory_);
-    if (fast_ && made.has_positions()) {
-        made.make_tiles();
-        state.update(made.tiled(), made.tiles_version(), made.vertex_count());
-    }
-    if (find_penetrations_) made.make_topology();
+    prepare(made, state);
     vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
     tet_count_ += view.tets.size() - changed.tet_count();
     made.take_over(std::move(changed));
@@ -406,11 +407,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         s.body = static_cast<std::uint32_t>(bodies_.size());
         // Of meshes that were inserted without positions, and after edits.
         s.mesh.make_rings();
-        if (find_penetrations_) s.mesh.make_topology();
-        if (fast_) {
-            s.mesh.make_tiles();
-            s.state.update(s.mesh.tiled(), s.mesh.tiles_version(), s.mesh.vertex_count());
-        }
+        prepare(s.mesh, s.state);
         Body& body = bodies_.emplace_back(s.mesh.body(id));
         if (body.off_count == body.tets.size()) { // no stage need know of them
             body.tets = {};
@@ -474,7 +471,7 @@ void vox_grid::choose_cell_size() {
     if (!choose_cell_size_) return;
     const double before = cell_size_;
     const std::uint64_t changes = adaptive_.changes();
-    settings_.levels = adaptive_.cell_sizes(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.storage, byte_limit(), &memory_);
     cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
@@ -499,37 +496,34 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
-    Known known(memory);
+void vox_grid::describe(CellSizeScene& scene) const {
     const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
-    reserve(known.bodies, known.tiles, known.meshes, known.activity);
+    reserve(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        known.bodies.push_back(s.mesh.body(id));
-        known.tiles.push_back(s.mesh.tiles_if_made());
-        known.meshes.push_back(&s.mesh);
-        known.activity.push_back(s.body == Slot::none
-                                     ? Activity{}
-                                     : Activity{fast_engine_.moved(s.body),
-                                                !fast_engine_.cleared(s.body, s.mesh.vertex_count())});
+        scene.bodies.push_back(s.mesh.body(id));
+        scene.tiles.push_back(s.mesh.tiles_if_made());
+        scene.meshes.push_back(&s.mesh);
+        const bool in_last_step = s.body < fast_engine_.last_step().of.size();
+        scene.at_rest.push_back(in_last_step && !fast_engine_.moved(s.body));
+        scene.cleared.push_back(in_last_step && fast_engine_.cleared(s.body, s.mesh.vertex_count()));
     }
-    if (fast_ && meshes_hold_) known.last_step = &fast_engine_;
-    return known;
+    if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }
 
-void vox_grid::describe(vox_suggest_desc& desc) const noexcept {
-    desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
-    desc.storage = settings_.storage;
-    desc.byte_budget = memory_.budget();
-}
-
-double vox_grid::share_without_contact() const noexcept {
-    if (counters_.tets == 0) return 0;
-    return 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
+    if (!chosen) {
+        desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+        desc.storage = settings_.storage;
+        desc.byte_budget = memory_.budget();
+    }
+    if (counters_.tets == 0) return;
+    const double p_nc = 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+    if (p_nc > 0 && p_nc < 1 && desc.p_nc == suggest_defaults().p_nc) desc.p_nc = p_nc;
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {
@@ -564,8 +558,8 @@ void vox_grid::prepare_queries() {
                         format("mesh %u has no positions: bind some before the queries", id));
         const Body body = s.mesh.body(id);
         check_finite(body);
-        s.mesh.make_tiles(); // of the reference engine's meshes too
         s.mesh.make_topology();
+        s.mesh.make_tiles(); // of the reference engine's meshes too
         bodies.push_back({body, &s.mesh.tiled().tiles, &s.mesh.topology()});
     }
     queries_.prepare(bodies);

@@ -1,6 +1,6 @@
-// Facets are matched within each tile first, by their local indices; the few that are left by their lowest
-// vertex.
 #include "mesh/boundary.hpp"
+
+#include "base/vectors.hpp"
 
 #include <algorithm>
 
@@ -8,17 +8,8 @@ namespace vox {
 
 bool is_negative(const Tet& tet, const Positions& positions) noexcept {
     const Vec3d a = positions.exact(tet.v[0]);
-    double e[3][3];
-    for (int i = 0; i < 3; ++i) {
-        const Vec3d p = positions.exact(tet.v[i + 1]);
-        e[i][0] = p.x - a.x;
-        e[i][1] = p.y - a.y;
-        e[i][2] = p.z - a.z;
-    }
-    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-               e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-               e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) <
-           0;
+    const auto edge = [&](int corner) { return positions.exact(tet.v[corner]) - a; };
+    return determinant(edge(1), edge(2), edge(3)) < 0;
 }
 
 std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept {
@@ -29,100 +20,100 @@ std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept {
 
 namespace {
 
-// Facets without a partner in their tile.
-using Open = SortedFacet;
+// Finds the tets that are mirrored or ignored, for each tile, and the vertices of no other tets. Returns for each
+// tet whether it is mirrored.
+std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+                                            const Positions& positions, const Tiles& tiles, Boundary& made) {
+    std::pmr::memory_resource* memory = made.triangles.get_allocator().resource();
+    std::pmr::vector<std::uint8_t> negative(tets.size(), 0, memory), used(vertex_count, 0, memory);
+    made.mirrored.reserve(tiles.tiles.size());
+    made.ignored.reserve(tiles.tiles.size());
+    for (const Tile& tile : tiles.tiles) {
+        std::uint64_t mirrored = 0, ignored = 0;
+        for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
+            const std::uint32_t t = tiles.tets[tile.first_tet + i];
+            if (names_a_vertex_twice(tets[t])) {
+                ignored |= std::uint64_t{1} << i;
+                continue;
+            }
+            negative[t] = is_negative(tets[t], positions);
+            mirrored |= std::uint64_t{negative[t]} << i;
+            for (const std::uint32_t v : tets[t].v) used[v] = 1;
+        }
+        made.mirrored.push_back(mirrored);
+        made.ignored.push_back(ignored);
+    }
+    for (std::uint32_t v = 0; v < vertex_count; ++v)
+        if (!used[v]) made.loose.push_back(v);
+    return negative;
+}
 
-// Adds the facets of tile `index` that have no partner in it to `open`; false when some facet has two.
-bool match_in_tile(std::span<const Tet> tets, Positions positions, const Tiles& tiles, std::size_t index,
-                   Boundary& made, std::pmr::vector<Open>& open, std::pmr::vector<std::uint8_t>& used) {
-    const Tile& tile = tiles.tiles[index];
-    const std::uint8_t* corners = tiles.corners.data() + index * 4 * tile_size;
-    const std::uint32_t* vertices = tiles.vertices.data() + tile.first_vertex;
-    // Sorted local vertices, 6 bits each, then the parity, above the number of tet and facet.
-    std::uint32_t keys[4 * tile_size], count = 0;
-    std::uint64_t mirrored = 0, ignored = 0;
-    for (std::uint32_t t = 0; t < tile.tet_count; ++t) {
-        std::uint32_t local[4];
-        for (std::uint32_t c = 0; c < 4; ++c) local[c] = corners[c * tile_size + t];
-        if (names_a_vertex_twice({{local[0], local[1], local[2], local[3]}})) {
-            ignored |= std::uint64_t{1} << t;
-            continue;
-        }
-        const bool negative = is_negative(tets[tiles.tets[tile.first_tet + t]], positions);
-        if (negative) mirrored |= std::uint64_t{1} << t;
-        for (std::uint32_t c = 0; c < 4; ++c) used[vertices[local[c]]] = 1;
-        for (std::uint32_t f = 0; f < 4; ++f) {
-            const auto [key, even] =
-                sorted_facet(local[facets[f][0]], local[facets[f][1]], local[facets[f][2]]);
-            keys[count++] = key.low << 13 | key.middle << 7 | key.high << 1 | std::uint32_t{even != negative};
+// Makes the triangles; false where tets on different sides of a facet do not cancel.
+bool make_triangles(std::span<const Tet> tets, std::span<const std::uint8_t> negative,
+                    const MatchedFacets& facets, Boundary& made) {
+    constexpr std::array<std::uint32_t, 3> missing{};
+    // Facet i of a tet, even when low, middle, high are counter-clockwise from outside.
+    const auto as_positive = [&](std::uint32_t t, std::uint32_t i) {
+        SortedFacet facet = sorted_facet(tets[t], i);
+        facet.even = facet.even != (negative[t] != 0);
+        return facet;
+    };
+    made.triangles.assign(facets.triangles.size(), missing);
+    for (std::uint32_t t = 0; t < tets.size(); ++t) {
+        if (names_a_vertex_twice(tets[t])) continue;
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const std::uint32_t across = facets.across[t][i];
+            if (across == MatchedFacets::nothing) return false; // three tets or more
+            const SortedFacet facet = as_positive(t, i);
+            if (across & MatchedFacets::surface_bit) {
+                std::array<std::uint32_t, 3>& triangle =
+                    made.triangles[across & ~MatchedFacets::surface_bit];
+                if (triangle != missing) return false; // a doubled tet
+                triangle = triangle_of(facet);
+                continue;
+            }
+            const auto& back = facets.across[across];
+            const auto j = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), t) - back.begin());
+            if (j == 4) return false; // a doubled tet
+            if (as_positive(across, j).even == facet.even) return false; // both on one side
         }
     }
-    made.mirrored.push_back(mirrored);
-    made.ignored.push_back(ignored);
-    std::sort(keys, keys + count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (i + 1 < count && keys[i] >> 1 == keys[i + 1] >> 1) {
-            if (keys[i] == keys[i + 1]) return false;                            // both on one side
-            if (i + 2 < count && keys[i] >> 1 == keys[i + 2] >> 1) return false; // three tets
-            ++i;
-            continue;
-        }
-        const auto [key, even] =
-            sorted_facet(vertices[keys[i] >> 13], vertices[keys[i] >> 7 & 63], vertices[keys[i] >> 1 & 63]);
-        open.push_back({key, even == (keys[i] & 1)});
-    }
+    const auto key = [](const std::array<std::uint32_t, 3>& t) { return sorted_facet(t[0], t[1], t[2]).key; };
+    if (facets.is_repaired)
+        std::sort(made.triangles.begin(), made.triangles.end(),
+                  [&](const auto& a, const auto& b) { return key(a) < key(b); });
     return true;
 }
 
 } // namespace
 
 void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
-                  const Tiles& tiles, Boundary& out) {
+                   const Tiles& tiles, Boundary& out, const MatchedFacets* facets) {
     std::pmr::memory_resource* memory = out.triangles.get_allocator().resource();
     Boundary made(memory);
-    std::pmr::vector<Open> open(memory);
-    std::pmr::vector<std::uint8_t> used(vertex_count, 0, memory);
-    open.reserve(tets.size() + 64);
-    made.mirrored.reserve(tiles.tiles.size());
-    made.ignored.reserve(tiles.tiles.size());
-    for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
-        if (!match_in_tile(tets, positions, tiles, i, made, open, used)) {
-            out = Boundary(memory);
-            return;
-        }
-    for (std::uint32_t v = 0; v < vertex_count; ++v)
-        if (!used[v]) made.loose.push_back(v);
-
-    // By the lowest vertex: counted, summed, placed; then by the others.
-    std::pmr::vector<std::uint32_t> begin(std::size_t{vertex_count} + 1, 0, memory),
-        placed(open.size(), memory);
-    for (const Open& facet : open) ++begin[facet.key.low + 1];
-    for (std::uint32_t v = 0; v < vertex_count; ++v) begin[v + 1] += begin[v];
-    for (std::uint32_t i = 0; i < open.size(); ++i) placed[begin[open[i].key.low]++] = i;
-    const auto before = [&](std::uint32_t x, std::uint32_t y) {
-        const FacetKey &f = open[x].key, &g = open[y].key;
-        return f.middle != g.middle ? f.middle < g.middle : f.high < g.high;
-    };
-    for (std::size_t first = 0; first < placed.size();) {
-        std::size_t last = first;
-        while (last < placed.size() && open[placed[last]].key.low == open[placed[first]].key.low) ++last;
-        std::sort(placed.begin() + std::ptrdiff_t(first), placed.begin() + std::ptrdiff_t(last), before);
-        for (std::size_t i = first; i < last;) {
-            std::size_t end = i + 1;
-            while (end < last && !before(placed[i], placed[end])) ++end;
-            const Open& facet = open[placed[i]];
-            if (end - i > 2 || (end - i == 2 && facet.even == open[placed[i + 1]].even)) {
-                out = Boundary(memory);
-                return;
-            }
-            if (end - i == 1) made.triangles.push_back(triangle_of(facet));
-            i = end;
-        }
-        first = last;
+    if (tets.size() > most_tets) {
+        out = std::move(made);
+        return;
     }
-    made.triangles.shrink_to_fit();
-    made.is_closed = true;
-    out = std::move(made);
+    std::pmr::vector<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
+    if (facets) {
+        made.is_closed = make_triangles(tets, negative, *facets, made);
+    } else { // in the order of the tiles, in which neighbours are near each other in memory
+        std::pmr::vector<Tet> ordered(memory);
+        std::pmr::vector<std::uint8_t> signs(memory);
+        ordered.reserve(tets.size());
+        signs.reserve(tets.size());
+        for (const Tile& tile : tiles.tiles)
+            for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
+                const std::uint32_t t = tiles.tets[tile.first_tet + i];
+                ordered.push_back(tets[t]);
+                signs.push_back(negative[t]);
+            }
+        MatchedFacets matched(memory);
+        match_facets(ordered, vertex_count, matched);
+        made.is_closed = make_triangles(ordered, signs, matched, made);
+    }
+    out = made.is_closed ? std::move(made) : Boundary(memory);
 }
 
 } // namespace vox

@@ -1,7 +1,7 @@
 // The boundary of a mesh, prepared for winding.hpp: the facets that no two tetrahedra share.
 #pragma once
 
-#include "mesh/tet_changes.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/tiles.hpp"
 
 #include <array>
@@ -29,9 +29,6 @@ struct Boundary {
     std::pmr::vector<std::uint32_t> loose; // vertices of no tet but ignored ones, ascending
 };
 
-// The facets of a positive tet, counter-clockwise from outside.
-inline constexpr std::uint8_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
 // Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
 // on: a surface that is most of the body never pays.
 constexpr bool boundary_pays(std::size_t triangles, std::size_t tets) noexcept {
@@ -44,8 +41,9 @@ bool is_negative(const Tet& tet, const Positions& positions) noexcept;
 // Counter-clockwise from outside, when `even` means that low, middle, high are.
 std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept;
 
-// Throws std::bad_alloc and leaves `out` as it was then.
+// `facets` are those of the mesh; null: they are matched here. Throws what the memory throws and leaves `out`
+// unchanged then.
 void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
-                  const Tiles& tiles, Boundary& out);
+                   const Tiles& tiles, Boundary& out, const MatchedFacets* facets = nullptr);
 
 } // namespace vox

@@ -26,7 +26,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    make_tiled_mesh(body(VOX_NULL_MESH), tiled_);
+    make_tiled_mesh(body(VOX_NULL_MESH), tiled_, has_topology_ ? &topology_ : nullptr);
     has_tiles_ = true;
     ++tiles_version_;
 }
@@ -112,7 +112,8 @@ void Mesh::set_filter(const vox_filter& filter) {
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
         Body with_self = body(VOX_NULL_MESH);
         with_self.self_collision = true;
-        make_tiled_mesh(with_self, tiled_); // more is prepared of bodies with self-collision
+        // More is prepared of bodies with self-collision.
+        make_tiled_mesh(with_self, tiled_, has_topology_ ? &topology_ : nullptr);
         ++tiles_version_;
     }
     if (!rest.empty()) self_filter_.rest = std::move(rest);

@@ -4,12 +4,11 @@
 
 #include "base/lists.hpp"
 #include "base/scene.hpp"
+#include "mesh/facets.hpp"
 
-#include <compare>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace vox {
@@ -20,36 +19,6 @@ struct TetChange {
     bool was_on, is_on;
     Tet before, after; // where it was, or is, on
 };
-
-// Such a tetrahedron has no facets.
-inline bool names_a_vertex_twice(const Tet& t) noexcept {
-    return t.v[0] == t.v[1] || t.v[0] == t.v[2] || t.v[0] == t.v[3] || t.v[1] == t.v[2] || t.v[1] == t.v[3] ||
-           t.v[2] == t.v[3];
-}
-
-// A facet by its vertices, sorted.
-struct FacetKey {
-    std::uint32_t low, middle, high;
-
-    auto operator<=>(const FacetKey&) const = default;
-};
-
-struct SortedFacet {
-    FacetKey key;
-    bool even; // sorting took an even permutation
-};
-inline SortedFacet sorted_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
-    bool even = true;
-    const auto order = [&even](std::uint32_t& x, std::uint32_t& y) {
-        if (x <= y) return;
-        std::swap(x, y);
-        even = !even;
-    };
-    order(a, b);
-    order(b, c);
-    order(a, b);
-    return {{a, b, c}, even};
-}
 
 // Calls function(vertex) for each different corner of a tetrahedron.
 template <class Function>

@@ -215,8 +215,7 @@ private:
     void count_facet(const FacetKey& key) {
         int net = 0;
         for_tets_at(key, body_.tets, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
-            const std::uint32_t* v = body_.tets[tet].v;
-            const bool even = sorted_facet(v[facets[i][0]], v[facets[i][1]], v[facets[i][2]]).even;
+            const bool even = sorted_facet(body_.tets[tet], i).even;
             const std::uint32_t place = places_.of_tet[tet];
             const bool mirrored = boundary_.mirrored[place / tile_size] >> place % tile_size & 1;
             net += even != mirrored ? 1 : -1;

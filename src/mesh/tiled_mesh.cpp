@@ -6,7 +6,7 @@
 
 namespace vox {
 
-void make_tiled_mesh(const Body& body, TiledMesh& out) {
+void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* facets) {
     std::pmr::memory_resource* memory = out.boundary.triangles.get_allocator().resource();
     TiledMesh made(memory);
     make_tiles(body.tets, body.vertex_count, body.positions, made.tiles, body.off);
@@ -14,7 +14,7 @@ void make_tiled_mesh(const Body& body, TiledMesh& out) {
         made.tiles.own.clear();
         made.tiles.own.shrink_to_fit();
     } else {
-        make_boundary(body.tets, body.vertex_count, body.positions, made.tiles, made.boundary);
+        make_boundary(body.tets, body.vertex_count, body.positions, made.tiles, made.boundary, facets);
         if (!boundary_pays(made.boundary.triangles.size(), made.tiles.tets.size()))
             made.boundary = Boundary(memory);
         std::erase_if(made.boundary.loose,

@@ -1,6 +1,5 @@
-// Tetrahedra are listed by corner with a counting sort; then every vertex, with its tetrahedra at hand, finds
-// its neighbours and matches the facets of which it is the lowest corner. After an edit the same is done for
-// the facets and vertices of what changed alone.
+// Every vertex, with its tetrahedra at hand, finds its neighbours and matches the facets of which it is the
+// lowest corner (facets.cpp). After an edit the same is done for the facets and vertices that changed.
 #include "mesh/topology.hpp"
 
 #include "base/error.hpp"
@@ -9,65 +8,6 @@
 #include <utility>
 
 namespace vox {
-
-namespace {
-
-// A facet with the vertex at hand as lowest corner.
-struct Facet {
-    std::uint64_t corners;  // the two others, sorted
-    std::uint32_t opposite; // the tetrahedron's fourth vertex
-    std::uint32_t place;    // 4 * tetrahedron + local index of `opposite`
-
-    bool operator<(const Facet& other) const noexcept {
-        if (corners != other.corners) return corners < other.corners;
-        if (opposite != other.opposite) return opposite < other.opposite;
-        return place < other.place;
-    }
-};
-
-// Adds the facets of tetrahedron `index` whose lowest corner is v.
-void add_facets(const Tet& tet, std::uint32_t index, std::uint32_t v, std::pmr::vector<Facet>& facets) {
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        if (tet.v[i] == v) continue;
-        std::uint32_t others[2], count = 0;
-        for (std::uint32_t j = 0; j < 4; ++j)
-            if (j != i && tet.v[j] != v) others[count++] = tet.v[j];
-        if (others[0] > others[1]) std::swap(others[0], others[1]);
-        if (others[0] > v)
-            facets.push_back({std::uint64_t{others[0]} << 32 | others[1], tet.v[i], 4 * index + i});
-    }
-}
-
-// Joins the tetrahedra of each facet, or makes it a triangle of the surface.
-void match(std::span<const Tet> tets, std::pmr::vector<Facet>& facets, Topology& made) {
-    std::sort(facets.begin(), facets.end());
-    const auto set_across = [&](std::size_t first, std::size_t last, std::uint32_t value) {
-        for (std::size_t i = first; i < last; ++i)
-            made.across[facets[i].place >> 2][facets[i].place & 3] = value;
-    };
-    for (std::size_t first = 0; first < facets.size();) {
-        std::size_t last = first, second = 0;
-        std::uint32_t sides = 1; // different tetrahedra; doubled ones follow each other
-        for (; last < facets.size() && facets[last].corners == facets[first].corners; ++last)
-            if (last > first && facets[last].opposite != facets[last - 1].opposite && ++sides == 2)
-                second = last;
-        if (sides == 1) {
-            const std::uint32_t place = facets[first].place;
-            const Tet& tet = tets[place >> 2];
-            const std::uint8_t* corner = facet_corners[place & 3];
-            set_across(first, last,
-                       Topology::surface_bit | static_cast<std::uint32_t>(made.triangles.size()));
-            made.triangles.push_back(
-                {{tet.v[corner[0]], tet.v[corner[1]], tet.v[corner[2]]}, facets[first].opposite});
-        } else if (sides == 2) {
-            set_across(first, second, facets[second].place >> 2);
-            set_across(second, last, facets[first].place >> 2);
-        }
-        first = last;
-    }
-}
-
-} // namespace
 
 void check_tet_count(std::uint64_t tets) {
     if (tets > most_tets)
@@ -84,26 +24,20 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
         return;
     }
     check_tet_count(tets.size());
-    IndexLists tets_around(memory);
+    const IndexLists tets_around = list_whole_tets(tets, vertex_count, memory);
     std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
-    std::pmr::vector<Facet> facets(memory);
-    tets_around.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
-        return std::span<const std::uint32_t>(tets[t].v, names_a_vertex_twice(tets[t]) ? 0 : 4);
-    });
+    std::pmr::vector<TetFacet> facets(memory);
     made.neighbours.reserve(vertex_count);
-    made.across.assign(tets.size(),
-                       {Topology::nothing, Topology::nothing, Topology::nothing, Topology::nothing});
+    made.clear(tets.size());
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
         made.neighbours.begin_list();
-        facets.clear();
-        for (const std::uint32_t t : std::as_const(tets_around)[v]) {
+        for (const std::uint32_t t : tets_around[v])
             for (const std::uint32_t w : tets[t].v)
                 if (w != v && std::exchange(met[w], v + 1) != v + 1) made.neighbours.push(w);
-            add_facets(tets[t], t, v, facets);
-        }
         const std::span<std::uint32_t> neighbours = made.neighbours[v];
         std::sort(neighbours.begin(), neighbours.end());
-        match(tets, facets, made);
+        list_facets_at(v, tets, tets_around[v], facets);
+        for_equal_facets(facets, [&](std::span<const TetFacet> same) { made.match(tets, same); });
     }
     made.neighbours.shrink_to_fit();
     made.triangles.shrink_to_fit();
@@ -169,7 +103,8 @@ private:
             facets_.push_back({std::uint64_t{key.middle} << 32 | key.high, tets_[tet].v[i], 4 * tet + i});
         });
         const auto triangle = static_cast<std::uint32_t>(topology_.triangles.size());
-        match(tets_, facets_, topology_);
+        std::sort(facets_.begin(), facets_.end());
+        if (!facets_.empty()) topology_.match(tets_, facets_);
         if (topology_.triangles.size() == triangle) return;
         for (const std::uint32_t v : {key.low, key.middle, key.high}) {
             const std::span<const std::uint32_t> ring = topology_.ring_of(v);
@@ -194,7 +129,7 @@ private:
     std::span<const Tet> tets_;
     const IndexLists& tets_of_;
     Topology& topology_;
-    std::pmr::vector<Facet> facets_;
+    std::pmr::vector<TetFacet> facets_;
     std::pmr::vector<std::uint32_t> found_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/lists.hpp"
 #include "base/scene.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/tet_changes.hpp"
 
 #include <array>
@@ -16,30 +17,13 @@
 
 namespace vox {
 
-// The facets of a tetrahedron, facet i opposite corner i; counter-clockwise from outside when it is positive.
-inline constexpr std::uint8_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-
-// A facet of one tetrahedron only, in the order of facet_corners of that tetrahedron.
-struct Triangle {
-    std::uint32_t v[3];
-    std::uint32_t apex; // the tetrahedron's other vertex
-};
-
-struct Topology {
+// All empty for a mesh without tetrahedra.
+struct Topology : MatchedFacets {
     explicit Topology(std::pmr::memory_resource* memory) noexcept
-        : neighbours(memory), across(memory), triangles(memory), rings(memory) {}
+        : MatchedFacets(memory), neighbours(memory), rings(memory) {}
 
-    // What lies across a facet: a tetrahedron, or on the surface one of `triangles`, or where three or more
-    // tetrahedra meet nothing that could be told.
-    static constexpr std::uint32_t surface_bit = 0x80000000u;
-    static constexpr std::uint32_t nothing = 0xffffffffu;
-
-    // All empty for a mesh without tetrahedra.
-    IndexLists neighbours;                                      // of each vertex, over edges, ascending
-    std::pmr::vector<std::array<std::uint32_t, 4>> across; // of each tetrahedron's facets
-    std::pmr::vector<Triangle> triangles;
-    IndexLists rings;             // of each vertex the triangles around it, in the order of before()
-    bool is_repaired = false; // else the order of before() is that of `triangles`
+    IndexLists neighbours; // of each vertex, over edges, ascending
+    IndexLists rings;      // of each vertex the triangles around it, in the order of before()
 
     std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const noexcept {
         if (neighbours.empty()) return {};
@@ -61,9 +45,7 @@ struct Topology {
     }
 };
 
-// More tetrahedra have no topology: lists of three corners of four facets have 32-bit ends.
-inline constexpr std::uint32_t most_tets = UINT32_MAX / 12;
-// Throws Error(LIMIT) for that many.
+// Throws Error(LIMIT) for more than most_tets.
 void check_tet_count(std::uint64_t tets);
 
 // Throws std::bad_alloc (or what the memory throws) and leaves `out` as it was then.

@@ -303,8 +303,8 @@ void check_boundary(const Edited& e, const Boundary& boundary) {
         if (e.off[t] || names_a_vertex_twice(tet)) continue;
         const bool negative = is_negative(tet, view(e.mesh));
         for (const std::uint32_t v : tet.v) used[v] = true;
-        for (const auto& f : facets) {
-            const SortedFacet facet = sorted_facet(tet.v[f[0]], tet.v[f[1]], tet.v[f[2]]);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const SortedFacet facet = sorted_facet(tet, i);
             net[facet.key] += facet.even != negative ? 1 : -1;
         }
     }

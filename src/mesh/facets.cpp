@@ -1,0 +1,116 @@
+// Tetrahedra are listed by corner with a counting sort. Then the facets that have a vertex as their lowest one
+// are sorted and matched, vertex by vertex: these lists are short and stay in cache.
+#include "mesh/facets.hpp"
+
+#include <algorithm>
+
+namespace vox {
+
+namespace {
+
+// The corners of a tetrahedron, ascending, each as vertex << 2 | local index. Without branches, which would be
+// mispredicted.
+std::array<std::uint64_t, 4> sorted_corners(const Tet& tet) noexcept {
+    std::array<std::uint64_t, 4> c;
+    for (std::uint32_t i = 0; i < 4; ++i) c[i] = std::uint64_t{tet.v[i]} << 2 | i;
+    const auto order = [&c](std::size_t i, std::size_t j) {
+        const std::uint64_t low = std::min(c[i], c[j]), high = std::max(c[i], c[j]);
+        c[i] = low;
+        c[j] = high;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+    return c;
+}
+
+} // namespace
+
+IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+                           std::pmr::memory_resource* memory) {
+    IndexLists lists(memory);
+    lists.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
+        return std::span<const std::uint32_t>(tets[t].v, names_a_vertex_twice(tets[t]) ? 0 : 4);
+    });
+    return lists;
+}
+
+IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
+                          std::pmr::memory_resource* memory) {
+    IndexLists lists(memory);
+    std::uint32_t lowest[2];
+    lists.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
+        const std::array<std::uint64_t, 4> corners = sorted_corners(tets[t]);
+        for (std::size_t i = 0; i < 2; ++i) lowest[i] = static_cast<std::uint32_t>(corners[i] >> 2);
+        return std::span<const std::uint32_t>(lowest, names_a_vertex_twice(tets[t]) ? 0 : 2);
+    });
+    return lists;
+}
+
+void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
+                    std::pmr::vector<TetFacet>& facets) {
+    facets.resize(3 * around.size());
+    std::size_t count = 0;
+    for (const std::uint32_t t : around) {
+        const std::array<std::uint64_t, 4> c = sorted_corners(tets[t]);
+        const auto facet = [&](std::size_t middle, std::size_t high, std::size_t opposite) {
+            return TetFacet{c[middle] >> 2 << 32 | c[high] >> 2, static_cast<std::uint32_t>(c[opposite] >> 2),
+                         4 * t + static_cast<std::uint32_t>(c[opposite] & 3)};
+        };
+        const bool lowest = c[0] >> 2 == vertex, second = c[1] >> 2 == vertex;
+        facets[count] = facet(lowest ? 1 : 2, lowest ? 2 : 3, lowest ? 3 : 0);
+        if (!lowest && !second) continue;
+        if (lowest) {
+            facets[count + 1] = facet(1, 3, 2);
+            facets[count + 2] = facet(2, 3, 1);
+        }
+        count += lowest ? 3 : 1;
+    }
+    facets.resize(count);
+    constexpr std::size_t few = 48;
+    if (count > few) return std::sort(facets.begin(), facets.end());
+    // By insertion, as each element costs one mispredicted branch.
+    for (std::size_t i = 1; i < count; ++i) {
+        const TetFacet facet = facets[i];
+        std::size_t j = i;
+        for (; j > 0 && facet < facets[j - 1]; --j) facets[j] = facets[j - 1];
+        facets[j] = facet;
+    }
+}
+
+void MatchedFacets::clear(std::size_t tets) {
+    across.assign(tets, {nothing, nothing, nothing, nothing});
+    triangles.clear();
+    is_repaired = false;
+}
+
+void MatchedFacets::match(std::span<const Tet> tets, std::span<const TetFacet> same) {
+    const auto set_across = [&](std::span<const TetFacet> of, std::uint32_t value) {
+        for (const TetFacet& facet : of) across[facet.tet()][facet.index()] = value;
+    };
+    std::size_t second = same.size(), sides = 1; // different tetrahedra; doubled ones follow each other
+    for (std::size_t i = 1; i < same.size(); ++i)
+        if (same[i].opposite != same[i - 1].opposite && ++sides == 2) second = i;
+    if (sides == 1) {
+        const Tet& tet = tets[same[0].tet()];
+        const auto& [a, b, c] = facet_corners[same[0].index()];
+        set_across(same, surface_bit | static_cast<std::uint32_t>(triangles.size()));
+        triangles.push_back({{tet.v[a], tet.v[b], tet.v[c]}, same[0].opposite});
+    } else if (sides == 2) {
+        set_across(same.first(second), same[second].tet());
+        set_across(same.subspan(second), same[0].tet());
+    }
+}
+
+void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out) {
+    std::pmr::memory_resource* memory = out.across.get_allocator().resource();
+    MatchedFacets made(memory);
+    made.clear(tets.size());
+    for_each_facet(tets, vertex_count, memory,
+                   [&](std::uint32_t, std::span<const TetFacet> same) { made.match(tets, same); });
+    out = std::move(made);
+}
+
+} // namespace vox

@@ -1,0 +1,137 @@
+// Facets of tetrahedra, matched in one place: the topology, the boundary and the geometry of a mesh all need to
+// know which tetrahedra share one.
+#pragma once
+
+#include "base/lists.hpp"
+#include "base/scene.hpp"
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vox {
+
+// The facets of a tetrahedron, facet i opposite corner i; counter-clockwise from outside when it is positive.
+inline constexpr std::uint8_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+// Such a tetrahedron has no facets.
+inline bool names_a_vertex_twice(const Tet& t) noexcept {
+    return t.v[0] == t.v[1] || t.v[0] == t.v[2] || t.v[0] == t.v[3] || t.v[1] == t.v[2] || t.v[1] == t.v[3] ||
+           t.v[2] == t.v[3];
+}
+
+// A facet by its vertices, sorted.
+struct FacetKey {
+    std::uint32_t low, middle, high;
+
+    auto operator<=>(const FacetKey&) const = default;
+};
+
+struct SortedFacet {
+    FacetKey key;
+    bool even; // sorting took an even permutation
+};
+inline SortedFacet sorted_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) noexcept {
+    bool even = true;
+    const auto order = [&even](std::uint32_t& x, std::uint32_t& y) {
+        if (x <= y) return;
+        std::swap(x, y);
+        even = !even;
+    };
+    order(a, b);
+    order(b, c);
+    order(a, b);
+    return {{a, b, c}, even};
+}
+// Facet i of a tetrahedron.
+inline SortedFacet sorted_facet(const Tet& tet, std::uint32_t i) noexcept {
+    const auto& [a, b, c] = facet_corners[i];
+    return sorted_facet(tet.v[a], tet.v[b], tet.v[c]);
+}
+
+// A facet as one tetrahedron has it, among those with the same lowest vertex.
+struct TetFacet {
+    std::uint64_t others;   // the middle vertex << 32 | the highest one
+    std::uint32_t opposite; // the tetrahedron's fourth vertex
+    std::uint32_t place;    // 4 * tetrahedron + local index of `opposite`
+
+    std::uint32_t tet() const noexcept { return place >> 2; }
+    std::uint32_t index() const noexcept { return place & 3; }
+    bool operator<(const TetFacet& other) const noexcept {
+        if (others != other.others) return others < other.others;
+        if (opposite != other.opposite) return opposite < other.opposite;
+        return place < other.place;
+    }
+};
+
+// The tetrahedra around each vertex, without those that name a vertex twice.
+IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+                           std::pmr::memory_resource* memory);
+
+// The facets whose lowest vertex is `vertex`, sorted; `around` lists the tetrahedra there.
+void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
+                    std::pmr::vector<TetFacet>& facets);
+
+// Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
+template <class Visit>
+void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
+    for (std::size_t first = 0, last = 0; first < facets.size(); first = last) {
+        while (last < facets.size() && facets[last].others == facets[first].others) ++last;
+        visit(facets.subspan(first, last - first));
+    }
+}
+
+// The tetrahedra of which a vertex is one of the two lowest corners: enough for list_facets_at().
+IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
+                          std::pmr::memory_resource* memory);
+
+// Calls visit(vertex, same) for each facet of the tetrahedra, in the order of their keys. `vertex` is its lowest
+// one, `same` as above. Throws what the memory throws.
+template <class Visit>
+void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
+                    Visit&& visit) {
+    const IndexLists around = list_by_lowest(tets, vertex_count, memory);
+    std::pmr::vector<TetFacet> facets(memory);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        list_facets_at(v, tets, around[v], facets);
+        for_equal_facets(facets, [&](std::span<const TetFacet> same) { visit(v, same); });
+    }
+}
+
+// A facet of one tetrahedron only, in the order of facet_corners of that tetrahedron.
+struct Triangle {
+    std::uint32_t v[3];
+    std::uint32_t apex; // the tetrahedron's other vertex
+};
+
+// Doubled tetrahedra count once.
+struct MatchedFacets {
+    explicit MatchedFacets(std::pmr::memory_resource* memory) noexcept : across(memory), triangles(memory) {}
+
+    // What lies across a facet: a tetrahedron, or on the surface one of `triangles`, or nothing that can be
+    // determined where three or more tetrahedra meet.
+    static constexpr std::uint32_t surface_bit = 0x80000000u;
+    static constexpr std::uint32_t nothing = 0xffffffffu;
+
+    std::pmr::vector<std::array<std::uint32_t, 4>> across; // of each tetrahedron's facets
+    std::pmr::vector<Triangle> triangles;
+    bool is_repaired = false; // else the triangles are sorted by their FacetKey
+
+    // Prepares for `tets` tetrahedra, of which none is matched yet.
+    void clear(std::size_t tets);
+    // Matches the tetrahedra that have one facet.
+    void match(std::span<const Tet> tets, std::span<const TetFacet> same);
+};
+
+// More tetrahedra cannot be matched: lists of three corners of four facets have 32-bit ends.
+inline constexpr std::uint32_t most_tets = UINT32_MAX / 12;
+
+// For at most `most_tets`. Throws what the memory throws and leaves `out` unchanged then.
+void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out);
+
+} // namespace vox
