@@ -1099,7 +1099,7 @@ typedef struct vox_cost_weights {
     uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
     double reference_classify_vertex;
     double reference_prepare_tet; /* its box */
-    double reference_visit_cell; /* whose list is as long as the one before; others in proportion */
+    double reference_visit_cell; /* whose list is as long as the one before */
     double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
     double reference_read_vertex;
     double reference_test_box;
@@ -1111,6 +1111,8 @@ typedef struct vox_cost_weights {
     double fast_visit_row;
     double fast_read_vertex;
     double fast_test_vertex; /* one in a tile's box, against its tets */
+    double reference_changed_list; /* in a visited cell, of another length than the one before */
+    double reference_fetch_vertex; /* passed over, and not read just before */
 } vox_cost_weights;
 
 /* Measures the weights by steps of both engines over a small scene of its own: ten milliseconds or so at the first
@@ -1120,8 +1122,8 @@ VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
 
 /* The weights in use: those calibrated or set last, else those shipped. Any thread. */
 VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
-/* Uses weights that were saved; fields that struct_size does not cover are those shipped. Null: those shipped. Any
- * thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
+/* Uses weights that were saved; fields that struct_size does not cover are those shipped, of the last two in proportion
+ * to reference_visit_cell and reference_read_vertex. Null: those shipped. Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
 VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */

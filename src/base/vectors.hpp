@@ -15,6 +15,12 @@ inline double dot(const Vec3d& a, const Vec3d& b) noexcept { return a.x * b.x + 
 inline Vec3d cross(const Vec3d& a, const Vec3d& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+inline Vec3d min(const Vec3d& a, const Vec3d& b) noexcept {
+    return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
+}
+inline Vec3d max(const Vec3d& a, const Vec3d& b) noexcept {
+    return {b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z};
+}
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
 // `a` scaled to length 1, to rounding. Zero when `a` is zero, or so short that its square loses digits.

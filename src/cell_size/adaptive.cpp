@@ -4,6 +4,7 @@
 #include "cell_size/weights.hpp"
 
 #include "base/error.hpp"
+#include "base/sampling.hpp"
 #include "mesh/check.hpp"
 
 #include <algorithm>
@@ -15,30 +16,31 @@ namespace vox {
 
 namespace {
 
-// The size stays as long as following would change it by less than this part: next to nothing is lost, also
-// where the vertices of a lattice make some sizes better than those beside them.
+// The size stays as it is where a new one would differ by less than this part. Next to nothing is lost by that, not
+// even where the vertices of a lattice make some sizes better than those beside them.
 constexpr double hysteresis = 0.03;
-// A choice that costs so much more than the best one is kept.
+// The sizes in use are kept where they cost at most this factor more than the best ones.
 constexpr double as_good = 1.02;
-// At most by this factor in one step: what is far off is off the straight line, too.
+// The most a size is scaled in one step: far away the straight line through the slope no longer holds.
 constexpr double most_at_once = 2;
-// Beyond this factor from what the model chose it is asked again.
+// The model is asked again when the size has been scaled by more than this factor since.
 constexpr double far_off = 1.5;
-// Of the time of the steps, for choosing: a hundredth at most, told by counts to within a factor of two (a
-// choice finds little in the caches), and with one more in a short while than in the long run.
+// The budget of choosing, as a part of the time of the steps. Estimated from counters, which is up to a factor of two
+// off (a choice finds little in the caches), and in a short run exceeded by one choice, so less than the hundredth
+// that is promised.
 constexpr double time_share = 0.003;
-// Nanoseconds of a choice: for each vertex, tetrahedron looked at, pair of a sampled one and a point near it
-// or one of the few far ones, and sampled one whose lists are gone through.
-constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, near_points = 128, lists_ns = 20000;
+// Nanoseconds of a choice: for each vertex, for each tetrahedron sampled, for each pair of a sampled lookup and a
+// point near it or a far one, and for each lookup whose lists are visited.
+constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, lists_ns = 20000;
 
-double choice_ns(double vertices, double tets, const SampleBudget& effort) {
-    return vertices * vertex_ns + std::min(tets, static_cast<double>(effort.most_tets)) * tet_ns +
-           static_cast<double>(effort.sample.lookups) *
-               (near_points + static_cast<double>(effort.sample.far_points)) * pair_ns +
-           static_cast<double>(effort.sample.listed) * lists_ns;
+double choice_ns(double vertices, double tets, const SampleBudget& budget) {
+    return vertices * vertex_ns + std::min(tets, static_cast<double>(budget.most_tets)) * tet_ns +
+           static_cast<double>(budget.lookups) * static_cast<double>(budget.near_points + budget.far_points) *
+               pair_ns +
+           static_cast<double>(budget.listed) * lists_ns;
 }
 
-// What a visited cell costs, with its list, in visits.
+// What a visited cell costs with its list, in visits of empty cells.
 constexpr double cell_visits = 5;
 
 double step_ns(const vox_counters& c, const vox_cost_weights& w) {
@@ -52,7 +54,7 @@ double step_ns(const vox_counters& c, const vox_cost_weights& w) {
 double few_box_sides(std::span<const Body> bodies) {
     double sum = 0, count = 0;
     for (const Body& body : bodies) {
-        const std::size_t stride = body.tets.size() / 64 + 1;
+        const std::size_t stride = stride_for(body.tets.size(), 64);
         for (std::size_t t = 0; t < body.tets.size(); t += stride) {
             double longest = 0;
             for (const std::uint32_t v : body.tets[t].v) {
@@ -71,12 +73,13 @@ double few_box_sides(std::span<const Body> bodies) {
 
 } // namespace
 
-std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bodies, const Setting& setting,
+std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bodies, vox_storage storage,
+                                                        double byte_limit,
                                                         std::pmr::memory_resource* memory) {
     const Levels before = sizes_;
     if (must_choose()) {
         try {
-            sized_ = choose(bodies, setting, memory);
+            sized_ = choose(bodies, storage, byte_limit, memory);
         } catch (const std::bad_alloc&) {
             sized_ = false;
         } catch (const Error& error) {
@@ -85,12 +88,12 @@ std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bo
         }
         if (!sized_ && (before.count == 0 || scene_changed_)) {
             const double side = few_box_sides(bodies);
-            // Without any size nothing can touch: any cell will do.
+            // Where no tetrahedron has a size nothing can touch, and any cell will do.
             use(side > 0 ? std::max(1.5 * side, floor_) : 1);
         }
         scene_changed_ = balanced_ = false;
     } else {
-        follow();
+        adapt();
     }
     const auto same = [](const CellLevel& a, const CellLevel& b) {
         return a.cell_size == b.cell_size && a.longest_side == b.longest_side;
@@ -102,19 +105,19 @@ std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bo
 bool AdaptiveCellSize::must_choose() const noexcept {
     if (sizes_.count == 0) return true;
     if (scene_changed_) return credit_ >= 0 || !sized_;
-    if (!sized_) return balanced_ && credit_ >= 0; // now some have a size, or there may be memory now
-    // The size has followed so far, and may wait until the steps since have paid for the choice.
+    if (!sized_) return balanced_ && credit_ >= 0; // since then tetrahedra may have got a size, or memory is free
+    // The size has been adapted meanwhile, so a choice can wait until the steps since have paid for it.
     return balanced_ && credit_ >= price_ && std::abs(moved_) > std::log(far_off);
 }
 
-void AdaptiveCellSize::follow() noexcept {
+void AdaptiveCellSize::adapt() noexcept {
     if (!balanced_ || !(slope_ > 0)) return;
     const double part =
         std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
     if (std::abs(part) < hysteresis) return;
     scale(std::exp(part));
     moved_ += part;
-    last_balance_ = balance_; // as it will be
+    last_balance_ = balance_; // what the next step will count
 }
 
 void AdaptiveCellSize::use(double cell_size) noexcept {
@@ -131,7 +134,7 @@ void AdaptiveCellSize::scale(double factor) noexcept {
     }
 }
 
-bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setting,
+bool AdaptiveCellSize::choose(std::span<const Body> bodies, vox_storage storage, double byte_limit,
                               std::pmr::memory_resource* memory) {
     std::uint64_t tets = 0, vertices = 0;
     for (const Body& body : bodies) {
@@ -139,22 +142,23 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
         vertices += body.vertex_count;
     }
     for (const Body& body : bodies) check_finite(body);
-    const SampleBudget effort = quick(tets);
-    const vox_cost_weights weights = weights_in_use();
-    // The first choice has to be made.
+    CellSizeScene scene(memory);
+    scene.bodies.assign(bodies.begin(), bodies.end());
+    scene.budget = quick(VOX_COST_MODEL_REFERENCE, tets);
+    // The first choice has to be made, so it is not charged.
     if (sizes_.count != 0)
-        credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), effort);
-    const ReferenceModel cost(bodies, setting.storage, effort, weights, memory);
-    CellSizeRange range{};
-    if (!cost.range(range.min, range.max)) return false;
+        credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), scene.budget);
+    const ReferenceModel cost(scene, storage, weights_in_use());
+    std::optional<CellSizeRange> range = cost.range();
+    if (!range) return false;
     floor_ = 0;
-    if (setting.storage == VOX_STORAGE_DENSE) {
-        floor_ = cost.least_cell_size(setting.byte_limit, range);
-        range.min = std::max(range.min, floor_);
-        range.max = std::max(range.max, range.min);
+    if (storage == VOX_STORAGE_DENSE) {
+        floor_ = cost.least_cell_size(byte_limit, *range);
+        range->min = std::max(range->min, floor_);
+        range->max = std::max(range->max, range->min);
     }
-    const Levels best = choose_levels(cost, range);
-    // Those that are about as good are kept.
+    const Levels best = choose_levels(cost, *range);
+    // The sizes in use stay where they are about as good.
     const bool can_stay = sizes_.count != 0 && std::ranges::all_of(sizes_.list(), [this](const CellLevel& l) {
                               return l.cell_size >= floor_;
                           });
@@ -162,7 +166,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
     // R / V with all cell sizes changed by the same factor.
     const auto balance = [&](double factor) {
         double read = 0, cells = 0;
-        for (const SizeClass& c : cost.profile().classes()) {
+        for (const SizeClass& c : cost.lookups().classes()) {
             const double d = level_of(c, sizes_.list()).cell_size * factor;
             read += c.passed.at(d) + c.tested.at(d);
             cells += c.cells.at(d);
@@ -176,8 +180,8 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, const Setting& setti
 }
 
 void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
-    const SampleBudget effort = quick(counters.tets);
-    price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets), effort);
+    price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets),
+                       quick(VOX_COST_MODEL_REFERENCE, counters.tets));
     credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), price_);
     if (counters.visited_entries == 0 || counters.visited_cells == 0) return;
     last_balance_ =

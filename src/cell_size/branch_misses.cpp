@@ -8,13 +8,13 @@ namespace vox {
 
 namespace {
 
-// The smallest cell size, of the longest side of the smallest box.
+// The smallest cell size, as a part of the longest side of the smallest box.
 constexpr double smallest = 0.5;
-// Along an axis: the longest side is below four times that, so that a box meets five cells; one more for
-// rounding, and one on either side for points that are in none of them.
+// Cells along an axis. The longest side is below four of the smallest cells, so a box meets at most five; one more
+// for rounding, and one on either side for points that are in none of them.
 constexpr std::uint32_t row = 8;
 
-// Octave and part of it are the bits above the rest of the mantissa.
+// The octave of a number and the 32nd of it are its bits above these.
 constexpr int rest_bits = 47;
 
 } // namespace
@@ -34,7 +34,7 @@ std::size_t BranchMisses::first_above(double distance) noexcept {
 void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<const Point> points,
                       double known) {
     ++boxes_;
-    // In order of the first size whose cells they can be in (counting sort).
+    // Points sorted by the first size whose cells they can be in (counting sort).
     std::array<std::uint16_t, sizes + 1> end{}, next{};
     for (const Point& p : points) ++end[std::min(first_above(double{p.distance}), sizes)];
     std::uint16_t sum = 0;
@@ -73,7 +73,7 @@ void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<c
         }
         length.fill(0);
         for (std::size_t n = 0; n < near; ++n) ++length[cell_of[n]];
-        // What was visited before the first cell is not known: the last one is as good.
+        // The cell visited before the first one is not known; the last one stands for it.
         std::uint16_t previous = length[(cells[2] * row + cells[1]) * row + cells[0]];
         std::uint32_t changes = 0;
         for (std::uint32_t cz = 1; cz <= cells[2]; ++cz)
@@ -90,7 +90,7 @@ void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<c
 }
 
 void BranchMisses::finish() noexcept {
-    // Sizes for which only boxes with few points around them tell would be wrong about the others.
+    // Sizes that were only counted around boxes with few points nearby would misrepresent the others.
     while (known_ < sizes && 4 * known_boxes_[known_] > 3 * boxes_) ++known_;
     const auto at = [&](std::size_t i) {
         return static_cast<float>(changed_[i]) / static_cast<float>(visited_[i]);

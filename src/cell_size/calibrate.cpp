@@ -1,7 +1,6 @@
 // Times are fitted as sums of counts times weights by least squares with weights that are not negative (C. L.
-// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent: there are four
-// of them. What a few short steps cannot tell apart stays near what is shipped, scaled to the machine's
-// speed.
+// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent, since there are only
+// six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the machine's speed.
 #include "cell_size/calibrate.hpp"
 
 #include "cell_size/fast_model.hpp"
@@ -23,7 +22,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t unknowns = 4;
+constexpr std::size_t unknowns = 6; // at most; the rest have a count of 0
 
 // A time in nanoseconds, and how often each piece of work was done in it.
 struct Timing {
@@ -31,13 +30,12 @@ struct Timing {
     std::array<double, unknowns> count;
 };
 
-// The scene is small and stays in the cache, which larger ones do not: so what is fitted is drawn towards the
-// proportions of the shipped weights, which come from scenes of all sizes.
-// The weights that fit the timings best, in parts of each, within a factor of three of those shipped as they
-// would be on a machine of this speed.
+// The weights that fit the timings best, relative to each. The scene is small and stays in the cache, which larger
+// ones do not, so weights are drawn towards the proportions of the shipped ones, which come from scenes of all
+// sizes, and stay within a factor of three of what those would be on a machine of this speed.
 std::array<double, unknowns> fit(const std::vector<Timing>& timings,
                                  const std::array<double, unknowns>& shipped) {
-    // The machine's speed beside the one the shipped weights are for.
+    // How much slower the machine is than the one the shipped weights are for.
     double ratio = 0;
     for (const Timing& t : timings) {
         double predicted = 0;
@@ -130,7 +128,7 @@ struct Scene {
 
 constexpr double cell_sizes[] = {0.7, 1.1, 1.8, 3};
 
-// The shortest of some: what disturbs only adds.
+// The shortest of some runs, since disturbances only add time.
 template <class Work>
 double shortest(int times, Work&& work) {
     double best = std::numeric_limits<double>::infinity();
@@ -150,7 +148,9 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
     std::vector<Timing> timings;
     for (const bool self : {false, true}) {
         for (Body& body : scene.bodies) body.self_collision = self;
-        const ReferenceModel cost(scene.bodies, VOX_STORAGE_HASHED, thorough, weights, Scene::memory());
+        CellSizeScene described(Scene::memory());
+        described.bodies.assign(scene.bodies.begin(), scene.bodies.end());
+        const ReferenceModel cost(described, VOX_STORAGE_HASHED, weights);
         for (const double cell_size : cell_sizes) {
             ReferenceSettings settings;
             settings.cell_size = cell_size;
@@ -158,30 +158,33 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 hits.clear();
                 engine.detect(scene.bodies, settings, hits, counters, profile);
             });
-            // What does not depend on the cell size is taken together.
+            // Everything that does not depend on the cell size is one unknown.
             const double tets =
                 static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
             const auto vertices = static_cast<double>(counters.entries);
             const double fixed =
                 vertices * (weights.reference_classify_vertex + 2 * weights.reference_clear_bucket) +
                 tets * weights.reference_prepare_tet +
-                cost.profile().candidates() * weights.reference_test_tet;
-            timings.push_back({time,
-                               {fixed, cost.visit_units(cell_size), cost.read_units(cell_size),
-                                cost.profile().tested(cell_size)}});
+                cost.lookups().candidates() * weights.reference_test_tet;
+            const ReferenceModel::Work work = cost.work(cell_size);
+            timings.push_back(
+                {time, {fixed, work.visited, work.changed, work.read, work.fetched, work.tested}});
         }
     }
     const std::array<double, unknowns> x =
         fit(timings,
-            {1, weights.reference_visit_cell, weights.reference_read_vertex, weights.reference_test_box});
+            {1, weights.reference_visit_cell, weights.reference_changed_list, weights.reference_read_vertex,
+             weights.reference_fetch_vertex, weights.reference_test_box});
     weights.reference_classify_vertex *= x[0];
     weights.reference_prepare_tet *= x[0];
     weights.reference_test_tet *= x[0];
     weights.reference_clear_bucket *= x[0];
     weights.reference_scan_cell *= x[1] / weights.reference_visit_cell;
     weights.reference_visit_cell = x[1];
-    weights.reference_read_vertex = x[2];
-    weights.reference_test_box = x[3];
+    weights.reference_changed_list = x[2];
+    weights.reference_read_vertex = x[3];
+    weights.reference_fetch_vertex = x[4];
+    weights.reference_test_box = x[5];
 }
 
 void measure_fast(Scene& scene, vox_cost_weights& weights) {
@@ -189,9 +192,12 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
     std::pmr::vector<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
-    const std::array<const Tiles*, 2> tiles{&scene.meshes[0].tiles, &scene.meshes[1].tiles};
     for (Body& body : scene.bodies) body.self_collision = true;
-    const FastModel cost(scene.bodies, tiles, {}, thorough, weights, Scene::memory());
+    CellSizeScene described(Scene::memory());
+    described.bodies.assign(scene.bodies.begin(), scene.bodies.end());
+    described.tiles = {&scene.meshes[0].tiles, &scene.meshes[1].tiles};
+    described.prepare(VOX_COST_MODEL_FAST);
+    const FastModel cost(described, weights);
     std::vector<Timing> timings;
     for (const double cell_size : cell_sizes) {
         FastSettings settings;
@@ -204,10 +210,10 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
         const FastModel::Counts c = cost.counts(cell_size, FastModel::Alignment::actual);
         const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +
                              c.tested * weights.fast_test_vertex;
-        timings.push_back({time, {fixed, c.cells, c.rows, c.read}});
+        timings.push_back({time, {fixed, c.cells, c.rows, c.read, 0, 0}});
     }
     const std::array<double, unknowns> x =
-        fit(timings, {1, weights.fast_clear_cell, weights.fast_visit_row, weights.fast_read_vertex});
+        fit(timings, {1, weights.fast_clear_cell, weights.fast_visit_row, weights.fast_read_vertex, 1, 1});
     weights.fast_bin_vertex *= x[0];
     weights.fast_visit_tile *= x[0];
     weights.fast_test_vertex *= x[0];

@@ -1,70 +1,113 @@
 #include "cell_size/geometry.hpp"
 
+#include "base/bits.hpp"
+#include "base/sampling.hpp"
+#include "base/vectors.hpp"
+#include "cell_size/scene.hpp"
 #include "exact/predicates.hpp"
+#include "fast/last_positions.hpp"
+#include "fast/stream.hpp"
 #include "mesh/check.hpp"
-
-#include <Eigen/Geometry>
+#include "mesh/sample.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory_resource>
-#include <vector>
+#include <limits>
+#include <utility>
 
 namespace vox {
 
 namespace {
 
-// Differences of coordinates below 2^128 do not overflow in double, nor do products of up to six of them: areas and
-// volumes of the largest coordinates are finite, and those of the smallest floats are not flushed to zero.
-using Eigen::Vector3d;
-using Box3d = Eigen::AlignedBox3d;
+// Differences of coordinates below 2^128 do not overflow in double, nor do products of up to six of them: areas
+// and volumes of the largest coordinates are finite, and those of the smallest floats are not flushed to zero.
+double area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return length(cross(b - a, c - a)) / 2; }
 
-Vector3d point(const Vec3d& p) { return {p.x, p.y, p.z}; }
+// The mean of items that each stand for `weight` items. Ten million of them lose at most 1e-9 of it to rounding.
+struct Mean {
+    double sum = 0, weight = 0;
 
-double facet_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    return (b - a).cross(c - a).norm() / 2;
-}
-
-// A mean whose rounding error does not grow with the number of terms (Kahan 1965).
-class Mean {
-public:
-    void add(double term) {
-        const double corrected = term - lost_;
-        const double sum = sum_ + corrected;
-        lost_ = (sum - sum_) - corrected;
-        sum_ = sum;
-        ++count_;
+    void add(double value, double weight_of_value) {
+        sum += value * weight_of_value;
+        weight += weight_of_value;
     }
-    std::uint64_t count() const { return count_; }
-    double value() const { return count_ ? sum_ / static_cast<double>(count_) : 0; }
-
-private:
-    double sum_ = 0;
-    double lost_ = 0;
-    std::uint64_t count_ = 0;
+    double value() const { return weight > 0 ? sum / weight : 0; }
 };
 
-// The mean of the two middle values where their number is even.
-double median(std::pmr::vector<double>& values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2) return *middle;
-    return (*std::max_element(values.begin(), middle) + *middle) / 2;
+struct Means {
+    explicit Means(std::pmr::memory_resource* memory) : box_sides(memory) {}
+
+    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume, object_side;
+    double degenerate = 0;
+    std::pmr::vector<std::pair<double, double>> box_sides; // and their weights
+};
+
+// A box of doubles.
+struct Bounds {
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec3d lo{infinity, infinity, infinity}, hi{-infinity, -infinity, -infinity};
+
+    bool empty() const { return lo.x > hi.x; }
+    void add(const Vec3d& from, const Vec3d& to) {
+        lo = min(lo, from);
+        hi = max(hi, to);
+    }
+};
+
+// `facets` gets the areas of the facets opposite each corner. Returns the box.
+Bounds add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[4]) {
+    const Bounds box{min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3]))};
+    const Vec3d sides = box.hi - box.lo;
+    const double side = std::max(sides.x, std::max(sides.y, sides.z));
+    means.box_side.add(side, weight);
+    means.box_sides.emplace_back(side, weight);
+    const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
+    const Vec3d ab = p[2] - p[1], ac = p[3] - p[1], bc = p[3] - p[2];
+    const double longest = std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
+                                    std::max(dot(ac, ac), dot(bc, bc)));
+    means.longest_edge.add(std::sqrt(longest), weight);
+    const Vec3d base = cross(a, b);
+    facets[0] = length(cross(ab, ac)) / 2;
+    facets[1] = length(cross(b, c)) / 2;
+    facets[2] = length(cross(a, c)) / 2;
+    facets[3] = length(base) / 2;
+    means.tet_facet.add((facets[0] + facets[1] + facets[2] + facets[3]) / 4, weight);
+    const double volume = std::abs(dot(base, c));
+    means.volume.add(volume / 6, weight);
+    // The exact test is only needed where rounding may have changed the sign.
+    std::uint64_t exact_tests = 0;
+    if (!(volume > 1e-12 * side * side * side) && orientation(p[0], p[1], p[2], p[3], exact_tests) == 0)
+        means.degenerate += weight;
+    return box;
 }
 
-// ---- unique edges and facets ----------------------------------------------------------------------
+// By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights. The mean of the two middle values
+// where the weights below and above are equal.
+double median(std::span<std::pair<double, double>> values) {
+    double half = 0;
+    for (const auto& [value, weight] : values) half += weight / 2;
+    auto first = values.begin(), last = values.end();
+    while (last - first > 1) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last);
+        double below = 0;
+        for (auto at = first; at != middle; ++at) below += at->second;
+        if (half <= below) {
+            last = middle;
+        } else {
+            half -= below;
+            first = middle;
+        }
+    }
+    if (first == last) return 0;
+    if (half < first->second || last == values.end()) return first->first;
+    return (first->first + std::min_element(last, values.end())->first) / 2;
+}
+
+// ---- all of a body --------------------------------------------------------------------------------
 
 constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-constexpr int facet_corners[4][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-
-// Corners in ascending order, so that one edge or facet has one name whatever tetrahedron it is met in.
-Tet sorted(const Tet& tet) {
-    Tet result = tet;
-    std::sort(result.v, result.v + 4);
-    return result;
-}
 
 // Calls visit(first, rest, multiplicity) once for every different (first, rest) pair that `generate(emit)`
 // emits. A counting sort by `first` (a vertex) makes short lists, which are then sorted by `rest`; `generate`
@@ -94,115 +137,200 @@ void for_each_unique(std::uint32_t vertex_count, std::pmr::memory_resource* memo
     }
 }
 
-// ---- one pass over a scene ------------------------------------------------------------------------
+// Returns the box of the vertices that tetrahedra use.
+Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means) {
+    const auto at = [&](std::uint64_t v) { return body.positions.exact(v); };
+    // Calls visit(corners) for tetrahedra that are on.
+    const auto for_tets = [&](auto&& visit) {
+        for (std::size_t t = 0; t < body.tets.size(); ++t)
+            if (!has_bit(body.off, t)) visit(body.tets[t]);
+    };
+    // The same with corners in ascending order, so that an edge or a facet has one name in all tetrahedra, for
+    // those that name no vertex twice.
+    const auto for_sorted_tets = [&](auto&& visit) {
+        for_tets([&](Tet tet) {
+            std::sort(tet.v, tet.v + 4);
+            if (!names_a_vertex_twice(tet)) visit(tet.v);
+        });
+    };
+    Bounds bounds;
+    for_tets([&](const Tet& tet) {
+        double facets[4];
+        const Vec3d p[4] = {at(tet.v[0]), at(tet.v[1]), at(tet.v[2]), at(tet.v[3])};
+        const Bounds box = add_tet(p, 1, means, facets);
+        bounds.add(box.lo, box.hi);
+    });
+    for_each_unique<std::uint32_t>(
+        body.vertex_count, memory,
+        [&](auto&& emit) {
+            for_sorted_tets([&](const std::uint32_t* v) {
+                for (const auto& edge : edge_corners) emit(v[edge[0]], v[edge[1]]);
+            });
+        },
+        [&](std::uint32_t a, std::uint32_t b, std::size_t) { means.edge.add(length(at(b) - at(a)), 1); });
+    for_each_unique<std::uint64_t>(
+        body.vertex_count, memory,
+        [&](auto&& emit) {
+            for_sorted_tets([&](const std::uint32_t* v) {
+                for (std::size_t f = 0; f < 4; ++f) // without corner 3 - f
+                    emit(v[f == 3], std::uint64_t{v[f < 2 ? 1 : 2]} << 32 | v[f == 0 ? 2 : 3]);
+            });
+        },
+        [&](std::uint32_t a, std::uint64_t rest, std::size_t tets) {
+            const double size = area(at(a), at(rest >> 32), at(rest & 0xffffffffu));
+            means.facet.add(size, 1);
+            if (tets == 1) means.boundary_facet.add(size, 1);
+        });
+    return bounds;
+}
 
-struct Sums {
-    explicit Sums(std::pmr::memory_resource* memory) : box_sides(memory) {}
+// ---- samples of meshes ----------------------------------------------------------------------------
 
-    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume;
-    std::pmr::vector<double> box_sides;
-    std::uint64_t degenerate = 0;
+// Calls visit(item, weight) for about `wanted` of the items, which together stand for `count` of their kind.
+template <class Items, class Visit>
+void for_sample(const Items& items, std::uint64_t count, double wanted, double place, Visit&& visit) {
+    if (items.empty()) return;
+    const auto used = std::min<std::uint64_t>(items.size(), static_cast<std::uint64_t>(wanted) + 1);
+    const double weight = static_cast<double>(count) / static_cast<double>(used);
+    for_stratified(items.size(), used, place,
+                   [&](std::uint64_t i) { visit(items[static_cast<std::size_t>(i)], weight); });
+}
 
-    std::pmr::memory_resource* memory() const { return box_sides.get_allocator().resource(); }
-};
+// Adds the part of a mesh's samples that it has of the scene's tetrahedra, edges and boundary facets (`stats`).
+// at(v) is the exact position of a vertex.
+template <class At>
+void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_stats& stats, double samples,
+                double place, Means& means, At&& at) {
+    const auto share = [&](std::uint64_t own, std::uint64_t all) {
+        return samples * (static_cast<double>(own) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
+    };
+    const std::uint64_t tets = body.tets.size() - body.off_count;
+    for_sample(sample.tets, tets, share(tets, stats.tets), place,
+               [&](const MeshSample::SampledTet& sampled, double weight) {
+                   const std::uint32_t* v = sampled.tet.v;
+                   double facets[4];
+                   add_tet({at(v[0]), at(v[1]), at(v[2]), at(v[3])}, weight, means, facets);
+                   if (sampled.shared == MeshSample::SampledTet::no_facets) return;
+                   // A facet of two tetrahedra is met from both.
+                   double sum = 0, count = 0;
+                   for (std::uint32_t f = 0; f < 4; ++f) {
+                       const double part = (sampled.shared >> f & 1) != 0 ? 0.5 : 1.0;
+                       sum += facets[f] * part;
+                       count += part;
+                   }
+                   means.facet.add(sum / count, weight * count);
+               });
+    for_sample(sample.edges, sample.edge_count, share(sample.edge_count, stats.edges), place,
+               [&](const MeshSample::Edge& edge, double weight) {
+                   means.edge.add(length(at(edge[1]) - at(edge[0])), weight);
+               });
+    for_sample(sample.facets, sample.boundary_facet_count,
+               share(sample.boundary_facet_count, stats.boundary_facets) / 2, place,
+               [&](const MeshSample::Facet& facet, double weight) {
+                   means.boundary_facet.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
+               });
+}
 
-Box3d measure_tets(const Body& body, Sums& sums) {
-    Box3d bounds;
-    for (const Tet& tet : body.tets) {
-        const Vec3d corner[4] = {body.positions.exact(tet.v[0]), body.positions.exact(tet.v[1]),
-                                 body.positions.exact(tet.v[2]), body.positions.exact(tet.v[3])};
-        Vector3d p[4];
-        Box3d box;
-        for (int i = 0; i < 4; ++i) box.extend(p[i] = point(corner[i]));
-        bounds.extend(box);
-        const double box_side = box.sizes().maxCoeff();
-        sums.box_side.add(box_side);
-        sums.box_sides.push_back(box_side);
-
-        double longest = 0;
-        for (const auto& edge : edge_corners) longest = std::max(longest, (p[edge[1]] - p[edge[0]]).norm());
-        sums.longest_edge.add(longest);
-        for (const auto& facet : facet_corners)
-            sums.tet_facet.add(facet_area(p[facet[0]], p[facet[1]], p[facet[2]]));
-        sums.volume.add(std::abs((p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0])) / 6);
-        std::uint64_t exact_tests = 0;
-        if (orientation(corner[0], corner[1], corner[2], corner[3], exact_tests) == 0) ++sums.degenerate;
+// The box of the vertices of a body without `unused` ones (bits; empty: all are used). `known` is the box of all
+// vertices, or null.
+Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const Box* known) {
+    Bounds bounds;
+    if (body.vertex_count == 0) return bounds;
+    if (unused.empty() && fast::is_packed(body.positions)) {
+        Box all = empty_box, block{};
+        if (known) {
+            all = *known;
+        } else {
+            const std::uint32_t ends[2] = {0, body.vertex_count};
+            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, all))
+                check_finite(body);
+        }
+        bounds.add({double{all.lo[0]}, double{all.lo[1]}, double{all.lo[2]}},
+                   {double{all.hi[0]}, double{all.hi[1]}, double{all.hi[2]}});
+        return bounds;
+    }
+    check_finite(body);
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+        if (has_bit(unused, v)) continue;
+        const Vec3d p = body.positions.exact(v);
+        bounds.add(p, p);
     }
     return bounds;
 }
 
-void measure_edges(const Body& body, Sums& sums) {
-    const auto generate = [&](auto&& emit) {
-        for (const Tet& tet : body.tets) {
-            const Tet t = sorted(tet);
-            if (names_a_vertex_twice(t)) continue;
-            for (const auto& edge : edge_corners) emit(t.v[edge[0]], t.v[edge[1]]);
-        }
-    };
-    for_each_unique<std::uint32_t>(
-        body.vertex_count, sums.memory(), generate, [&](std::uint32_t a, std::uint32_t b, std::size_t) {
-            sums.edge.add((point(body.positions.exact(b)) - point(body.positions.exact(a))).norm());
-        });
-}
-
-void measure_facets(const Body& body, Sums& sums) {
-    const auto generate = [&](auto&& emit) {
-        for (const Tet& tet : body.tets) {
-            const Tet t = sorted(tet);
-            if (names_a_vertex_twice(t)) continue;
-            for (const auto& facet : facet_corners)
-                emit(t.v[facet[0]], std::uint64_t{t.v[facet[1]]} << 32 | t.v[facet[2]]);
-        }
-    };
-    for_each_unique<std::uint64_t>(body.vertex_count, sums.memory(), generate,
-                                   [&](std::uint32_t a, std::uint64_t rest, std::size_t multiplicity) {
-                                       const double area = facet_area(
-                                           point(body.positions.exact(a)), point(body.positions.exact(rest >> 32)),
-                                           point(body.positions.exact(rest & 0xffffffffu)));
-                                       sums.facet.add(area);
-                                       if (multiplicity == 1) sums.boundary_facet.add(area);
-                                   });
-}
-
 } // namespace
 
-Geometry measure(std::span<const Body> bodies, std::pmr::memory_resource* memory) {
+Geometry measure(const CellSizeScene& scene) {
     Geometry result{};
     vox_geometry_stats& stats = result.stats;
-    for (const Body& body : bodies) {
-        check_finite(body);
+    for (const Body& body : scene.bodies) {
         stats.vertices += body.vertex_count;
-        stats.tets += body.tets.size();
+        stats.tets += body.tets.size() - body.off_count;
     }
-
-    Sums sums(memory);
-    sums.box_sides.reserve(static_cast<std::size_t>(stats.tets));
-    Box3d bounds;
-    Mean object_side;
-    for (const Body& body : bodies) {
-        Box3d box = measure_tets(body, sums);
-        measure_edges(body, sums);
-        measure_facets(body, sums);
-        if (body.tets.empty())
-            for (std::uint32_t v = 0; v < body.vertex_count; ++v) box.extend(point(body.positions.exact(v)));
-        if (box.isEmpty()) continue;
-        bounds.extend(box);
-        const double volume = box.volume();
-        if (volume > 0) object_side.add(std::cbrt(volume));
-    }
-
-    stats.edges = sums.edge.count();
-    stats.facets = sums.facet.count();
-    stats.boundary_facets = sums.boundary_facet.count();
-    stats.degenerate_tets = sums.degenerate;
-    write_means(sums, stats);
-    stats.median_box_side = median(sums.box_sides);
-    if (!bounds.isEmpty())
-        for (int axis = 0; axis < 3; ++axis) {
-            stats.bounds_min[axis] = bounds.min()[axis];
-            stats.bounds_max[axis] = bounds.max()[axis];
+    const std::size_t samples = sampled_tets(stats.tets);
+    const bool sampled = !scene.meshes.empty() && stats.tets > 2 * samples &&
+                         std::ranges::all_of(scene.meshes, [](const Mesh* mesh) { return mesh->may_sample(); });
+    if (sampled) {
+        for (const Mesh* mesh : scene.meshes) {
+            stats.edges += mesh->sample().edge_count;
+            stats.boundary_facets += mesh->sample().boundary_facet_count;
         }
-    result.mean_object_side = object_side.value();
+    } else {
+        for (const Body& body : scene.bodies) check_finite(body);
+    }
+
+    Means means(scene.memory);
+    means.box_sides.reserve(sampled ? samples + scene.bodies.size() : static_cast<std::size_t>(stats.tets));
+    Bounds bounds;
+    double place = 0.5; // another one for each mesh, since many may be alike
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b, place = next_place(place)) {
+        const Body& body = scene.bodies[b];
+        Bounds own;
+        if (sampled) {
+            const MeshSample& sample = scene.meshes[b]->sample();
+            const Positions& positions = body.positions;
+            const auto add = [&](auto&& at) {
+                add_sample(body, sample, stats, static_cast<double>(samples), place, means, at);
+            };
+            if (positions.rounded()) // a third of the time is reading positions, so floats are read as such
+                add([&](std::size_t v) { return positions.exact(v); });
+            else
+                add([&](std::size_t v) { return Vec3d(positions.floats(v)); });
+            own = bounds_of(body, sample.unused_vertices, scene.box(b));
+        } else if (body.tets.size() == body.off_count) {
+            own = bounds_of(body, {}, nullptr);
+        } else {
+            own = add_all(body, scene.memory, means);
+        }
+        if (own.empty()) continue;
+        bounds.add(own.lo, own.hi);
+        const Vec3d sides = own.hi - own.lo;
+        const double volume = sides.x * sides.y * sides.z;
+        if (volume > 0) means.object_side.add(std::cbrt(volume), 1);
+    }
+
+    if (sampled) {
+        // Each facet of a tetrahedron is on the boundary or shared by two, but for the few that more share.
+        stats.facets = (4 * stats.tets + stats.boundary_facets) / 2;
+    } else {
+        stats.edges = static_cast<std::uint64_t>(means.edge.weight);
+        stats.facets = static_cast<std::uint64_t>(means.facet.weight);
+        stats.boundary_facets = static_cast<std::uint64_t>(means.boundary_facet.weight);
+    }
+    stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate));
+    stats.mean_edge = means.edge.value();
+    stats.mean_longest_edge = means.longest_edge.value();
+    stats.mean_box_side = means.box_side.value();
+    stats.mean_facet_area = means.facet.value();
+    stats.mean_tet_facet_area = means.tet_facet.value();
+    stats.mean_boundary_facet_area = means.boundary_facet.value();
+    stats.mean_volume = means.volume.value();
+    stats.median_box_side = median(means.box_sides);
+    if (!bounds.empty()) {
+        std::copy_n(&bounds.lo.x, 3, stats.bounds_min);
+        std::copy_n(&bounds.hi.x, 3, stats.bounds_max);
+    }
+    result.mean_object_side = means.object_side.value();
     return result;
 }
 

@@ -1,6 +1,5 @@
-// Size classes are in order of size, and a level takes consecutive ones: the best split is found by dynamic
-// programming over where the last level begins (R. Bellman, 1957), over a table of what each class costs at
-// each of some cell sizes.
+// A level takes consecutive size classes. The best split is found by dynamic programming over where the last level
+// begins (R. Bellman, 1957), from what each class costs at each of some cell sizes.
 #include "cell_size/levels.hpp"
 
 #include <algorithm>
@@ -14,129 +13,93 @@ namespace vox {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A further level has to be worth more of the whole than the model can tell.
+// A further level has to save this part of the cost of one, which is about as accurate as the model is.
 constexpr double worth = 0.05;
-// Sizes in the table: so many an octave, and no more than that.
+// Cell sizes at which splits are compared. The sizes of the best split are refined.
 constexpr double sizes_per_octave = 4;
-constexpr std::size_t most_sizes = 160;
+constexpr double most_sizes = 160;
 
-// What the classes cost at the sizes of a range, even in the logarithm. Those of one exponent are one group.
-class Table {
-public:
-    Table(const ReferenceModel& cost, std::span<const int> exponents, const CellSizeRange& range,
-          std::pmr::memory_resource* memory)
-        : range_(range), grid_(memory), sum_(memory) {
-        const double octaves = std::log2(range.max / range.min);
-        count_ = std::min(static_cast<std::size_t>(octaves * sizes_per_octave) + 2, most_sizes);
-        grid_.resize(count_);
-        sum_.resize((exponents.size() + 1) * count_);
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double d = cell_size(static_cast<double>(k)), occupied = cost.occupied(d);
-            grid_[k] = cost.of_grid(d);
-            for (const SizeClass& c : cost.profile().classes()) {
-                const auto group = std::lower_bound(exponents.begin(), exponents.end(), c.exponent);
-                sum_[static_cast<std::size_t>(group - exponents.begin() + 1) * count_ + k] +=
-                    cost.of_class(c, d, occupied);
-            }
-            for (std::size_t g = 0; g < exponents.size(); ++g)
-                sum_[(g + 1) * count_ + k] += sum_[g * count_ + k];
-        }
-    }
-
-    // The least cost of a grid for the groups [from, end), and where.
-    struct Best {
-        double cost = infinity, cell_size = 0;
-    };
-    Best best(std::size_t from, std::size_t end) const noexcept {
-        const auto at = [&](std::size_t k) {
-            return grid_[k] + sum_[end * count_ + k] - sum_[from * count_ + k];
-        };
-        std::size_t place = 0;
-        for (std::size_t k = 1; k < count_; ++k)
-            if (at(k) < at(place)) place = k;
-        double between = 0; // the vertex of the parabola through the place and its neighbours
-        if (place > 0 && place + 1 < count_) {
-            const double left = at(place - 1) - at(place), right = at(place + 1) - at(place);
-            if (left + right > 0) between = (left - right) / (2 * (left + right));
-        }
-        return {at(place), cell_size(static_cast<double>(place) + between)};
-    }
-
-private:
-    double cell_size(double k) const noexcept {
-        return range_.min * std::pow(range_.max / range_.min, k / static_cast<double>(count_ - 1));
-    }
-
-    CellSizeRange range_;
-    std::size_t count_ = 0;
-    std::pmr::vector<double> grid_; // at each size: what a grid costs before anything looks into it
-    std::pmr::vector<double> sum_;  // of the groups before each, at each size
-};
-
-// The best cell size for the classes of some exponents near the one of the table, whose sizes are too far
-// apart for what regular points make of it.
-double refined(const ReferenceModel& cost, int first_exponent, int last_exponent, double cell_size,
-               const CellSizeRange& range) {
-    const auto of_level = [&](double d) {
-        const double occupied = cost.occupied(d);
-        double sum = cost.of_grid(d);
-        for (const SizeClass& c : cost.profile().classes())
-            if (c.exponent >= first_exponent && c.exponent <= last_exponent)
-                sum += cost.of_class(c, d, occupied);
-        return sum;
-    };
-    constexpr double around = 1.6;
-    return minimise(of_level,
-                    {std::max(cell_size / around, range.min), std::min(cell_size * around, range.max)},
-                    {.scans_per_octave = 32, .least_scans = 2, .tolerance = 1e-2})
-        .cell_size;
+// What a grid of this cell size costs for the classes with some exponents.
+double cost_of_level(const ReferenceModel& cost, int first_exponent, int last_exponent, double cell_size) {
+    const double occupied = cost.occupied(cell_size);
+    double sum = cost.of_grid(cell_size);
+    for (const SizeClass& c : cost.lookups().classes())
+        if (c.exponent >= first_exponent && c.exponent <= last_exponent)
+            sum += cost.of_class(c, cell_size, occupied);
+    return sum;
 }
+
+// The best way to give the first classes to some levels, the last of which begins at class `from`.
+struct Split {
+    double cost = infinity, cell_size = 0; // of the last level
+    std::size_t from = 0;
+};
 
 } // namespace
 
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
-    std::pmr::memory_resource* const memory = cost.profile().classes().get_allocator().resource();
+    std::pmr::memory_resource* const memory = cost.lookups().classes().get_allocator().resource();
     std::pmr::vector<int> exponents(memory);
-    for (const SizeClass& c : cost.profile().classes()) exponents.push_back(c.exponent);
+    for (const SizeClass& c : cost.lookups().classes()) exponents.push_back(c.exponent);
     std::sort(exponents.begin(), exponents.end());
     exponents.erase(std::unique(exponents.begin(), exponents.end()), exponents.end());
     const std::size_t n = exponents.size();
     if (n == 0) return {};
-    const Table table(cost, exponents, range, memory);
 
-    // best[l][j]: the groups before j in l + 1 levels; the last one begins at `from`.
-    constexpr std::size_t most = VOX_CELL_SIZE_LEVEL_CAPACITY;
-    struct Split {
-        double cost = infinity, cell_size = 0;
-        std::size_t from = 0;
+    // grid[k]: what a grid costs before anything is looked up in it, at the k-th cell size. sum[g * sizes + k]: what
+    // the classes with the first g exponents cost there.
+    const double octaves = std::log2(range.max / range.min);
+    const auto sizes = static_cast<std::size_t>(std::min(octaves * sizes_per_octave + 2, most_sizes));
+    const auto size_at = [&](std::size_t k) {
+        return range.min * std::exp2(octaves * static_cast<double>(k) / static_cast<double>(sizes - 1));
     };
-    using Splits = std::pmr::vector<Split>;
-    static_assert(most == 4);
-    std::array<Splits, most> best{Splits(n + 1, memory), Splits(n + 1, memory), Splits(n + 1, memory),
-                                  Splits(n + 1, memory)};
+    std::pmr::vector<double> grid(sizes, memory), sum((n + 1) * sizes, memory);
+    for (std::size_t k = 0; k < sizes; ++k) {
+        const double d = size_at(k), occupied = cost.occupied(d);
+        grid[k] = cost.of_grid(d);
+        for (const SizeClass& c : cost.lookups().classes()) {
+            const auto g = std::lower_bound(exponents.begin(), exponents.end(), c.exponent) - exponents.begin();
+            sum[static_cast<std::size_t>(g + 1) * sizes + k] += cost.of_class(c, d, occupied);
+        }
+        for (std::size_t g = 0; g < n; ++g) sum[(g + 1) * sizes + k] += sum[g * sizes + k];
+    }
+
+    // best[l][j]: the first j exponents in l + 1 levels.
+    constexpr std::size_t most = VOX_CELL_SIZE_LEVEL_CAPACITY;
+    const std::pmr::vector<Split> none(n + 1, memory);
+    std::pmr::vector<std::pmr::vector<Split>> best(most, none, memory);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j <= n; ++j) {
-            const Table::Best own = table.best(i, j);
-            if (i == 0) best[0][j] = {own.cost, own.cell_size, 0};
+            Split own;
+            for (std::size_t k = 0; k < sizes; ++k) {
+                const double c = grid[k] + sum[j * sizes + k] - sum[i * sizes + k];
+                if (c < own.cost) own = {c, size_at(k), i};
+            }
+            if (i == 0) best[0][j] = own;
             for (std::size_t l = 1; l < most && i > 0; ++l) {
-                const double sum = best[l - 1][i].cost + own.cost;
-                if (sum < best[l][j].cost) best[l][j] = {sum, own.cell_size, i};
+                const double all = best[l - 1][i].cost + own.cost;
+                if (all < best[l][j].cost) best[l][j] = {all, own.cell_size, i};
             }
         }
 
     std::size_t chosen = 0;
-    const double shared = cost.shared(), least_gain = worth * (best[0][n].cost + shared);
+    const double least_gain = worth * (best[0][n].cost + cost.shared());
     for (std::size_t l = 1; l < most; ++l)
         if (best[l][n].cost < best[chosen][n].cost - static_cast<double>(l - chosen) * least_gain) chosen = l;
     Levels levels;
     levels.count = static_cast<std::uint32_t>(chosen + 1);
     std::size_t end = n;
     for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from) {
-        // Sides in a group are below twice its power of two.
-        const double side = std::nextafter(std::ldexp(2.0, exponents[end - 1]), 0.0);
-        const std::size_t from = best[l][end].from;
-        levels.level[l] = {refined(cost, exponents[from], exponents[end - 1], best[l][end].cell_size, range),
-                           end == n ? infinity : side};
+        const int first = exponents[best[l][end].from], last = exponents[end - 1];
+        constexpr double around = 1.6; // further than from one of the sizes above to the next
+        const double near = best[l][end].cell_size;
+        levels.level[l].cell_size =
+            minimise([&](double d) { return cost_of_level(cost, first, last, d); },
+                     {std::max(near / around, range.min), std::min(near * around, range.max)},
+                     {.scans_per_octave = 32, .least_scans = 2, .tolerance = 1e-2})
+                .cell_size;
+        // Sides in a class are below twice its power of two.
+        levels.level[l].longest_side = end == n ? infinity : std::nextafter(std::ldexp(2.0, last), 0.0);
     }
     levels.cost = cost_of_levels(cost, levels.list());
     return levels;
@@ -152,7 +115,7 @@ const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels)
 double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels) {
     double sum = cost.shared();
     for (const CellLevel& level : levels) sum += cost.of_grid(level.cell_size);
-    for (const SizeClass& c : cost.profile().classes()) {
+    for (const SizeClass& c : cost.lookups().classes()) {
         const double size = level_of(c, levels).cell_size;
         sum += cost.of_class(c, size, cost.occupied(size));
     }

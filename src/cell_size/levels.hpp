@@ -1,5 +1,5 @@
-// Where tetrahedra are of very unlike sizes, no one cell size is near the best for all of them: several grids
-// side by side, each with the cell size that is best for the tetrahedra that look into it.
+// Where tetrahedra are of very unlike sizes, no one cell size is near the best for all of them. A level is a grid for
+// some of the tetrahedra, with the cell size that is best for these.
 #pragma once
 
 #include "cell_size/reference_model.hpp"
@@ -19,13 +19,14 @@ struct Levels {
     std::span<const CellLevel> list() const noexcept { return {level.data(), count}; }
 };
 
-// The best way to share the size classes of the tetrahedra, in order, among at most that many grids, with
-// cell sizes in the range. Every vertex is in each of them. One level where more do not pay.
+// The best way to distribute the size classes of the tetrahedra, in order of size, over up to
+// VOX_CELL_SIZE_LEVEL_CAPACITY levels with cell sizes in the range. Every vertex is in each of the grids. A further
+// level is only used where it pays.
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range);
 
-// The level that the boxes of a class look into: that of the smallest of them.
+// The level for the boxes of a class, by the smallest of them.
 const CellLevel& level_of(const SizeClass& c, std::span<const CellLevel> levels);
-// A step with these levels, one at least.
+// The cost of a step with these levels, of which there is at least one.
 double cost_of_levels(const ReferenceModel& cost, std::span<const CellLevel> levels);
 
 } // namespace vox

@@ -1,7 +1,8 @@
-// Sampling without knowing how many there are: Algorithm R (J. S. Vitter, Random sampling with a reservoir,
-// ACM Trans. Math. Software 11, 1985), with random numbers by splitmix64 (Steele, Lea, Flood, 2014): the same
-// scene gives the same sample.
+// Lookups of a class are sampled before their number is known, by Algorithm R (J. S. Vitter, Random sampling with
+// a reservoir, ACM Trans. Math. Software 11, 1985).
 #include "cell_size/lookups.hpp"
+
+#include "base/sampling.hpp"
 
 #include <bit>
 #include <cmath>
@@ -11,59 +12,45 @@ namespace vox {
 
 namespace {
 
-// Points nearer to a box than so many of its sides are looked at one by one; of those beyond, some.
+// Points nearer to a box than this multiple of its longest side are looked at in full, up to a number; those
+// beyond are thinned out.
 constexpr double near_sides = 1;
-// Most rows of cells looked at for one box; of more, every so many.
+// At most this many rows of cells are looked at for one box.
 constexpr std::size_t most_rows = 1024;
-// Points in a cell, about.
+// About this many points are put into one cell.
 constexpr double points_per_cell = 6;
-// Of the lookups sampled, this part tells how many cells are occupied.
+// One of this many sampled lookups is used to estimate how many cells are occupied.
 constexpr std::size_t crowd_part = 8;
-
-std::uint64_t next_random(std::uint64_t& state) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-// floor(random * below), without the bias mattering.
-std::uint64_t next_below(std::uint64_t& state, std::uint64_t below) {
-    return static_cast<std::uint64_t>(static_cast<double>(next_random(state) >> 11) * 0x1p-53 *
-                                      static_cast<double>(below));
-}
 
 double longest_side(const Lookup& l) {
     return std::max(std::max(l.hi[0] - l.lo[0], l.hi[1] - l.lo[1]), l.hi[2] - l.lo[2]);
 }
 
-struct Distances {
-    double along[3];
-    double largest;
-};
-
-Distances distances(const Lookup& l, const double (&p)[3]) {
-    Distances d{};
-    for (int a = 0; a < 3; ++a) {
-        d.along[a] = std::max(std::max(l.lo[a] - p[a], p[a] - l.hi[a]), 0.0);
-        d.largest = std::max(d.largest, d.along[a]);
-    }
-    return d;
+// Distances of a point from a box along the axes; returns the largest.
+double distances(const Lookup& l, const double (&p)[3], double (&along)[3]) {
+    for (int a = 0; a < 3; ++a) along[a] = std::max(std::max(l.lo[a] - p[a], p[a] - l.hi[a]), 0.0);
+    return std::max(std::max(along[0], along[1]), along[2]);
 }
 
-// Points in cells, and a few of them spread evenly.
+// All points, sorted into cells.
 struct Binned {
     const fast::Window& window;
     const fast::Points& points;
     const std::uint32_t* begin; // of each cell
-    std::size_t most_near;      // points looked at near one lookup; of more, every so many
-    std::size_t stride;         // every so many points are the few
+    std::size_t most_near;      // points looked at near one lookup
+    std::size_t far_stride;     // at which points far from a lookup are looked at
+
+    void at(std::size_t i, double (&p)[3]) const noexcept {
+        p[0] = double{points.x[i]};
+        p[1] = double{points.y[i]};
+        p[2] = double{points.z[i]};
+    }
 };
 
-// The cells that hold all that is not further from a box than `near`.
+// The cells that hold every point whose distance from a box is at most `near`.
 void cells_around(const Lookup& l, double near, const fast::WindowLattice& lattice, std::uint32_t (&lo)[3],
                   std::uint32_t (&hi)[3]) {
-    // As floats no further in than they are.
+    // Rounded outwards.
     constexpr double largest = std::numeric_limits<float>::max();
     for (int a = 0; a < 3; ++a) {
         const auto below = static_cast<float>(std::max(l.lo[a] - near, -largest));
@@ -73,18 +60,15 @@ void cells_around(const Lookup& l, double near, const fast::WindowLattice& latti
     }
 }
 
-// Calls count(id, distances, weight) for the points around one lookup: near ones from the cells, far ones
-// from the few. The weight is how many of their like they stand for.
+// Calls count(id, distances, weight) for points around one lookup, of which each stands for `weight` points: near
+// ones from the cells, far ones from all points at a stride.
 template <class Count>
 void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
     const fast::WindowLattice& lattice = in.window.lattice;
     std::uint32_t lo[3], hi[3];
     cells_around(l, near, lattice, lo, hi);
-    const auto position = [&](std::size_t i) {
-        return std::array<double, 3>{in.points.x[i], in.points.y[i], in.points.z[i]};
-    };
     const std::size_t rows_y = hi[1] - lo[1] + 1, rows = rows_y * (hi[2] - lo[2] + 1);
-    const std::size_t most = std::min(most_rows, in.most_near), row_stride = (rows + most - 1) / most;
+    const std::size_t row_stride = stride_for(rows, std::min(most_rows, in.most_near));
     const auto row_of = [&](std::size_t r) {
         const std::size_t y = lo[1] + r % rows_y, z = lo[2] + r / rows_y;
         return (z * lattice.cells[1] + y) * lattice.cells[0];
@@ -93,29 +77,28 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
     std::size_t there = 0;
     for (std::size_t r = first_row; r < rows; r += row_stride)
         there += in.begin[row_of(r) + hi[0] + 1] - in.begin[row_of(r) + lo[0]];
-    const std::size_t stride = there / in.most_near + 1;
+    const std::size_t stride = stride_for(there, in.most_near);
     const auto near_weight = static_cast<double>(row_stride * stride);
     std::size_t skip = stride > 1 ? next_below(random, stride) : 0;
+    double p[3], along[3];
     for (std::size_t r = first_row; r < rows; r += row_stride) {
         const std::size_t row = row_of(r), end = in.begin[row + hi[0] + 1];
         std::size_t i = in.begin[row + lo[0]] + skip;
         for (; i < end; i += stride) {
-            const std::array<double, 3> p = position(i);
-            const Distances d = distances(l, {p[0], p[1], p[2]});
-            if (d.largest <= near) count(in.points.id[i], d, near_weight);
+            in.at(i, p);
+            if (distances(l, p, along) <= near) count(in.points.id[i], along, near_weight);
         }
         skip = i - end;
     }
-    const auto far_weight = static_cast<double>(in.stride);
-    for (std::size_t i = in.stride / 2; i < in.points.count; i += in.stride) {
-        const std::array<double, 3> p = position(i);
-        const Distances d = distances(l, {p[0], p[1], p[2]});
-        if (d.largest > near) count(in.points.id[i], d, far_weight);
+    const auto far_weight = static_cast<double>(in.far_stride);
+    for (std::size_t i = in.far_stride / 2; i < in.points.count; i += in.far_stride) {
+        in.at(i, p);
+        if (distances(l, p, along) > near) count(in.points.id[i], along, far_weight);
     }
 }
 
-// The points nearer to a box than `most`; than less where those are too many, and 0 where those nearer than
-// the smallest cell size are. Returns how near.
+// Collects the points nearer to a box than `most`, or than some smaller distance where those are too many.
+// Returns that distance; 0 where even those nearer than the smallest cell size are too many.
 double gather(const Lookup& l, const BranchMisses& changes, double most, const Binned& in,
               std::pmr::vector<BranchMisses::Point>& points) {
     const fast::WindowLattice& lattice = in.window.lattice;
@@ -128,8 +111,9 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
             for (std::uint32_t y = lo[1]; y <= hi[1] && points.size() <= BranchMisses::most_points; ++y) {
                 const std::size_t row = (std::size_t{z} * lattice.cells[1] + y) * lattice.cells[0];
                 for (std::size_t i = in.begin[row + lo[0]]; i < in.begin[row + hi[0] + 1]; ++i) {
-                    const double p[3] = {in.points.x[i], in.points.y[i], in.points.z[i]};
-                    const double distance = distances(l, p).largest;
+                    double p[3], along[3];
+                    in.at(i, p);
+                    const double distance = distances(l, p, along);
                     if (distance >= near) continue;
                     points.push_back(
                         {{in_scale(p[0] - l.lo[0]), in_scale(p[1] - l.lo[1]), in_scale(p[2] - l.lo[2])},
@@ -145,14 +129,34 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
 
 } // namespace
 
+// Sample sizes are what keeps a suggestion below the time of a step (docs/cell-size.md, "What a suggestion
+// costs") with a regret within a few per cent of the thorough look: the tests hold the loss in the model's own
+// cost to 2 % (4 % with lists) for the reference engine and 3 % for the fast one.
+SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept {
+    const auto t = static_cast<std::size_t>(tets);
+    if (model == VOX_COST_MODEL_FAST) { // whose lookups are fewer and more alike, and its cost flatter
+        const std::size_t lookups = std::clamp<std::size_t>(t / 2048, 4, 32);
+        return {0, lookups, 2 * lookups + 32, lookups + 8, 0, std::max<std::size_t>(lookups, 16)};
+    }
+    // The lengths of lists take the surroundings of 128 boxes, 20 microseconds each, whatever the scene. At this
+    // many tetrahedra a step takes 6 to 15 ms (docs/regret.md). In smaller scenes how the lattice happens to lie
+    // matters more than the lengths of lists.
+    constexpr std::size_t many = 60000;
+    return {std::clamp<std::size_t>(t / 8, 512, std::size_t{1} << 15),
+            std::clamp<std::size_t>(t / 400, 64, 256),
+            128,
+            std::clamp<std::size_t>(t / 256, 64, 192),
+            t < many ? 0 : std::size_t{128},
+            64};
+}
+
 // ---- sums -----------------------------------------------------------------------------------------
 
 void PointsMet::grow(std::size_t to) { sums_.resize(to + 1); }
 
-// Of points about as far away as the cell size, next to none are met; their class comes in little by little,
-// so that the sum is continuous.
+// The class of points about as far away as the cell size is added in part, so that the sum is continuous.
 double PointsMet::at(double cell_size) const noexcept {
-    if (sums_.size() == 1 && sums_[0].sum[0] == 0) return 0; // none
+    if (sums_.size() == 1 && sums_[0].sum[0] == 0) return 0; // no points
     const double ratio = cell_size * inverse_least_;
     const std::size_t c = class_of(ratio);
     if (c == 0) return sums_[0].sum[0];
@@ -175,19 +179,19 @@ SizeClass::SizeClass(int e, bool may_meet_points, std::size_t most_samples, std:
     sample.reserve(most_samples);
 }
 
-Lookups::Lookups(const SampleSizes& sizes, std::pmr::memory_resource* memory)
-    : sizes_(sizes), classes_(memory) {
+Lookups::Lookups(const SampleBudget& budget, std::pmr::memory_resource* memory)
+    : budget_(budget), classes_(memory) {
     index_.fill(-1);
 }
 
 SizeClass& Lookups::class_of(double side, bool may_meet) {
-    // A box without sides counts as very small; scaled, it would have no class of points.
+    // A box without sides counts as very small.
     const int exponent =
         side > 0 ? std::clamp(std::ilogb(side), -exponents / 2, exponents / 2 - 1) : -exponents / 2;
     std::int16_t& index = index_[2 * static_cast<std::size_t>(exponent + exponents / 2) + may_meet];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
-        classes_.emplace_back(exponent, may_meet, sizes_.lookups, classes_.get_allocator().resource());
+        classes_.emplace_back(exponent, may_meet, budget_.lookups, classes_.get_allocator().resource());
     }
     return classes_[static_cast<std::size_t>(index)];
 }
@@ -201,45 +205,49 @@ void Lookups::add(const Lookup& lookup, double weight) {
     c.added += 1;
     c.cells.add(cells_met(w), weight);
     c.rows.add(rows_met(w), weight);
-    if (c.sample.size() < sizes_.lookups) {
+    if (c.sample.size() < budget_.lookups) {
         c.sample.push_back(lookup);
         return;
     }
     const std::uint64_t place = next_below(random_, c.added);
-    if (place < sizes_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
+    if (place < budget_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
-// Calls around(lookup, count) for the lookups of a class that are in the sample; there count(id, distances,
-// weight) takes a point. Returns how many they are.
+// Calls around(lookup, count) for some of the sampled lookups of a class, which calls count(id, distances, weight)
+// for points. Returns for how many.
 template <class Around>
 std::size_t Lookups::count_around(SizeClass& c, double lookups, Around&& around) {
-    // Half of the sample by number, half evenly: rare large boxes cost as much as many small ones.
+    // Half of the samples go to the classes by their number, half evenly: a few large boxes can cost as much as
+    // many small ones.
     const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
     const auto size =
-        std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(sizes_.lookups) * share) + 1);
+        std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(budget_.lookups) * share) + 1);
     const double each = c.count / static_cast<double>(size);
     for (std::size_t i = 0; i < size; ++i) {
         const Lookup& l = c.sample[i];
-        around(l, [&](std::uint32_t id, const Distances& d, double weight) {
+        around(l, [&](std::uint32_t id, const double(&along)[3], double weight) {
             ++points_looked_at_;
             if (id < l.first_read || id >= l.last_read) return;
-            (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(d.along, each * weight);
+            (id >= l.first_passed && id < l.last_passed ? c.passed : c.tested).add(along, each * weight);
         });
     }
     return size;
 }
 
-void Lookups::count_points(const fast::Points& points, Occupied occupied) {
+void Lookups::count_points(const fast::Points& points, bool count_occupied) {
     const double lookups = count();
-    if (occupied == Occupied::not_counted && points.count <= sizes_.near_points + sizes_.far_points) {
-        for (SizeClass& c : classes_) // all of them are around each
+    if (!count_occupied && points.count <= budget_.near_points + budget_.far_points) {
+        for (SizeClass& c : classes_) // so few points that all of them are looked at
             count_around(c, lookups, [&](const Lookup& l, auto&& count) {
-                for (std::uint32_t i = 0; i < points.count; ++i)
-                    if (points.id[i] >= l.first_read && points.id[i] < l.last_read)
-                        count(points.id[i], distances(l, {points.x[i], points.y[i], points.z[i]}), 1.0);
+                double along[3];
+                for (std::uint32_t i = 0; i < points.count; ++i) {
+                    if (points.id[i] < l.first_read || points.id[i] >= l.last_read) continue;
+                    distances(l, {points.x[i], points.y[i], points.z[i]}, along);
+                    count(points.id[i], along, 1.0);
+                }
             });
     } else {
-        count_binned(points, lookups, occupied);
+        count_binned(points, lookups, count_occupied);
     }
     for (SizeClass& c : classes_) {
         c.changes.finish();
@@ -248,7 +256,7 @@ void Lookups::count_points(const fast::Points& points, Occupied occupied) {
     }
 }
 
-void Lookups::count_binned(const fast::Points& points, double lookups, Occupied occupied) {
+void Lookups::count_binned(const fast::Points& points, double lookups, bool count_occupied) {
     if (points.count == 0) return;
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
@@ -264,15 +272,15 @@ void Lookups::count_binned(const fast::Points& points, double lookups, Occupied 
         first_size_ = smallest / 16;
         size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
     }
-    const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, sizes_.near_points,
-                        points.count / sizes_.far_points + 1};
+    const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, budget_.near_points,
+                        stride_for(points.count, budget_.far_points)};
     for (SizeClass& c : classes_) {
         const double near = near_sides * std::ldexp(2.0, c.exponent);
         const std::size_t size = count_around(c, lookups, [&](const Lookup& l, auto&& count) {
             for_points_around(l, near, binned, random_, count);
         });
-        count_lists(c, size * sizes_.listed / sizes_.lookups, binned, around);
-        if (occupied == Occupied::not_counted) continue;
+        count_lists(c, size * budget_.listed / budget_.lookups, binned, around);
+        if (!count_occupied) continue;
         count_crowds(c, size / crowd_part + 1, near, binned, static_cast<double>(points.count) / lookups);
     }
 }
@@ -285,15 +293,15 @@ void Lookups::count_lists(SizeClass& c, std::size_t wanted, const In& in,
     for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
         const Lookup& l = c.sample[i];
         const double known = gather(l, c.changes, near, in, points);
-        near = std::clamp(1.2 * known, 2 * least, most); // the next one is likely to be like this one
+        near = std::clamp(1.2 * known, 2 * least, most); // a first guess for the next lookup
         points_looked_at_ += points.size();
         c.changes.add(l.lo, l.hi, points, known);
     }
 }
 
-// Every point has 1 / (points in its cell) of an occupied cell. Corners of sampled boxes stand for all
-// points, and their neighbours for a random number of the same mean (Poisson): E[1 / (1 + N)] = (1 - exp(-m))
-// / m.
+// The number of occupied cells is the sum over all points of 1 / (points in their cell). Corners of sampled
+// boxes stand for all points. The number of others in the cell of a corner is taken as random with the mean m
+// found there (Poisson): E[1 / (1 + N)] = (1 - exp(-m)) / m.
 template <class In>
 void Lookups::count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                            double points_per_lookup) {
@@ -304,7 +312,7 @@ void Lookups::count_crowds(const SizeClass& c, std::size_t wanted, double near, 
         for (int a = 0; a < 3; ++a) corner.hi[a] = corner.lo[a];
         PointsMet met(std::ldexp(1.0, c.exponent), classes_.get_allocator().resource());
         for_points_around(corner, near, in, random_,
-                          [&](std::uint32_t, const Distances& d, double w) { met.add(d.along, w); });
+                          [&](std::uint32_t, const double(&along)[3], double w) { met.add(along, w); });
         met.finish();
         double size_at = first_size_;
         for (double& occupied : occupied_) {

@@ -1,17 +1,19 @@
 // How many cells, rows of cells and points a set of boxes meets in a lattice of cubic cells, as a function of
 // the cell size.
 //
-// A box of sides w, w', w'' laid at random into a lattice of cell size d meets (w/d + 1)(w'/d + 1)(w''/d + 1)
-// cells in the mean, exactly; and a point beside it, at distances e, e', e'' from it along the axes, lies in
-// one of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), and with 0 as soon as one factor is not
-// positive. Both are polynomials in 1/d, so that four sums over all boxes give the cells at any d; and four
-// sums for each class of the largest e give the points. No mean size is taken anywhere: graded meshes,
-// slivers and bodies of unlike resolution come out as they are.
+// A box of sides w, w', w'' placed at random in a lattice of cell size d meets on average exactly
+// (w/d + 1)(w'/d + 1)(w''/d + 1) cells. A point beside it, at distances e, e', e'' from it along the axes, lies
+// in one of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), which is 0 as soon as one factor is not
+// positive. Both are polynomials in 1/d: four sums over all boxes give the cells at any d, and four sums for
+// each class of the largest e give the points. No size is averaged, so graded meshes, slivers and bodies of
+// unlike resolution need no special care.
 #pragma once
 
 #include "cell_size/branch_misses.hpp"
 
 #include "fast/window.hpp"
+
+#include <vox/vox.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +24,22 @@
 #include <vector>
 
 namespace vox {
+
+// How closely a scene is looked at before its cell size is chosen.
+struct SampleBudget {
+    std::size_t most_tets;   // about this many tetrahedra give their boxes; in a larger scene a sample does
+    std::size_t lookups;     // boxes whose surroundings are looked at
+    std::size_t near_points; // points looked at near each of them
+    std::size_t far_points;  // points looked at among those that are near none of them
+    std::size_t listed;      // boxes whose cells are filled and visited for the lengths of their lists
+    std::size_t most_looks;  // looks of tiles into windows, gone through for each cell size
+};
+
+// For vox_suggest_cell_size. The tests hold its counts to within 10 % of the engines' own.
+inline constexpr SampleBudget thorough{std::size_t{1} << 18, 4096, 4096, 1024, 512, 4096};
+
+// For a grid, where choosing has to cost less than a step of `tets` tetrahedra.
+SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept;
 
 // sum[0] + sum[1] / d + sum[2] / d^2 + sum[3] / d^3
 struct Moments {
@@ -36,18 +54,17 @@ struct Moments {
     }
 };
 
-// Cells, and rows of cells along x, that a box of these sides meets.
+// Cells that a box of these sides meets, and rows of cells along x.
 inline Moments cells_met(const double (&w)[3]) noexcept {
     return {{1, w[0] + w[1] + w[2], w[0] * w[1] + w[1] * w[2] + w[2] * w[0], w[0] * w[1] * w[2]}};
 }
 inline Moments rows_met(const double (&w)[3]) noexcept { return {{1, w[1] + w[2], w[1] * w[2], 0}}; }
 
-// Points met, from their distances to the box along the axes.
+// How many points lie in the cells that a box meets, from their distances to the box along the axes.
 class PointsMet {
 public:
-    // Sums of points by the largest of their distances, in classes of a sixteenth of an octave from `scale` /
-    // 256 on, where `scale` is a length of the size of the boxes; points further away than 4096 times that do
-    // not count.
+    // `scale` is a length of the size of the boxes. Points are summed in classes of their largest distance, each
+    // a sixteenth of an octave wide, from scale / 256 on; those further away than 4096 * scale are left out.
     PointsMet(double scale, std::pmr::memory_resource* memory)
         : inverse_least_(256 / scale), sums_(1, memory) {}
 
@@ -62,17 +79,17 @@ public:
         m.sum[2] += weight * (both + (e[0] + e[1]) * e[2]);
         m.sum[3] -= weight * (both * e[2]);
     }
-    // Once, after the last add(): makes of each class the sum of all up to it.
+    // Call once, after the last add(): turns each class into the sum of all classes up to it.
     void finish() noexcept;
 
     double at(double cell_size) const noexcept;
-    double inside() const noexcept { return sums_[0].sum[0]; } // or as good as
+    double inside() const noexcept { return sums_[0].sum[0]; } // in the box, or nearer than scale / 256
 
 private:
     static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
 
-    // Of a distance, given over the least. Octave and sixteenth are the bits above the rest of the mantissa:
-    // even within an octave, not in the logarithm, which does not matter.
+    // The class of a distance, given as a multiple of the least. Octave and sixteenth are the upper bits of the
+    // number, so the classes of one octave are equally wide.
     static constexpr int rest_bits = 48;
     static std::size_t class_of(double ratio) noexcept {
         if (!(ratio >= 1)) return 0;
@@ -83,57 +100,45 @@ private:
     void grow(std::size_t to);
 
     double inverse_least_;
-    std::pmr::vector<Moments> sums_; // of the first class and all up to the last with any
+    std::pmr::vector<Moments> sums_; // of the classes up to the last that holds a point
 };
 
-// Something that is looked up in the lattice: a box, the points that it looks at there, and those of them
-// that it does not test. Points by their index in the scene.
+// A box that is looked up in the lattice. It reads points there, and tests those of them that it does not
+// pass over. Points are ranges of indices in the scene.
 struct Lookup {
     double lo[3], hi[3];
     std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
-    bool may_meet = true; // points that it tests may be near it: such lookups are sampled for themselves
-    bool jumps = false;   // it is away from the one before, so that what it meets was not looked at just now
+    bool may_meet = true; // whether points that it tests may be near it: such lookups are sampled separately
+    bool jumps = false;   // whether it is apart from the lookup before, which then read other points
 };
 
-// Lookups whose longest side is at least 2^exponent and less than twice that, and that may meet something, or
-// not.
+// Lookups whose longest side is at least 2^exponent and less than twice that, and that agree in may_meet.
 struct SizeClass {
     SizeClass(int exponent, bool may_meet, std::size_t most_samples, std::pmr::memory_resource* memory);
 
     int exponent;
     bool may_meet;
-    double count = 0;        // of lookups
-    double jumped = 0;       // of them, those that jump
-    std::uint64_t added = 0; // of calls that gave them
-    Moments cells, rows;     // of all lookups of the class together, as the points are
-    PointsMet passed, tested;
+    double count = 0;         // of lookups, as are all sums here
+    double jumped = 0;        // of lookups that jump
+    std::uint64_t added = 0;  // calls of Lookups::add()
+    Moments cells, rows;      // met
+    PointsMet passed, tested; // points read, passed over or tested
     BranchMisses changes;
     std::pmr::vector<Lookup> sample;
 };
 
-// How much is looked at: lookups whose surroundings are, points near each of them, and points in what is far
-// from them all.
-struct SampleSizes {
-    std::size_t lookups, near_points, far_points;
-    std::size_t listed = 0; // lookups whose cells are filled and gone through
-};
-
-// Whether it is told how many cells have a point in them, which takes a look of its own.
-enum class Occupied : bool { not_counted, counted };
-
 class Lookups {
 public:
-    Lookups(const SampleSizes& sizes, std::pmr::memory_resource* memory);
+    Lookups(const SampleBudget& budget, std::pmr::memory_resource* memory);
 
-    // A lookup that stands for `weight` of its like, one by one; some of each class are kept as a sample.
-    // Sides are finite.
+    // Adds a lookup that stands for `weight` lookups like it; a sample of each class is kept. Sides are finite.
     void add(const Lookup& lookup, double weight = 1);
-    // Once, when all are there: the points around the samples. `points` are those of the scene, their ids
-    // what the lookups mean by an index; all are finite.
-    void count_points(const fast::Points& points, Occupied occupied);
+    // Call once, after the last add(): looks at the points around the samples. The ids of `points` are the
+    // indices that lookups refer to; all points are finite. Estimating occupied() takes an extra pass.
+    void count_points(const fast::Points& points, bool count_occupied);
 
-    // How many points were looked at for that, once for each sample.
+    // How many points count_points() looked at, once for each sample near them.
     std::uint64_t points_looked_at() const noexcept { return points_looked_at_; }
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
@@ -143,8 +148,9 @@ public:
     double read(double cell_size) const noexcept;
     double tested(double cell_size) const noexcept;
     double candidates() const noexcept;               // tested points that are in the boxes themselves
-    double occupied(double cell_size) const noexcept; // cells with a point in them, in all the world, about
-    // Sides of lookups that have any, to within a factor of two; false: none has.
+    double occupied(double cell_size) const noexcept; // estimated number of cells with a point in them
+    // Longest sides of the smallest and the largest lookup, to within a factor of two; false where none has a
+    // side.
     bool sides(double& smallest, double& largest) const noexcept;
 
 private:
@@ -153,7 +159,7 @@ private:
     SizeClass& class_of(double side, bool may_meet);
     template <class Around>
     std::size_t count_around(SizeClass& c, double lookups, Around&& around);
-    void count_binned(const fast::Points& points, double lookups, Occupied occupied);
+    void count_binned(const fast::Points& points, double lookups, bool count_occupied);
     template <class In>
     void count_lists(SizeClass& c, std::size_t wanted, const In& in,
                      std::pmr::vector<BranchMisses::Point>& points);
@@ -161,11 +167,11 @@ private:
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
 
-    SampleSizes sizes_;
-    std::pmr::vector<SizeClass> classes_;           // those that occur
+    SampleBudget budget_;
+    std::pmr::vector<SizeClass> classes_;           // that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0, points_looked_at_ = 0;
-    // Of cells with a point, for cell sizes that are even in the logarithm.
+    // Occupied cells at sizes that are evenly spaced in the logarithm.
     static constexpr std::size_t occupied_sizes = 64;
     double first_size_ = 1, size_ratio_ = 2;
     std::array<double, occupied_sizes> occupied_{};

@@ -1,5 +1,5 @@
-// The paper's cost function (Sect. 4), in the cell size as a multiple of the size of a tetrahedron: x = delta
-// / s. Nothing in it has a unit, so that scenes in millimetres and in kilometres are the same numbers.
+// The paper's cost function (Sect. 4), in the cell size as a multiple of the size s of a tetrahedron, x = delta
+// / s. Nothing in it has a unit, so scenes in millimetres and in kilometres give the same numbers.
 //
 //   v_o = (1/x + 2)^3                      objective voxels of a tetrahedron    (Eq. 4, without its floor)
 //   p_v = 3 (sqrt(3)/2) x^2 s^2 / A        particles in a voxel                 (Eqs. 5 to 7)
@@ -7,31 +7,38 @@
 //       = (1/x + 2)^3 (p_nc + k x^2),  k = (1 - p_nc) r 3 (sqrt(3)/2) s^2 / A
 #pragma once
 
+#include "cell_size/scene.hpp"
+#include "cell_size/search.hpp"
+#include "cell_size/terms.hpp"
+
+#include <vox/vox.h>
+
 namespace vox {
 
-struct PaperModel {
-    double p_nc; // probability that a tetrahedron has no collision, in (0, 1)
-    double
-        k; // in [1e-290, 1e290]: then nothing here overflows for x within a factor of 1000 of the least cost
+class PaperModel {
+public:
+    // With the scene's geometry read as `desc` says. Throws INVALID_ARGUMENT where there are no tetrahedra,
+    // none of any size, or k would leave [1e-290, 1e290], within which no number here overflows.
+    PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc);
 
-    double operator()(double x) const {
+    double operator()(double cell_size) const { return cost(cell_size / s_); }
+    CostMinimum minimum() const;
+    // Cell sizes whose cost is at most (1 + loss) times the least.
+    CellSizeRange zone(double loss) const;
+    CostTerms terms(double cell_size) const;
+
+private:
+    double cost(double x) const noexcept {
         const double side = 1 / x + 2;
-        return side * side * side * (p_nc + k * x * x);
+        return side * side * side * (p_nc_ + k_ * x * x);
     }
+    double best_x() const noexcept;
 
-    // The x of least cost. dz/dx = 0 (Eq. 8) is 4 x^3 - x^2 = c with c = 3 p_nc / k: below 1/4 the left side
-    // is not positive, above it ascends and is convex, so there is one root.
-    double minimiser() const;
+    double p_nc_; // probability that a tetrahedron has no collision
+    double cost_ratio_, s_, k_;
 };
 
-// Cell sizes around the best one, in whatever unit it has.
-struct Zone {
-    double min;
-    double max;
-};
-
-// All x with cost(x) <= limit, for a limit of at least the cost at x_best, the minimiser: the cost falls
-// before it and rises after it, without bound.
-Zone zone_around(double x_best, double limit, const PaperModel& cost);
+// How far n cells per axis are from the best number n_opt, in units of the zone from n_min to n_max (Eq. 9).
+double zone_distance(double n, double n_min, double n_opt, double n_max);
 
 } // namespace vox

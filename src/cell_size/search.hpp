@@ -1,14 +1,16 @@
-// The cell size of least cost, for any cost function: used by the models of this library and by those of its
-// users (vox_cost_minimise).
+// The cell size of least cost, and the sizes around it that are nearly as good, for any cost function: those of
+// the models of this library and those of its users (vox_cost_minimise).
 #pragma once
 
-#include "cell_size/paper_model.hpp"
+#include <vox/vox.h>
 
 #include <functional>
+#include <memory_resource>
+#include <vector>
 
 namespace vox {
 
-// Cost at a cell size > 0. What is not a finite number counts as infinitely dear.
+// Cost at a cell size > 0. A value that is not a finite number counts as infinite.
 using CostFunction = std::function<double(double cell_size)>;
 
 struct CellSizeRange {
@@ -17,27 +19,56 @@ struct CellSizeRange {
 
 struct CostMinimum {
     double cell_size;
-    double cost; // infinite where the function is, throughout
+    double cost; // infinite where the function is infinite everywhere
 };
 
-// How closely a function is looked at: at so many places an octave, never fewer than some; then the place is
-// found to within a part of it.
+// How densely a range is scanned, and how closely the best place of the scan is then refined.
 struct Fineness {
     double scans_per_octave = 5;
     int least_scans = 64;
-    double tolerance = 1e-8;
+    double tolerance = 1e-8; // of the cell size
 };
 
 // The least cost in the range, by a scan that is even in the logarithm of the cell size, and a golden-section
-// search around its best place. The function may have several minima; those that lie between two places of
-// the scan can be missed.
+// search around its best place. Of a function with several minima, those that lie between two places of the
+// scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
-// The golden-section search alone: for a function with one minimum in the range, at a place inside it.
-CostMinimum golden_section(const CostFunction& cost, const CellSizeRange& range, double tolerance);
+// The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that lie
+// between two places of the scan can be missed.
+CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
+                          const CellSizeRange& range, const Fineness& fineness = {});
 
-// The interval around the minimum where the cost is at most `limit`, as far as the range goes.
-Zone zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
-                 const CellSizeRange& range);
+// Costs at sizes that are evenly spaced in the logarithm, both ends included.
+void draw_curve(const CostFunction& cost, const CellSizeRange& range,
+                vox_cost_sample (&curve)[VOX_COST_CURVE_CAPACITY], std::uint32_t& count);
+
+// A cost function that is expensive to call, from its values at two sizes an octave: the logarithm of the cost is a
+// cubic in that of the cell size between them. For functions that are smooth in logarithms, as sums of powers
+// are.
+class CostTable {
+public:
+    // The function is called once for each size that is needed, from `range.min` on, and directly for sizes
+    // more than four octaves outside of the range. It must outlive the table.
+    CostTable(const CostFunction& cost, const CellSizeRange& range, std::pmr::memory_resource* memory);
+
+    double operator()(double cell_size);
+
+private:
+    double value(int node); // logarithm of the cost there
+
+    const CostFunction& cost_;
+    double min_;
+    int last_;                        // node in the range; the first is 0
+    std::pmr::vector<double> values_; // from node -margin on; NaN where not asked for yet
+};
+
+// ---- cost functions of users ------------------------------------------------------------------------
+
+vox_cost_bounds cost_bounds_defaults();
+
+// Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that is nowhere finite or
+// negative where it is least.
+vox_cost_minimum minimise_within(const CostFunction& cost, const vox_cost_bounds& bounds);
 
 } // namespace vox

@@ -1,7 +1,6 @@
 #include "cell_size/suggest.hpp"
 
 #include "base/error.hpp"
-#include "cell_size/cost_table.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/levels.hpp"
 #include "cell_size/paper_model.hpp"
@@ -13,54 +12,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 namespace vox {
-
-// ---- cost function --------------------------------------------------------------------------------
-
-// Newton's method from the right of the root: 1/4 + cbrt(c/4) is not below it (the left side, x^2 (4x - 1),
-// is at least 4 (x - 1/4)^3 there), and on an ascending convex function every step from the right stays on
-// the right.
-double PaperModel::minimiser() const {
-    const double c = 3 * p_nc / k;
-    double x = 0.25 + std::cbrt(c / 4);
-    for (;;) {
-        const double next = x - (x * x * (4 * x - 1) - c) / (x * (12 * x - 2));
-        if (!(next < x)) return x; // rounding: no further to go
-        x = next;
-    }
-}
-
-namespace {
-
-// Where the cost passes `limit` on one side of `inside`, found by halving the interval to the last bit;
-// `outside` starts at inside * factor and moves on until the cost there is above the limit.
-double crossing(double inside, double factor, double limit, const PaperModel& cost) {
-    double outside = inside * factor;
-    while (cost(outside) <= limit) {
-        inside = outside;
-        outside *= factor;
-    }
-    for (;;) {
-        const double middle = inside + (outside - inside) / 2;
-        if (middle == inside || middle == outside) return inside;
-        (cost(middle) <= limit ? inside : outside) = middle;
-    }
-}
-
-} // namespace
-
-Zone zone_around(double x_best, double limit, const PaperModel& cost) {
-    if (!(limit > cost(x_best))) return {x_best, x_best};
-    return {crossing(x_best, 0.5, limit, cost), crossing(x_best, 2, limit, cost)};
-}
 
 // ---- arguments ------------------------------------------------------------------------------------
 
 namespace {
 
-// The most a zone may lose: keeps every number of the cost function in range.
+// The most a zone may lose; keeps every number of the cost function in range.
 constexpr double max_zone_loss = 1e6;
 
 template <class Enum>
@@ -79,6 +38,16 @@ void check_number(bool good, double value, const char* name, const char* expecte
 }
 
 } // namespace
+
+vox_suggest_desc suggest_defaults() {
+    vox_suggest_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.p_nc = 0.99;
+    desc.cost_ratio = 5;
+    desc.zone_loss = 0.05;
+    desc.mean_edge_factor = 2;
+    return desc;
+}
 
 void check_suggest_desc(const vox_suggest_desc& desc) {
     check_enum(desc.model, VOX_COST_MODEL_FAST, "model");
@@ -102,52 +71,6 @@ void check_suggest_desc(const vox_suggest_desc& desc) {
 
 namespace {
 
-struct Reading {
-    double value;
-    const char* name;
-};
-
-Reading tet_size(vox_size_reading reading, const vox_geometry_stats& stats) {
-    switch (reading) {
-    case VOX_SIZE_MEAN_LONGEST_EDGE:
-        return {stats.mean_longest_edge, "mean longest edge"};
-    case VOX_SIZE_MEAN_BOX_SIDE:
-        return {stats.mean_box_side, "mean box side"};
-    default:
-        return {stats.mean_edge, "mean edge"};
-    }
-}
-
-Reading facet_area(vox_area_reading reading, const vox_geometry_stats& stats) {
-    switch (reading) {
-    case VOX_AREA_TET_FACETS:
-        return {stats.mean_tet_facet_area, "mean facet area over tets"};
-    case VOX_AREA_BOUNDARY_FACETS:
-        return {stats.mean_boundary_facet_area, "mean boundary facet area"};
-    default:
-        return {stats.mean_facet_area, "mean facet area"};
-    }
-}
-
-PaperModel paper_cost(const vox_suggest_desc& desc, const Reading& s, const Reading& area,
-                     const vox_geometry_stats& stats) {
-    if (stats.tets == 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices));
-    if (!(s.value > 0) || !(area.value > 0))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%" PRIu64 " tets of no size: %s %g, %s %g",
-                                                       stats.tets, s.name, s.value, area.name, area.value));
-    const double k =
-        (1 - desc.p_nc) * desc.cost_ratio * 1.5 * std::sqrt(3.0) * (s.value * s.value / area.value);
-    if (!(k >= 1e-290 && k <= 1e290))
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("p_nc %.9g, cost_ratio %g, %s %g and %s %g are beyond the cost model: its k is %g, "
-                   "expected 1e-290 to 1e290",
-                   desc.p_nc, desc.cost_ratio, s.name, s.value, area.name, area.value, k));
-    return {desc.p_nc, k};
-}
-
 // References at vox_cell_size_rules.
 vox_cell_size_rules other_rules(const vox_suggest_desc& desc, const Geometry& geometry) {
     vox_cell_size_rules rules{};
@@ -168,8 +91,6 @@ double world_edge(const vox_suggest_desc& desc, const vox_geometry_stats& stats)
     return edge;
 }
 
-} // namespace
-
 void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY],
                   std::uint32_t& count) {
     const double cost = terms.cost();
@@ -184,65 +105,31 @@ void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CA
     }
 }
 
-namespace {
-
-// What is the same for all models, at their cell size and for their cost function.
-void explain(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
-             const CostFunction& cost, const CostTerms& terms) {
+// Everything that is written in the same way for all models. `cost` is below the least one nowhere.
+void write(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
+           const CostMinimum& best, const CellSizeRange& zone, const CostFunction& cost, const CostTerms& terms) {
     result.model = desc.model;
-    result.cells_per_axis = world_edge(desc, geometry.stats) / result.cell_size;
+    result.cell_size = best.cell_size;
+    result.predicted_cost = best.cost;
+    result.zone_min = zone.min;
+    result.zone_max = zone.max;
+    result.cells_per_axis = world_edge(desc, geometry.stats) / best.cell_size;
     result.rules = other_rules(desc, geometry);
     result.stats = geometry.stats;
     const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(cell_size) : 0; };
     result.rule_costs = {cost_of(result.rules.mean_edge),   cost_of(result.rules.mean_edge_multiple),
                          cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
                          cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
+    draw_curve(cost, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
     write_shares(terms, result.terms, result.term_count);
 }
 
-constexpr double curve_octaves = 6; // from an eighth of the best cell size to eight times it
-
-double curve_begin(const vox_suggestion& result) { return result.cell_size * std::exp2(-curve_octaves / 2); }
-
-void draw(vox_suggestion& result, const CostFunction& cost) {
-    result.curve_count = VOX_COST_CURVE_CAPACITY;
-    const double last = result.curve_count - 1;
-    for (std::uint32_t i = 0; i < result.curve_count; ++i) {
-        const double at = curve_begin(result) * std::exp2(curve_octaves * i / last);
-        result.curve[i] = {at, cost(at)};
-    }
-}
-
-struct Paper {
-    Reading s;
-    PaperModel cost;
-};
-
-Paper paper_model(const vox_suggest_desc& desc, const vox_geometry_stats& stats) {
-    const Reading s = tet_size(desc.size_reading, stats), area = facet_area(desc.area_reading, stats);
-    return {s, paper_cost(desc, s, area, stats)};
-}
-
-CostTerms paper_terms(const vox_suggest_desc& desc, const Paper& paper, double cell_size) {
-    const double x = cell_size / paper.s.value, side = 1 / x + 2, voxels = side * side * side;
-    CostTerms terms;
-    terms.add("visit a cell", desc.p_nc * voxels, 1);
-    terms.add("test a particle", voxels * paper.cost.k * x * x / desc.cost_ratio, desc.cost_ratio);
-    return terms;
-}
-
-vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geometry) {
-    const Paper paper = paper_model(desc, geometry.stats);
-    const double s = paper.s.value, x = paper.cost.minimiser();
-    const Zone zone = zone_around(x, (1 + desc.zone_loss) * paper.cost(x), paper.cost);
+vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& scene) {
+    const PaperModel cost(scene, desc);
+    const CostMinimum best = cost.minimum();
     vox_suggestion result{};
-    result.cell_size = x * s;
-    result.zone_min = zone.min * s;
-    result.zone_max = zone.max * s;
-    result.predicted_cost = paper.cost(x);
-    const CostFunction cost = [&](double d) { return paper.cost(d / s); };
-    explain(result, desc, geometry, cost, paper_terms(desc, paper, result.cell_size));
-    draw(result, cost);
+    write(result, desc, scene.geometry, best, cost.zone(desc.zone_loss), [&](double d) { return cost(d); },
+          cost.terms(best.cell_size));
     return result;
 }
 
@@ -254,121 +141,97 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const Geometry& geome
             : format("%" PRIu64 " tets of no size: mean box side %g", stats.tets, stats.mean_box_side));
 }
 
-constexpr double near = 1e-4; // no model is as good as that
+constexpr double near = 1e-4; // of the cell size; no model is more accurate
 
-void write_minimum(vox_suggestion& result, const CostMinimum& best, const Zone& zone) {
-    result.cell_size = best.cell_size;
-    result.predicted_cost = best.cost;
-    result.zone_min = zone.min;
-    result.zone_max = zone.max;
-}
-
-void minimise_into(vox_suggestion& result, const vox_suggest_desc& desc, const CostFunction& cost,
-                   CostTable* table, const CellSizeRange& range) {
-    const CostMinimum best = table ? table->minimum() : minimise(cost, range, {.tolerance = near});
-    const double limit = (1 + desc.zone_loss) * best.cost;
-    write_minimum(result, best, table ? table->zone(best, limit) : zone_around(best, limit, cost, range));
-}
-
-// What the rest of a suggestion says about the cell size in it. Costs are those of the table where there is
-// one; between its nodes it may be a little below the least cost.
-void explain_model(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
-                   const CostFunction& cost, CostTable* table, const CostTerms& terms) {
-    const CostFunction tabulated = [&](double d) { return std::max((*table)(d), result.predicted_cost); };
-    explain(result, desc, geometry, table ? tabulated : cost, terms);
-    if (!table) return draw(result, cost);
-    result.curve_count = VOX_COST_CURVE_CAPACITY;
-    table->sample(curve_begin(result), curve_octaves, result.curve);
-    for (vox_cost_sample& sample : result.curve) sample.cost = std::max(sample.cost, result.predicted_cost);
-}
-
-vox_suggestion suggest_reference(const vox_suggest_desc& desc, const Geometry& geometry,
-                                 const SuggestScene& scene, const vox_cost_weights& weights,
-                                 std::pmr::memory_resource* memory) {
-    const ReferenceModel cost(scene.bodies, desc.storage, scene.effort, weights, memory);
-    CellSizeRange range{};
-    if (!cost.range(range.min, range.max)) throw_no_size(geometry.stats);
+vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeScene& scene,
+                                 const vox_cost_weights& weights) {
+    const ReferenceModel model(scene, desc.storage, weights);
+    std::optional<CellSizeRange> range = model.range();
+    if (!range) throw_no_size(scene.geometry.stats);
     vox_suggestion result{};
     if (desc.storage == VOX_STORAGE_DENSE)
-        result.budget_cell_size = cost.least_cell_size(static_cast<double>(desc.byte_budget), range);
-    range.min = std::max(range.min, result.budget_cell_size);
-    range.max = std::max(range.max, range.min);
-    // The table is of what is smooth; what the lists' lengths make of it is added, and costs little to ask.
-    const CostFunction smooth = [&](double d) { return cost(d) - cost.of_changes(d); };
-    CostTable table(smooth, range, memory);
-    const CostFunction function = [&](double d) {
-        return scene.effort.tabulated ? table(d) + cost.of_changes(d) : cost(d);
-    };
-    const double scans = scene.effort.sample.listed > 0 ? 32 : 5;
-    CostMinimum best = minimise(function, range, {.scans_per_octave = scans, .tolerance = near});
-    best.cost = cost(best.cell_size);
-    const CostFunction curve = [&](double d) { return std::max(function(d), best.cost); };
-    write_minimum(result, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range));
-    const Levels levels = choose_levels(cost, range);
-    if (levels.count > 1) result.uniform_loss = std::max(result.predicted_cost / levels.cost - 1, 0.0);
+        result.budget_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
+    range->min = std::max(range->min, result.budget_cell_size);
+    range->max = std::max(range->max, range->min);
+    const CostFunction cost = [&](double d) { return model(d); };
+    // Lengths of lists change the cost from one 32nd of an octave to the next.
+    const Fineness fineness{.scans_per_octave = scene.budget.listed > 0 ? 32.0 : 5.0, .tolerance = near};
+    const CostMinimum best = minimise(cost, *range, fineness);
+    // Sizes between those of the search may cost a little less.
+    const CostFunction curve = [&](double d) { return std::max(model(d), best.cost); };
+    write(result, desc, scene.geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
+          model.terms(best.cell_size));
+    const Levels levels = choose_levels(model, *range);
+    if (levels.count > 1) result.uniform_loss = std::max(best.cost / levels.cost - 1, 0.0);
     result.level_count = levels.count;
     for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
-    explain_model(result, desc, geometry, curve, nullptr, cost.terms(result.cell_size));
     return result;
 }
 
-FastModel fast_cost(const SuggestScene& scene, const vox_cost_weights& weights,
-                   std::pmr::memory_resource* memory) {
-    if (scene.last_step) return {scene.bodies, *scene.last_step, scene.effort, weights, memory};
-    if (scene.boxes)
-        return {scene.bodies, scene.tiles, scene.activity, *scene.boxes, scene.effort, weights, memory};
-    return {scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory};
-}
-
-vox_suggestion suggest_fast(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
-                            const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
-    const FastModel cost = fast_cost(scene, weights, memory);
-    if (geometry.stats.tets == 0 || !(geometry.stats.mean_box_side > 0)) throw_no_size(geometry.stats);
-    // Where no body is near another one any size will do; the usual one is there when some come near.
-    CellSizeRange range{geometry.stats.mean_box_side / 8, geometry.stats.mean_box_side * 64};
-    const bool any = cost.range(range.min, range.max);
+vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& scene,
+                            const vox_cost_weights& weights) {
+    const vox_geometry_stats& stats = scene.geometry.stats;
+    const FastModel model(scene, weights);
+    if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
+    const CostFunction cost = [&](double d) { return model(d); };
     vox_suggestion result{};
-    const CostFunction function = [&](double d) { return cost(d); };
-    CostTable made(function, range, memory);
-    CostTable* table = any && scene.effort.tabulated ? &made : nullptr;
-    if (any) {
-        minimise_into(result, desc, function, table, range);
-    } else {
-        result.cell_size = 2 * geometry.stats.mean_box_side;
-        result.zone_min = range.min;
-        result.zone_max = range.max;
-        result.predicted_cost = cost(result.cell_size);
+    const std::optional<CellSizeRange> range = model.range();
+    if (!range) { // no body is near another one: any size will do, so a usual one for when some are
+        const double usual = 2 * stats.mean_box_side;
+        write(result, desc, scene.geometry, {usual, cost(usual)},
+              {stats.mean_box_side / 8, stats.mean_box_side * 64}, cost,
+              model.terms(usual, FastModel::Alignment::average));
+        return result;
     }
-    explain_model(result, desc, geometry, function, table,
-                  cost.terms(result.cell_size, FastModel::Alignment::average));
+    CostTable table(cost, *range, scene.memory);
+    // As many scans as there are sizes in the table.
+    const Fineness fineness{.scans_per_octave = 2, .least_scans = 8, .tolerance = near};
+    CostMinimum best = minimise([&](double d) { return table(d); }, *range, fineness);
+    best.cost = cost(best.cell_size);
+    // Between its sizes the table may be a little below the least cost.
+    const CostFunction curve = [&](double d) { return std::max(table(d), best.cost); };
+    write(result, desc, scene.geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
+          model.terms(best.cell_size, FastModel::Alignment::average));
     return result;
+}
+
+CostTerms predicted_terms(const vox_suggest_desc& desc, const CellSizeScene& scene,
+                          const vox_cost_weights& weights, double cell_size) {
+    switch (desc.model) {
+    case VOX_COST_MODEL_REFERENCE:
+        return ReferenceModel(scene, desc.storage, weights).terms(cell_size);
+    case VOX_COST_MODEL_FAST:
+        return FastModel(scene, weights).terms(cell_size, FastModel::Alignment::actual);
+    default:
+        return PaperModel(scene, desc).terms(cell_size);
+    }
 }
 
 } // namespace
 
-vox_suggestion suggest(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
-                       const vox_cost_weights& weights, std::pmr::memory_resource* memory) {
+vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights) {
+    scene.prepare(desc.model);
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
-        return suggest_reference(desc, geometry, scene, weights, memory);
+        return suggest_reference(desc, scene, weights);
     case VOX_COST_MODEL_FAST:
-        return suggest_fast(desc, geometry, scene, weights, memory);
+        return suggest_fast(desc, scene, weights);
     default:
-        return suggest_paper(desc, geometry);
+        return suggest_paper(desc, scene);
     }
 }
 
-CostTerms predict(const vox_suggest_desc& desc, const Geometry& geometry, const SuggestScene& scene,
-                  const vox_cost_weights& weights, double cell_size, std::pmr::memory_resource* memory) {
-    switch (desc.model) {
-    case VOX_COST_MODEL_REFERENCE:
-        return ReferenceModel(scene.bodies, desc.storage, scene.effort, weights, memory).terms(cell_size);
-    case VOX_COST_MODEL_FAST:
-        return FastModel(scene.bodies, scene.tiles, scene.activity, scene.effort, weights, memory)
-            .terms(cell_size, FastModel::Alignment::actual);
-    default:
-        return paper_terms(desc, paper_model(desc, geometry.stats), cell_size);
-    }
+vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights,
+                            double cell_size) {
+    scene.prepare(desc.model);
+    const CostTerms terms = predicted_terms(desc, scene, weights, cell_size);
+    vox_cost_prediction prediction{};
+    prediction.cell_size = cell_size;
+    prediction.cost = terms.cost();
+    write_shares(terms, prediction.terms, prediction.term_count);
+    return prediction;
 }
 
 } // namespace vox

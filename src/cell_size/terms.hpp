@@ -1,4 +1,4 @@
-// A cost at one cell size, term by term: how often a piece of work is done, and what one time costs.
+// A cost at one cell size, term by term: how often a piece of work is done, and what it costs each time.
 #pragma once
 
 #include <vox/vox.h>

@@ -5,15 +5,15 @@
 
 namespace vox {
 
-// Measured once on the machine at hand, rounded: what is used until vox_cost_calibrate or
-// vox_cost_set_weights.
+// Used until vox_cost_calibrate or vox_cost_set_weights.
 vox_cost_weights shipped_weights() noexcept;
 
-// Those in use. Any thread.
+// Both from any thread.
 vox_cost_weights weights_in_use() noexcept;
 void use_weights(const vox_cost_weights& weights) noexcept;
 
-// Throws INVALID_ARGUMENT naming the field that is not a number above 0.
-void check_weights(const vox_cost_weights& weights);
+// Weights as a program gives them to vox_cost_set_weights; null: those shipped. Throws INVALID_ARGUMENT naming
+// the field that is not a finite number above 0.
+vox_cost_weights read_weights(const vox_cost_weights* given);
 
 } // namespace vox

@@ -310,7 +310,7 @@ void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<st
     const std::size_t index = bins.windows.size();
     bins.windows.emplace_back();
     const Box box = bounds(points, range);
-    const std::size_t cells = 2 * std::size_t{range.count} + std::min(64u, 2 * range.count);
+    const std::size_t cells = most_window_cells(range.count);
     const WindowLattice lattice = bulk_lattice(points, range, box, cell_size, cells);
     const bool may_halve =
         range.count > few_points && is_coarse(make_lattice(box, cell_size, cells), cell_size);

@@ -6,6 +6,7 @@
 
 #include "base/boxes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -63,6 +64,11 @@ struct WindowLattice {
     }
     std::size_t count() const noexcept { return std::size_t{cells[0]} * cells[1] * cells[2]; }
 };
+
+// The most cells of a window with so many points.
+inline std::size_t most_window_cells(std::uint32_t points) noexcept {
+    return 2 * std::size_t{points} + std::min(std::size_t{64}, 2 * std::size_t{points});
+}
 
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
 WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);

@@ -3,6 +3,7 @@
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "cell_size/suggest.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -474,7 +475,7 @@ void vox_grid::choose_cell_size() {
     if (!choose_cell_size_) return;
     const double before = cell_size_;
     const std::uint64_t changes = adaptive_.changes();
-    settings_.levels = adaptive_.cell_sizes(bodies_, {settings_.storage, byte_limit()}, &memory_);
+    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.storage, byte_limit(), &memory_);
     cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
@@ -499,37 +500,33 @@ double vox_grid::byte_limit() const noexcept {
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
-vox_grid::Known vox_grid::known(std::pmr::memory_resource* memory) const {
-    Known known(memory);
+void vox_grid::describe(CellSizeScene& scene) const {
     const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
-    reserve(known.bodies, known.tiles, known.meshes, known.activity);
+    reserve(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
     for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
         const Slot& s = slots_[slot];
         if (!s.live || !s.mesh.is_enabled()) continue;
         const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
         if (!s.mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        known.bodies.push_back(s.mesh.body(id));
-        known.tiles.push_back(s.mesh.tiles_if_made());
-        known.meshes.push_back(&s.mesh);
-        known.activity.push_back(s.body == Slot::none
-                                     ? Activity{}
-                                     : Activity{fast_engine_.moved(s.body),
-                                                !fast_engine_.cleared(s.body, s.mesh.vertex_count())});
+        scene.bodies.push_back(s.mesh.body(id));
+        scene.tiles.push_back(s.mesh.tiles_if_made());
+        scene.meshes.push_back(&s.mesh);
+        scene.at_rest.push_back(!fast_engine_.moved(s.body));
+        scene.cleared.push_back(fast_engine_.cleared(s.body, s.mesh.vertex_count()));
     }
-    if (fast_ && meshes_hold_) known.last_step = &fast_engine_;
-    return known;
+    if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }
 
-void vox_grid::describe(vox_suggest_desc& desc) const noexcept {
-    desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
-    desc.storage = settings_.storage;
-    desc.byte_budget = memory_.budget();
-}
-
-double vox_grid::share_without_contact() const noexcept {
-    if (counters_.tets == 0) return 0;
-    return 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
+    if (!chosen) {
+        desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+        desc.storage = settings_.storage;
+        desc.byte_budget = memory_.budget();
+    }
+    if (counters_.tets == 0) return;
+    const double p_nc = 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
+    if (p_nc > 0 && p_nc < 1 && desc.p_nc == suggest_defaults().p_nc) desc.p_nc = p_nc;
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {

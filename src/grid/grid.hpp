@@ -4,8 +4,8 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
-#include "cell_size/activity.hpp"
 #include "cell_size/adaptive.hpp"
+#include "cell_size/scene.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
 #include "grid/events.hpp"
@@ -46,22 +46,11 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return cell_size_; }
 
-    // For suggestions: the meshes with their positions as they are now, what there is of them already, the
-    // fields of a desc that the grid knows, and the share of its tets that held no vertex in the last step.
-    // Throws INVALID_STATE for a mesh without positions.
-    struct Known {
-        explicit Known(std::pmr::memory_resource* memory)
-            : bodies(memory), tiles(memory), meshes(memory), activity(memory) {}
-
-        std::pmr::vector<vox::Body> bodies;
-        std::pmr::vector<const vox::Tiles*> tiles; // null where they were not made
-        std::pmr::vector<const vox::Mesh*> meshes;
-        std::pmr::vector<vox::Activity> activity;
-        const vox::FastEngine* last_step = nullptr; // null unless it was of the same bodies, but for their positions
-    };
-    Known known(std::pmr::memory_resource* memory) const;
-    void describe(vox_suggest_desc& desc) const noexcept;
-    double share_without_contact() const noexcept;
+    // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and budget unless the
+    // caller chose these, and the share of tets that held no vertex in the last step as a p_nc left at its default.
+    // The first throws INVALID_STATE for a mesh without positions.
+    void describe(vox::CellSizeScene& scene) const;
+    void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
 
     vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
     void remove(vox_mesh mesh);

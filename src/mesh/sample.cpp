@@ -1,34 +1,12 @@
-// Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): a list is cut into equal parts, and one
-// item is taken from each, at a random place: what repeats in the list, as in a lattice, is met in all its
-// kinds.
 #include "mesh/sample.hpp"
 
 #include "base/bits.hpp"
+#include "base/sampling.hpp"
 #include "mesh/check.hpp"
 
 #include <algorithm>
-#include <random>
 
 namespace vox {
-
-namespace {
-
-// Calls visit(index), ascending, for about `wanted` of `count` items; for all where there are no more.
-template <class Visit>
-void for_stratified(std::uint64_t count, std::size_t wanted, Visit&& visit) {
-    if (count <= wanted) {
-        for (std::uint64_t i = 0; i < count; ++i) visit(i);
-        return;
-    }
-    std::minstd_rand random; // the same mesh gives the same sample, everywhere
-    const double part = static_cast<double>(count) / static_cast<double>(wanted);
-    for (std::size_t i = 0; i < wanted; ++i) {
-        const double place = static_cast<double>(random()) / (double{std::minstd_rand::max()} + 1);
-        visit(std::min(static_cast<std::uint64_t>((static_cast<double>(i) + place) * part), count - 1));
-    }
-}
-
-} // namespace
 
 std::size_t sampled_tets(std::uint64_t tets) noexcept {
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(tets / 48, 96, 256));
@@ -37,12 +15,12 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept {
 MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::memory_resource* memory) {
     MeshSample sample(memory);
     const std::size_t wanted = sampled_tets(body.tets.size());
-    for_stratified(body.tets.size(), wanted, [&](std::uint64_t t) {
+    for_stratified(body.tets.size(), wanted, 0.5, [&](std::uint64_t t) {
         if (has_bit(body.off, t)) return;
         std::uint32_t shared = 0;
         for (std::uint32_t f = 0; f < 4; ++f) {
             const std::uint32_t across = topology.across[t][f];
-            // Where three or more meet, nothing is told to be across.
+            // Where three or more tetrahedra meet, `across` names none of them.
             const bool own =
                 across != Topology::nothing && (across & Topology::surface_bit) != 0;
             shared |= std::uint32_t{!own} << f;
@@ -62,13 +40,13 @@ MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::mem
     sample.edge_count = ends / 2;
     std::uint32_t v = 0;
     std::uint64_t before = 0; // ends at the vertices before v
-    for_stratified(ends, wanted, [&](std::uint64_t end) {
+    for_stratified(ends, wanted, 0.5, [&](std::uint64_t end) {
         while (end >= before + topology.neighbours_of(v).size()) before += topology.neighbours_of(v++).size();
         sample.edges.push_back({v, topology.neighbours_of(v)[static_cast<std::size_t>(end - before)]});
     });
 
     sample.boundary_facet_count = topology.triangles.size();
-    for_stratified(topology.triangles.size(), wanted / 2, [&](std::uint64_t i) {
+    for_stratified(topology.triangles.size(), wanted / 2, 0.5, [&](std::uint64_t i) {
         const std::uint32_t* corners = topology.triangles[static_cast<std::size_t>(i)].v;
         sample.facets.push_back({corners[0], corners[1], corners[2]});
     });

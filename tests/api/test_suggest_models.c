@@ -447,7 +447,8 @@ START_TEST(weights_are_plain_numbers) {
     ck_assert_double_lt(measured.reference_visit_cell, 1e5);
 
     saved = measured;
-    saved.reference_visit_cell *= 8; /* a visit is dear: larger cells */
+    saved.reference_visit_cell *= 8; /* expensive visits: larger cells */
+    saved.reference_changed_list *= 8;
     pair p = make_pair(0.5f);
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = VOX_COST_MODEL_REFERENCE;
@@ -467,6 +468,18 @@ START_TEST(weights_are_plain_numbers) {
     ck_ok(vox_cost_get_weights(&in_use));
     ck_assert_double_eq(in_use.fast_bin_vertex, shipped.fast_bin_vertex);
     ck_assert_double_eq(in_use.reference_visit_cell, measured.reference_visit_cell);
+    /* The last two fields keep their proportion to those that stood for them before. */
+    const double visits = measured.reference_visit_cell / shipped.reference_visit_cell;
+    const double reads = measured.reference_read_vertex / shipped.reference_read_vertex;
+    ck_assert_double_eq_tol(in_use.reference_changed_list / shipped.reference_changed_list, visits, 1e-12 * visits);
+    ck_assert_double_eq_tol(in_use.reference_fetch_vertex / shipped.reference_fetch_vertex, reads, 1e-12 * reads);
+    /* Each of them counts. */
+    saved = shipped;
+    saved.reference_changed_list *= 8;
+    ck_ok(vox_cost_set_weights(&saved));
+    ck_assert_double_gt(suggest_ok(&desc, p.meshes, 2).cell_size, 1.1 * before);
+    saved.reference_fetch_vertex = -1;
+    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "reference_fetch_vertex is -1");
     ck_ok(vox_cost_set_weights(NULL));
     ck_fails(vox_cost_get_weights(NULL), VOX_ERROR_INVALID_ARGUMENT, "null");
     free_pair(&p);

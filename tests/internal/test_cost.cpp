@@ -1,6 +1,5 @@
 // The cost models' counts against those of the engines themselves, in scenes of every kind.
 #include "cell_size/adaptive.hpp"
-#include "cell_size/cost_table.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/levels.hpp"
 #include "cell_size/reference_model.hpp"
@@ -23,6 +22,8 @@
 using namespace vox;
 
 namespace {
+
+using ::Mesh; // of a test scene, not of a grid
 
 std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
 
@@ -107,6 +108,20 @@ void ck_near(const Named& scene, double size, const char* what, double predicted
                   "%s, cell size %g: %s %.0f, counted %.0f", scene.name, size, what, predicted, counted);
 }
 
+// What the models see of a scene, prepared for one of them.
+struct Described : CellSizeScene {
+    explicit Described(Scene& scene, const SampleBudget& with = thorough) : CellSizeScene(heap) {
+        bodies.assign(scene.bodies().begin(), scene.bodies().end());
+        budget = with;
+    }
+    Described(Scene& scene, const SampleBudget& with, const std::vector<std::uint8_t>& resting)
+        : Described(scene, with) {
+        for (const Tiles* of : scene.tiles()) tiles.push_back(of);
+        at_rest.assign(resting.begin(), resting.end());
+        prepare(VOX_COST_MODEL_FAST);
+    }
+};
+
 // ---- the reference engine -------------------------------------------------------------------------
 
 // The model counts in the mean over how the lattice lies: where a small dense body meets few cells, that is
@@ -116,8 +131,8 @@ START_TEST(reference_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    const Lookups& counts = cost.profile();
+    const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+    const Lookups& counts = cost.lookups();
     ReferenceEngine engine(heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         ReferenceSettings settings;
@@ -148,9 +163,9 @@ START_TEST(reference_counts) {
 END_TEST
 
 // Without what the vertices of a lattice make of the lists' lengths: a smooth function.
-SampleBudget smooth(SampleBudget effort) {
-    effort.sample.listed = 0;
-    return effort;
+SampleBudget smooth(SampleBudget budget) {
+    budget.listed = 0;
+    return budget;
 }
 
 // The quick look agrees with the thorough one about where the minimum is: both lose next to nothing by it. In
@@ -163,12 +178,11 @@ START_TEST(reference_quick_look) {
     std::uint64_t tets = 0;
     for (const Body& body : scene.bodies()) tets += body.tets.size();
     for (const bool large : {false, true}) {
-        const ReferenceModel all(scene.bodies(), VOX_STORAGE_HASHED, large ? thorough : smooth(thorough),
-                                shipped_weights(), heap);
-        const ReferenceModel some(scene.bodies(), VOX_STORAGE_HASHED, quick(large ? 200000 : tets),
-                                 shipped_weights(), heap);
-        CellSizeRange range{};
-        ck_assert(all.range(range.min, range.max));
+        const ReferenceModel all(Described(scene, large ? thorough : smooth(thorough)), VOX_STORAGE_HASHED,
+                                 shipped_weights());
+        const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, large ? 200000 : tets)),
+                                  VOX_STORAGE_HASHED, shipped_weights());
+        const CellSizeRange range = all.range().value();
         const CostMinimum best = minimise([&](double d) { return all(d); }, range, {.scans_per_octave = 16});
         const CostMinimum found =
             minimise([&](double d) { return some(d); }, range, {.scans_per_octave = 16});
@@ -226,7 +240,7 @@ START_TEST(reference_lists_of_other_length) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+    const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         const double cell_size = size * named.unit;
         ck_near(named, size, "lists of another length", term(cost.terms(cell_size), "list of another length"),
@@ -247,7 +261,7 @@ START_TEST(cells_as_large_as_those_of_a_lattice) {
         move(mesh, 1, 0.21, 0.34, 0.43);
         scene.add(std::move(mesh), true);
         scene.prepare();
-        const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
+        const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
         const double beside = std::min(cost(1 / 1.12), cost(1.12));
         if (jittered < 0.1)
             ck_assert_double_lt(cost(1), 0.97 * beside);
@@ -264,7 +278,7 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     scenes[0].fill(scene);
     scene.prepare();
     const auto terms = [&] {
-        return ReferenceModel(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap)
+        return ReferenceModel(Described(scene), VOX_STORAGE_HASHED, shipped_weights())
             .terms(1.5);
     };
     const CostTerms before = terms();
@@ -294,8 +308,7 @@ START_TEST(fast_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const std::vector<const Tiles*> tiles = scene.tiles();
-    const FastModel cost(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
+    const FastModel cost(Described(scene, thorough, {}), shipped_weights());
     FastEngine engine(heap);
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
         FastModel::Counts predicted;
@@ -330,34 +343,32 @@ START_TEST(fast_quick_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const std::vector<const Tiles*> tiles = scene.tiles();
     std::uint64_t tets = 0;
     for (const Body& body : scene.bodies()) tets += body.tets.size();
-    const FastModel all(scene.bodies(), tiles, {}, thorough, shipped_weights(), heap);
-    const FastModel some(scene.bodies(), tiles, {}, quick_tiles(tets), shipped_weights(), heap);
-    CellSizeRange range{};
-    ck_assert(all.range(range.min, range.max));
+    const FastModel all(Described(scene, thorough, {}), shipped_weights());
+    const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights());
+    const CellSizeRange range = all.range().value();
     const CostMinimum best = minimise([&](double d) { return all(d); }, range);
     const CostFunction quick_cost = [&](double d) { return some(d); };
-    const CostMinimum found = CostTable(quick_cost, range, heap).minimum();
+    CostTable table(quick_cost, range, heap);
+    const CostMinimum found = minimise([&](double d) { return table(d); }, range);
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
 END_TEST
 
-// What rests costs nothing where it meets what rests, nor do bodies that were cleared of meeting themselves.
+// Bodies at rest cost nothing where they meet others at rest.
 START_TEST(fast_bodies_at_rest) {
     Scene scene;
     scenes[2].fill(scene);
     scene.prepare();
-    const std::vector<const Tiles*> tiles = scene.tiles();
-    std::vector<Activity> activity(tiles.size(), {false, false});
+    std::vector<std::uint8_t> at_rest(scene.bodies().size(), 1);
     const auto counts = [&] {
-        return FastModel(scene.bodies(), tiles, activity, thorough, shipped_weights(), heap)
+        return FastModel(Described(scene, thorough, at_rest), shipped_weights())
             .counts(2, FastModel::Alignment::actual);
     };
     ck_assert_double_eq(counts().vertices, 0);
-    activity[0].moves = true;
+    at_rest[0] = 0;
     FastEngine engine(heap);
     std::pmr::vector<Hit> hits(heap);
     vox_counters counters{};
@@ -375,8 +386,7 @@ START_TEST(fast_bodies_at_rest) {
     ck_assert_double_gt(one.vertices, 0);
     ck_near(scenes[2], 2, "vertices binned", one.vertices, double(counters.entries), 0.02);
     ck_near(scenes[2], 2, "cells", one.visited_cells, double(counters.visited_cells), 0.1);
-    for (std::size_t b = 0; b < activity.size(); ++b)
-        ck_assert_int_eq(engine.moved(b), activity[b].moves);
+    for (std::size_t b = 0; b < at_rest.size(); ++b) ck_assert_int_eq(engine.moved(b), !at_rest[b]);
 }
 END_TEST
 
@@ -387,15 +397,14 @@ START_TEST(levels_where_they_pay) {
     Scene alike, unlike;
     scenes[0].fill(alike);
     alike.prepare();
-    const ReferenceModel one(alike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    CellSizeRange range{};
-    ck_assert(one.range(range.min, range.max));
+    const ReferenceModel one(Described(alike), VOX_STORAGE_HASHED, shipped_weights());
+    CellSizeRange range = one.range().value();
     ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
-    const ReferenceModel cost(unlike.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-    ck_assert(cost.range(range.min, range.max));
+    const ReferenceModel cost(Described(unlike), VOX_STORAGE_HASHED, shipped_weights());
+    range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise([&](double d) { return cost(d); }, range);
     ck_assert_uint_ge(levels.count, 2);
@@ -410,9 +419,8 @@ START_TEST(levels_are_one_engine) {
         Scene scene;
         scenes[s].fill(scene);
         scene.prepare();
-        const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, thorough, shipped_weights(), heap);
-        CellSizeRange range{};
-        ck_assert(cost.range(range.min, range.max));
+        const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+        CellSizeRange range = cost.range().value();
         range.min = std::max(range.min, cost.least_cell_size(0, range)); // what dense storage can have
         const Levels best = choose_levels(cost, range);
         // Also where they do not pay: shares of the classes, one size smaller than the other.
@@ -437,7 +445,7 @@ START_TEST(levels_are_one_engine) {
             }
 
         double cells = 0, read = 0, predicted_cells = 0, predicted_read = 0;
-        for (const SizeClass& c : cost.profile().classes()) {
+        for (const SizeClass& c : cost.lookups().classes()) {
             const double side = std::ldexp(1.0, c.exponent);
             const auto level =
                 std::ranges::find_if(best.list(), [&](const CellLevel& l) { return side <= l.longest_side; });
@@ -471,7 +479,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     vox_counters counters{};
     vox_profile profile{};
     ReferenceSettings settings;
-    settings.levels = adaptive.cell_sizes(scene.bodies(), {VOX_STORAGE_HASHED, 0}, heap);
+    settings.levels = adaptive.cell_sizes(scene.bodies(), VOX_STORAGE_HASHED, 0, heap);
     engine.detect(scene.bodies(), settings, hits, counters, profile);
     for (const Body& body : scene.bodies()) {
         counters.vertices += body.vertex_count;
@@ -484,9 +492,8 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
 
 // How much the model says a size loses for the scene as it is, but for what its lattices make of the lists.
 double loss(Scene& scene, double cell_size) {
-    const ReferenceModel cost(scene.bodies(), VOX_STORAGE_HASHED, smooth(thorough), shipped_weights(), heap);
-    CellSizeRange range{};
-    ck_assert(cost.range(range.min, range.max));
+    const ReferenceModel cost(Described(scene, smooth(thorough)), VOX_STORAGE_HASHED, shipped_weights());
+    const CellSizeRange range = cost.range().value();
     return cost(cell_size) / minimise([&](double d) { return cost(d); }, range).cost - 1;
 }
 

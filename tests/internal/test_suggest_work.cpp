@@ -60,6 +60,8 @@ using namespace vox;
 
 namespace {
 
+using ::Mesh; // of a test scene, not of a grid
+
 std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
 
 constexpr std::size_t sizes[] = {2500, 20000, 80000}; // tetrahedra of a body
@@ -89,20 +91,22 @@ START_TEST(the_model_looks_at_few) {
         for (int kind = 0; kind < 3; ++kind) {
             Scene scene;
             fill(scene, tets, distances[kind], kind == 2);
-            const std::vector<const Tiles*> tiles = scene.tiles();
-            const SampleBudget effort = quick_tiles(2 * tets);
-            const FastModel cost(scene.bodies(), tiles, {}, effort, shipped_weights(), heap);
-            const FastModel::Work work = cost.work();
+            CellSizeScene described(heap);
+            described.bodies.assign(scene.bodies().begin(), scene.bodies().end());
+            for (const Tiles* of : scene.tiles()) described.tiles.push_back(of);
+            described.budget = quick(VOX_COST_MODEL_FAST, 2 * tets);
+            described.prepare(VOX_COST_MODEL_FAST);
+            const FastModel cost(described, shipped_weights());
+            const std::uint64_t points = cost.points_looked_at(), looks = cost.looks_per_call();
             // All pools together: windows of unlike sizes have one each.
-            ck_assert_uint_gt(work.points, 0);
-            ck_assert_uint_gt(work.looks, 0);
-            ck_assert_msg(work.points <= 6000 && work.looks <= 2 * effort.most_looks,
+            ck_assert_uint_gt(points, 0);
+            ck_assert_uint_gt(looks, 0);
+            ck_assert_msg(points <= 6000 && looks <= 2 * described.budget.most_looks,
                           "%zu tets, kind %d: %llu points, %llu looks", tets, kind,
-                          static_cast<unsigned long long>(work.points),
-                          static_cast<unsigned long long>(work.looks));
+                          static_cast<unsigned long long>(points), static_cast<unsigned long long>(looks));
             if (tets == sizes[0])
-                ck_assert_msg(work.points <= 1500, "kind %d: %llu points", kind,
-                              static_cast<unsigned long long>(work.points));
+                ck_assert_msg(points <= 1500, "kind %d: %llu points", kind,
+                              static_cast<unsigned long long>(points));
         }
 }
 END_TEST

@@ -1,0 +1,93 @@
+#include "cell_size/paper_model.hpp"
+
+#include "base/error.hpp"
+
+#include <cinttypes>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+std::pair<double, const char*> tet_size(vox_size_reading reading, const vox_geometry_stats& stats) {
+    switch (reading) {
+    case VOX_SIZE_MEAN_LONGEST_EDGE:
+        return {stats.mean_longest_edge, "mean longest edge"};
+    case VOX_SIZE_MEAN_BOX_SIDE:
+        return {stats.mean_box_side, "mean box side"};
+    default:
+        return {stats.mean_edge, "mean edge"};
+    }
+}
+
+std::pair<double, const char*> facet_area(vox_area_reading reading, const vox_geometry_stats& stats) {
+    switch (reading) {
+    case VOX_AREA_TET_FACETS:
+        return {stats.mean_tet_facet_area, "mean facet area over tets"};
+    case VOX_AREA_BOUNDARY_FACETS:
+        return {stats.mean_boundary_facet_area, "mean boundary facet area"};
+    default:
+        return {stats.mean_facet_area, "mean facet area"};
+    }
+}
+
+} // namespace
+
+PaperModel::PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc)
+    : p_nc_(desc.p_nc), cost_ratio_(desc.cost_ratio) {
+    const vox_geometry_stats& stats = scene.geometry.stats;
+    const auto [s, s_name] = tet_size(desc.size_reading, stats);
+    const auto [area, area_name] = facet_area(desc.area_reading, stats);
+    if (stats.tets == 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices));
+    if (!(s > 0) || !(area > 0))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%" PRIu64 " tets of no size: %s %g, %s %g", stats.tets,
+                                                       s_name, s, area_name, area));
+    s_ = s;
+    k_ = (1 - p_nc_) * cost_ratio_ * 1.5 * std::sqrt(3.0) * (s * s / area);
+    if (!(k_ >= 1e-290 && k_ <= 1e290))
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("p_nc %.9g, cost_ratio %g, %s %g and %s %g are beyond the cost model: its k is %g, "
+                   "expected 1e-290 to 1e290",
+                   p_nc_, cost_ratio_, s_name, s, area_name, area, k_));
+}
+
+// dz/dx = 0 (Eq. 8) is 4 x^3 - x^2 = c with c = 3 p_nc / k. With x = 1/12 + w/6 it is 4 w^3 - 3 w = 1 + 216 c, and
+// 4 cosh^3 - 3 cosh is cosh of the triple angle, so there is one root with w >= 1.
+double PaperModel::best_x() const noexcept {
+    const double c = 3 * p_nc_ / k_;
+    return 1.0 / 12 + std::cosh(std::acosh(1 + 216 * c) / 3) / 6;
+}
+
+CostMinimum PaperModel::minimum() const { return {best_x() * s_, cost(best_x())}; }
+
+// In x, so that no unit of length changes the result. z falls before the minimum and rises after it, without
+// bound, so the range is only there to keep numbers finite.
+CellSizeRange PaperModel::zone(double loss) const {
+    const CostMinimum best{best_x(), cost(best_x())};
+    const CellSizeRange zone = zone_around(best, (1 + loss) * best.cost, [this](double x) { return cost(x); },
+                                           {best.cell_size * 1e-100, best.cell_size * 1e100});
+    return {zone.min * s_, zone.max * s_};
+}
+
+CostTerms PaperModel::terms(double cell_size) const {
+    const double x = cell_size / s_, side = 1 / x + 2, voxels = side * side * side;
+    CostTerms terms;
+    terms.add("visit a cell", p_nc_ * voxels, 1);
+    terms.add("test a particle", voxels * k_ * x * x / cost_ratio_, cost_ratio_);
+    return terms;
+}
+
+// As printed, Eq. 9 has the factors a = floor(n_opt / n) and b = floor(n / n_opt) to choose the side that n
+// lies on. One of them is zero, and the other cancels out.
+double zone_distance(double n, double n_min, double n_opt, double n_max) {
+    if (n == n_opt) return 0;
+    const double width = n < n_opt ? n_opt - n_min : n_max - n_opt;
+    return width > 0 ? std::abs(n_opt - n) / width : std::numeric_limits<double>::infinity();
+}
+
+} // namespace vox

@@ -1,0 +1,80 @@
+#include "cell_size/scene.hpp"
+
+#include "fast/last_positions.hpp"
+#include "fast/stream.hpp"
+#include "mesh/check.hpp"
+
+#include <algorithm>
+
+namespace vox {
+
+CellSizeScene::CellSizeScene(std::pmr::memory_resource* m)
+    : memory(m), bodies(m), meshes(m), tiles(m), at_rest(m), cleared(m), made_tiles_(m), step_(m), boxes_(m),
+      stream_(m), broad_phase_(m) {}
+
+void CellSizeScene::prepare(vox_cost_model model) {
+    std::uint64_t tets = 0;
+    for (const Body& body : bodies) tets += body.tets.size();
+    if (!meshes.empty()) budget = quick(model, tets);
+    if (model == VOX_COST_MODEL_FAST) {
+        if (last_step && moved_since_last_step()) last_step = nullptr;
+        if (!last_step) find_near_bodies();
+    }
+    geometry = measure(*this);
+}
+
+// A body that moves within its box and reaches no further than before is close enough to where it was. Positions
+// that are not packed count as moved.
+bool CellSizeScene::moved_since_last_step() const {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const Body& body = bodies[b];
+        if (body.vertex_count == 0) continue;
+        if (!fast::is_packed(body.positions)) return true;
+        const std::uint32_t ends[2] = {0, body.vertex_count};
+        Box block{}, box = empty_box;
+        if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
+            check_finite(body);
+        const Box& before = last_step->boxes().bodies[b];
+        if (!std::equal(box.lo, box.lo + 3, before.lo) || !std::equal(box.hi, box.hi + 3, before.hi)) return true;
+    }
+    return false;
+}
+
+void CellSizeScene::make_missing_tiles() {
+    tiles.resize(bodies.size(), nullptr);
+    made_tiles_.reserve(bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (tiles[b]) continue;
+        const Body& body = bodies[b];
+        make_tiles(body.tets, body.vertex_count, body.positions,
+                   made_tiles_.emplace_back(std::pmr::get_default_resource()), body.off);
+        tiles[b] = &made_tiles_.back();
+    }
+}
+
+void CellSizeScene::find_near_bodies() {
+    make_missing_tiles();
+    fast::begin_step(bodies, nullptr, step_);
+    for (std::size_t b = 0; b < bodies.size(); ++b) step_.of[b].tiles = tiles[b];
+    fast::lay_out(step_, boxes_);
+    fast::stream(step_, boxes_, stream_);
+    for (std::size_t b = 0; b < bodies.size(); ++b) step_.of[b].moved = at_rest.empty() || !at_rest[b];
+    fast::find_regions(step_, boxes_, broad_phase_);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (!is_empty(own_region(b)))
+            fast::make_tile_boxes(step_.of[b], 0, static_cast<std::uint32_t>(tiles[b]->tiles.size()), boxes_);
+}
+
+const Box* CellSizeScene::box(std::size_t body) const noexcept {
+    const fast::Step& of = step();
+    return body < of.of.size() && !of.of[body].rounded ? &boxes().bodies[body] : nullptr;
+}
+
+Box CellSizeScene::own_region(std::size_t b) const noexcept {
+    const Body& body = bodies[b];
+    if (!body.self_collision || body.tets.empty() || (!cleared.empty() && cleared[b])) return empty_box;
+    if (!last_step) return boxes_.bodies[b];
+    return last_step->windows().of[b].own;
+}
+
+} // namespace vox

@@ -1,0 +1,67 @@
+// The scene that a cell size is chosen for, as every model sees it.
+#pragma once
+
+#include "base/scene.hpp"
+#include "cell_size/geometry.hpp"
+#include "cell_size/lookups.hpp"
+#include "fast/engine.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/tiles.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+struct CellSizeScene {
+    explicit CellSizeScene(std::pmr::memory_resource* memory);
+    CellSizeScene(const CellSizeScene&) = delete;
+    CellSizeScene& operator=(const CellSizeScene&) = delete;
+
+    std::pmr::memory_resource* memory; // for this scene and for what models keep
+
+    // ---- set by the caller ----
+    std::pmr::vector<Body> bodies;
+    SampleBudget budget = thorough;
+    // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
+    std::pmr::vector<const Mesh*> meshes;
+    std::pmr::vector<const Tiles*> tiles;  // null where they were not made
+    std::pmr::vector<std::uint8_t> at_rest; // the body did not move
+    std::pmr::vector<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
+    const FastEngine* last_step = nullptr; // null unless it was a step of these bodies, wherever they are now
+
+    // ---- set by prepare() ----
+    Geometry geometry{};
+
+    // Gets the scene ready for a model: a grid's scene is only sampled, so that choosing takes less time than a
+    // step. Throws Error(NON_FINITE) naming mesh_id and vertex.
+    void prepare(vox_cost_model model);
+
+    // For the fast engine's model, which bodies are near each other: from the last step where all bodies are where
+    // they were then (`last_step` is null otherwise), else found by the same functions that the engine calls.
+    const fast::Step& step() const noexcept { return last_step ? last_step->last_step() : step_; }
+    const fast::StepBoxes& boxes() const noexcept { return last_step ? last_step->boxes() : boxes_; }
+    const fast::BroadPhase& broad_phase() const noexcept {
+        return last_step ? last_step->broad_phase() : broad_phase_;
+    }
+    // The box of all vertices of a body where prepare() has found it; else null.
+    const Box* box(std::size_t body) const noexcept;
+    // Where vertices of a body may be in tetrahedra of the same body.
+    Box own_region(std::size_t body) const noexcept;
+
+private:
+    bool moved_since_last_step() const;
+    void make_missing_tiles();
+    void find_near_bodies();
+
+    std::pmr::vector<Tiles> made_tiles_;
+    fast::Step step_;
+    fast::StepBoxes boxes_;
+    fast::StreamBuffers stream_;
+    fast::BroadPhase broad_phase_;
+};
+
+} // namespace vox
