@@ -176,12 +176,18 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
     json["hash"] = hash_of(grid);
     json["cell_size"] = number(cell_size_of(grid));
-    json["profile"] = {{"step_ns", profile.step_ns},         {"bin_ns", profile.bin_ns},
-                       {"broad_ns", profile.broad_ns},       {"narrow_ns", profile.narrow_ns},
-                       {"contacts_ns", profile.contacts_ns}, {"depth_ns", profile.depth_ns},
-                       {"stream_ns", profile.stream_ns},     {"winding_ns", profile.winding_ns},
-                       {"broad_phase_ns", profile.broad_phase_ns}, {"windows_ns", profile.windows_ns},
-                       {"query_ns", profile.query_ns},       {"decide_ns", profile.decide_ns}};
+    json["profile"] = {{"step_ns", profile.step_ns},
+                       {"bin_ns", profile.bin_ns},
+                       {"broad_ns", profile.broad_ns},
+                       {"narrow_ns", profile.narrow_ns},
+                       {"contacts_ns", profile.contacts_ns},
+                       {"depth_ns", profile.depth_ns},
+                       {"stream_ns", profile.stream_ns},
+                       {"winding_ns", profile.winding_ns},
+                       {"broad_phase_ns", profile.broad_phase_ns},
+                       {"windows_ns", profile.windows_ns},
+                       {"query_ns", profile.query_ns},
+                       {"decide_ns", profile.decide_ns}};
     json["counters"] = counters_json(counters_of(grid));
 }
 

@@ -1,12 +1,12 @@
-// Each stage of the fast engine by itself, under its name (fast/stages.hpp), and parts of stages: nanoseconds an
-// element, medians of rounds in which all rows take turns. Processor time of the thread, at the SIMD level of the
-// machine or the one asked for.
+// Each stage of the fast engine by itself, under its name (fast/stages.hpp), and parts of stages: nanoseconds
+// an element, medians of rounds in which all rows take turns. Processor time of the thread, at the SIMD level
+// of the machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
+#include "fast/stages.hpp"
 #include "base/simd.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/decide.hpp"
-#include "fast/stages.hpp"
 #include "internal/fast_scenes.hpp"
 #include "timing.h"
 
@@ -163,7 +163,7 @@ struct Bodies {
         moves.resize(blocks.size());
         bad.resize(tiles.tiles.size());
         fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
-                     super_boxes.data(), positive.data());
+                                super_boxes.data(), positive.data());
         turning.boxes.assign(super_boxes.begin(), super_boxes.end());
         turning.slack.assign(super_boxes.size(), 0.1f);
         turning.is_known = true;
@@ -276,7 +276,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
          [&s] {
              std::fill(s.known.begin(), s.known.end(), std::uint8_t{0});
              fast::make_tile_boxes(s.tiles, packed(s.a), 0, std::uint32_t(s.tiles.tiles.size()),
-                              s.tile_boxes.data(), s.known.data());
+                                   s.tile_boxes.data(), s.known.data());
          }},
         {"compare", "vertex", s.vertices,
          [&s] { fast::compare_packed(s.rest, 0, packed(s.a), 0, s.vertices, s.box_a); }},
@@ -294,7 +294,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
              fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
                                 s.moves.data(), s.box_a);
              fast::track_orientation(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
-                          s.super_boxes.data(), s.positive.data());
+                                     s.super_boxes.data(), s.positive.data());
          }},
         {"orient", "tet", tets,
          [&s] {
@@ -336,9 +336,11 @@ int main(int argc, char** argv) {
     WholeStep step(tets);
     Bodies bodies(tets);
     std::vector<Stage> stages = stages_of(step, bodies);
-    for (std::size_t i = 0; i < std::size(fast::stage_names); ++i) // the first rows are the stages in their order
+    for (std::size_t i = 0; i < std::size(fast::stage_names);
+         ++i) // the first rows are the stages in their order
         if (std::strcmp(stages[i].name, fast::stage_names[i]) != 0) {
-            std::fprintf(stderr, "row %zu is %s, expected stage %s\n", i, stages[i].name, fast::stage_names[i]);
+            std::fprintf(stderr, "row %zu is %s, expected stage %s\n", i, stages[i].name,
+                         fast::stage_names[i]);
             return 1;
         }
     for (int round = 0; round <= rounds; ++round) // the first is not counted: buffers grow

@@ -11,8 +11,8 @@
 
 namespace vox {
 
-// A T is made from a memory_resource*. T::buffers() returns a tuple of references to all its buffers: what has
-// capacity() and reserve(). Nothing else needs to know of them.
+// A T is made from a memory_resource*. T::buffers() returns a tuple of references to all its buffers: what
+// has capacity() and reserve(). Nothing else needs to know of them.
 template <class T>
 class PerWorker {
 public:
@@ -27,8 +27,8 @@ public:
     auto begin() noexcept { return slots_.begin(); }
     auto end() noexcept { return slots_.end(); }
 
-    // Gives the buffers of all workers the same room: in a later step each may have to do what another did in this
-    // one, and the steady state allocates nothing.
+    // Gives the buffers of all workers the same room: in a later step each may have to do what another did in
+    // this one, and the steady state allocates nothing.
     void level() {
         if (slots_.size() < 2) return;
         using Buffers = decltype(slots_[0].buffers());

@@ -1,7 +1,7 @@
-// Pairs of bodies by a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; Cohen
-// et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that begin before it
-// ends. The axis is the one along which the boxes' centres vary most. Then, for each pair, the region where the boxes
-// of the two bodies overlap is shrunk to what blocks of a and tiles of b cover.
+// Pairs of bodies by a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies,
+// 1992; Cohen et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that
+// begin before it ends. The axis is the one along which the boxes' centres vary most. Then, for each pair,
+// the region where the boxes of the two bodies overlap is shrunk to what blocks of a and tiles of b cover.
 #include "fast/broad_phase.hpp"
 
 #include "base/simd.hpp"
@@ -192,8 +192,9 @@ void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vect
 
 namespace {
 
-// How much work is worth a task of its own. Handing out a task takes a microsecond or more, and by bench_stages so much
-// work takes two to eight: testing boxes at 0.5 to 1 ns each, or making boxes of tiles at 15 to 30 ns each.
+// How much work is worth a task of its own. Handing out a task takes a microsecond or more, and by
+// bench_stages so much work takes two to eight: testing boxes at 0.5 to 1 ns each, or making boxes of tiles
+// at 15 to 30 ns each.
 constexpr std::size_t task_boxes = 4096;
 constexpr std::size_t task_blocks = 4 * piece_blocks;
 constexpr std::size_t task_tiles = 256;
@@ -202,7 +203,8 @@ constexpr std::size_t task_tiles = 256;
 void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
     find_pairs(boxes.bodies, out.pair_buffers, out.pairs);
     out.regions.clear();
-    if (out.regions.capacity() < out.pairs.size()) out.regions.reserve(out.pairs.size() + out.pairs.size() / 8);
+    if (out.regions.capacity() < out.pairs.size())
+        out.regions.reserve(out.pairs.size() + out.pairs.size() / 8);
     for (const Pair& pair : out.pairs) {
         if (step.bodies[pair.b].tets.empty() || !collide(step.bodies[pair.a], step.bodies[pair.b])) continue;
         if (!step.of[pair.a].moved && !step.of[pair.b].moved) continue;
@@ -220,7 +222,8 @@ void shrink_to_blocks(const Step& step, const StepBoxes& boxes, PairRegion& pair
     const std::uint32_t count = body.tiles->block_count();
     for (std::uint32_t i = 0; i < count; i += most_boxes) {
         std::uint64_t met = find_overlaps(blocks + i, std::min(most_boxes, count - i), pair.region);
-        for (; met; met &= met - 1) add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
+        for (; met; met &= met - 1)
+            add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
     }
     intersect(pair.region, reached);
 }
@@ -236,7 +239,8 @@ void index_regions(std::size_t body_count, BroadPhase& out) {
     std::partial_sum(out.first_of_a.begin(), out.first_of_a.end(), out.first_of_a.begin());
     std::partial_sum(out.first_of_b.begin(), out.first_of_b.end(), out.first_of_b.begin());
     out.by_b.resize(out.regions.size());
-    for (std::uint32_t r = 0; r < out.regions.size(); ++r) out.by_b[out.first_of_b[out.regions[r].b + 1]++] = r;
+    for (std::uint32_t r = 0; r < out.regions.size(); ++r)
+        out.by_b[out.first_of_b[out.regions[r].b + 1]++] = r;
 }
 
 // Whether the super-tiles of a body only matter where others reach it.
@@ -244,8 +248,8 @@ bool uses_block_sides(const Step& step, const BroadPhase& broad, std::uint32_t b
     return broad.is_reached(body) && !step.bodies[body].self_collision;
 }
 
-// On which side of the reached region the blocks of a body are: a byte shows that most super-tiles are out of reach,
-// and is less to read than a box.
+// On which side of the reached region the blocks of a body are: a byte shows that most super-tiles are out of
+// reach, and is less to read than a box.
 void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& piece, BroadPhase& out) {
     if (!uses_block_sides(step, out, piece.body)) return;
     const std::size_t first = step.of[piece.body].first_block;
@@ -296,7 +300,8 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
     for (const PairRegion& pair : out.regions) blocks += step.of[pair.a].tiles->block_count();
     step.for_ranges(out.regions.size(), blocks, task_boxes,
                     [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t r = begin; r < end; ++r) shrink_to_blocks(step, boxes, out.regions[r]);
+                        for (std::size_t r = begin; r < end; ++r)
+                            shrink_to_blocks(step, boxes, out.regions[r]);
                     });
     std::erase_if(out.regions, [](const PairRegion& pair) { return is_empty(pair.region); });
     index_regions(step.bodies.size(), out);
@@ -320,7 +325,8 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
                     });
     step.for_ranges(out.regions.size(), tiles, task_boxes,
                     [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t r = begin; r < end; ++r) shrink_to_tiles(step, boxes, out.regions[r]);
+                        for (std::size_t r = begin; r < end; ++r)
+                            shrink_to_tiles(step, boxes, out.regions[r]);
                     });
 }
 

@@ -1,5 +1,6 @@
-// The broad phase: from boxes of bodies and of blocks to regions in which vertices of one body may be in tetrahedra
-// of another. Plain functions over the arrays of a step; the cost model calls them as the engine does.
+// The broad phase: from boxes of bodies and of blocks to regions in which vertices of one body may be in
+// tetrahedra of another. Plain functions over the arrays of a step; the cost model calls them as the engine
+// does.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -29,8 +30,8 @@ struct PairBuffers {
     std::pmr::vector<std::uint32_t> first;
 };
 
-// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap, sorted by a, then b. Empty boxes
-// overlap nothing.
+// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap, sorted by a, then b. Empty
+// boxes overlap nothing.
 void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs);
 
 // sides_of() each of the boxes.
@@ -40,9 +41,9 @@ void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uin
 inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
-// Vertices of body a that are in a tet of body b are in `region`: where the boxes of the bodies overlap, in the box
-// around the blocks of a that meet that, and in the box around the tiles of b that meet what is left. Empty where no
-// tile of b does.
+// Vertices of body a that are in a tet of body b are in `region`: where the boxes of the bodies overlap, in
+// the box around the blocks of a that meet that, and in the box around the tiles of b that meet what is left.
+// Empty where no tile of b does.
 struct PairRegion {
     std::uint32_t a, b;
     Box region;
@@ -76,13 +77,14 @@ struct BroadPhase {
     PairBuffers pair_buffers;
 };
 
-// Finds the regions of all pairs of bodies that may collide (mesh/filter.hpp) and of which one moved. Needs boxes.bodies and
-// boxes.blocks (stream), and boxes.super_tiles of bodies that has_super_boxes. Makes the boxes of all super-tiles of
-// bodies that are reached, and of all tiles that meet a region. The result does not depend on the number of workers.
+// Finds the regions of all pairs of bodies that may collide (mesh/filter.hpp) and of which one moved. Needs
+// boxes.bodies and boxes.blocks (stream), and boxes.super_tiles of bodies that has_super_boxes. Makes the
+// boxes of all super-tiles of bodies that are reached, and of all tiles that meet a region. The result does
+// not depend on the number of workers.
 void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out);
 
-// Makes the boxes of some super-tiles. Of bodies that are reached and do not collide with themselves, super-tiles
-// that lie beyond `reached` get an empty box: nothing will be asked of them.
+// Makes the boxes of some super-tiles. Of bodies that are reached and do not collide with themselves,
+// super-tiles that lie beyond `reached` get an empty box: nothing will be asked of them.
 void make_super_tile_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes);
 
 // Makes the boxes of the tiles [first, last) of a body that are not known.

@@ -1,7 +1,7 @@
 // Moves the lanes of a mask to the front. Included once for each SIMD target, after hwy/highway.h.
 //
-// Where registers are shorter than 512 bits, hn::Compress looks up its shuffles in a table too, but gcc 12 copies that
-// table to the stack in each call.
+// Where registers are shorter than 512 bits, hn::Compress looks up its shuffles in a table too, but gcc 12
+// copies that table to the stack in each call.
 #if defined(VOX_FAST_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_COMPRESS_INL
 #undef VOX_FAST_COMPRESS_INL
@@ -43,8 +43,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One mask for several registers of floats or 32-bit words. In the result, the lanes after those of the mask are
-// undefined.
+// One mask for several registers of floats or 32-bit words. In the result, the lanes after those of the mask
+// are undefined.
 class Compressor {
 public:
     using Floats = hn::CappedTag<float, 16>;

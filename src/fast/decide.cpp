@@ -20,8 +20,9 @@ void ExactDecisions::take(std::span<const Finding> findings) {
             continue;
         }
         // In place and as a whole: bit fields set one by one are slow to read back.
-        hits[count++] = {f.body, f.vertex, body_, f.tet & 0x7fffffffu, where == Containment::interior ? 1u : 0u,
-                         f.weights};
+        hits[count++] = {
+            f.body,   f.vertex, body_, f.tet & 0x7fffffffu, where == Containment::interior ? 1u : 0u,
+            f.weights};
         if (count == std::size(hits)) {
             append(std::span(hits, count));
             count = 0;
@@ -34,8 +35,9 @@ void ExactDecisions::take(std::span<const Finding> findings) {
 Containment ExactDecisions::decide(const Finding& f) {
     const Tet& tet = tets_[f.tet];
     const Positions& q = bodies_[body_].positions;
-    const Containment where = locate(bodies_[f.body].positions.exact(f.vertex), q.exact(tet.v[0]), q.exact(tet.v[1]),
-                                     q.exact(tet.v[2]), q.exact(tet.v[3]), counts_.exact_tests);
+    const Containment where =
+        locate(bodies_[f.body].positions.exact(f.vertex), q.exact(tet.v[0]), q.exact(tet.v[1]),
+               q.exact(tet.v[2]), q.exact(tet.v[3]), counts_.exact_tests);
     if (where == Containment::degenerate) {
         const std::lock_guard lock(out_.mutex);
         out_.degenerate.push_back(std::uint64_t{body_} << 32 | f.tet);

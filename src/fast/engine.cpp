@@ -1,6 +1,6 @@
-// For each body A: the tiles of every body that overlaps it, culled by super-tile, then by tile; the vertices of A that
-// may be in them, binned once for all those bodies; the queries. The workers share each stage: pieces of bodies, pairs
-// of bodies or whole bodies at a time, each with results of its own.
+// For each body A: the tiles of every body that overlaps it, culled by super-tile, then by tile; the vertices
+// of A that may be in them, binned once for all those bodies; the queries. The workers share each stage:
+// pieces of bodies, pairs of bodies or whole bodies at a time, each with results of its own.
 #include "fast/engine.hpp"
 
 #include "base/clock.hpp"
@@ -10,8 +10,8 @@
 namespace vox {
 
 FastEngine::FastEngine(std::pmr::memory_resource* memory)
-    : step_(memory), boxes_(memory), stream_(memory), broad_phase_(memory), windows_(memory), workers_(memory),
-      degenerate_(memory) {}
+    : step_(memory), boxes_(memory), stream_(memory), broad_phase_(memory), windows_(memory),
+      workers_(memory), degenerate_(memory) {}
 
 void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                         const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
@@ -32,7 +32,8 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
 
     std::uint64_t winding = 0; // within the tasks of the windows, as decisions are within those of the query
     profile.decide_ns = 0;
-    for (const fast::Windows::Worker& worker : windows_.workers) winding = std::max(winding, worker.winding_ns);
+    for (const fast::Windows::Worker& worker : windows_.workers)
+        winding = std::max(winding, worker.winding_ns);
     for (const Worker& worker : workers_) profile.decide_ns = std::max(profile.decide_ns, worker.decided.ns);
     profile.stream_ns = streamed - start;
     profile.winding_ns = tracked - streamed + winding;
@@ -70,7 +71,8 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
 
 // The query of each piece, and the decisions on what it finds.
 void FastEngine::query(std::pmr::vector<Hit>& hits) {
-    constexpr std::size_t task_tiles = 32; // are worth a task: by bench_stages, ten microseconds where they find points
+    constexpr std::size_t task_tiles =
+        32; // are worth a task: by bench_stages, ten microseconds where they find points
     fast::Decided decided{hits, degenerate_};
     step_.for_ranges(step_.super_pieces.size(), step_.tile_count, task_tiles,
                      [&](std::size_t begin, std::size_t end, std::uint32_t w) {
@@ -113,7 +115,7 @@ void FastEngine::count(vox_counters& counters) {
 }
 
 bool FastEngine::cleared(std::size_t body, std::uint32_t vertices) const noexcept {
-    if (body >= step_.of.size()) return false;
+    if (body >= windows_.of.size()) return false; // also where the last step failed before its windows
     const fast::BodyWindow& window = windows_.of[body];
     return is_empty(window.own) || window.count <= vertices / 2;
 }

@@ -1,5 +1,5 @@
-// The fast engine: the same hits as the reference engine, found tile by tile. A step is six stages (stages.hpp), each
-// a plain function in a file of its own, over the arrays that live here.
+// The fast engine: the same hits as the reference engine, found tile by tile. A step is six stages
+// (stages.hpp), each a plain function in a file of its own, over the arrays that live here.
 #pragma once
 
 #include "base/per_worker.hpp"
@@ -38,30 +38,30 @@ public:
     FastEngine(const FastEngine&) = delete;
     FastEngine& operator=(const FastEngine&) = delete;
 
-    // As ReferenceEngine::detect: appends a Hit for every vertex in a closed tetrahedron that does not own it, in
-    // any order. `prepared` is what there is of each body. Throws Error(NON_FINITE) naming mesh and vertex; sets
-    // the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in their box)
-    // and the times of its stages, with the sums that they make up: `winding` and `decide` run within the tasks of
-    // `windows` and `query`, and count for the worker that took longest over them. Nothing but times and the order of
-    // hits depends on the workers. With more than one, the memory given to the constructor and that of `hits` are used
-    // by many threads at once.
+    // As ReferenceEngine::detect: appends a Hit for every vertex in a closed tetrahedron that does not own
+    // it, in any order. `prepared` is what there is of each body. Throws Error(NON_FINITE) naming mesh and
+    // vertex; sets the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in
+    // their box) and the times of its stages, with the sums that they make up: `winding` and `decide` run
+    // within the tasks of `windows` and `query`, and count for the worker that took longest over them.
+    // Nothing but times and the order of hits depends on the workers. With more than one, the memory given to
+    // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
 
-    // What the last step found, for the cost model: good until the next one, pointers and spans of the Step excepted,
-    // which are no longer valid.
+    // What the last step found, for the cost model: good until the next one, pointers and spans of the Step
+    // excepted, which are no longer valid.
     const fast::Step& last_step() const noexcept { return step_; }
     const fast::StepBoxes& boxes() const noexcept { return boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept { return broad_phase_; }
     const fast::Windows& windows() const noexcept { return windows_; }
 
-    // Whether a body moved before the last step, as far as FastSettings::carry lets the engine know. Bodies added since
-    // count as moved.
+    // Whether a body moved before the last step, as far as FastSettings::carry lets the engine know. Bodies
+    // added since count as moved.
     bool moved(std::size_t body) const noexcept { return body >= step_.of.size() || step_.of[body].moved; }
 
-    // Whether winding numbers excluded most of the self-collision of a body in the last step: what is left of it costs
-    // next to nothing. The body has so many vertices.
+    // Whether winding numbers excluded most of the self-collision of a body in the last step: what is left of
+    // it costs next to nothing. The body has so many vertices.
     bool cleared(std::size_t body, std::uint32_t vertices) const noexcept;
 
     // The cell size of the last window of the last step that had one; 0 before.

@@ -16,8 +16,8 @@ struct LastPositions {
     explicit LastPositions(std::pmr::memory_resource* memory) noexcept
         : positions(memory), exact(memory), parts(memory) {}
 
-    // Makes room for doubles if positions are `rounded`, and drops that room if they are not. What was kept of the other
-    // kind is invalid then.
+    // Makes room for doubles if positions are `rounded`, and drops that room if they are not. What was kept
+    // of the other kind is invalid then.
     void expect(bool rounded);
 
     struct Part {
@@ -40,9 +40,9 @@ inline bool is_packed(const Positions& positions) noexcept {
 bool copy_strided(LastPositions& rest, std::size_t part, const Positions& positions, std::uint32_t first,
                   std::uint32_t last) noexcept;
 
-// Returns whether the packed vertices [first, last) of a part are those of the last step, bit by bit. `box` is the box
-// around them. Only parts that were copied can be compared. A part is copied when it is new, and when its box stays
-// the same: so a part that moves in every step is not copied in every step.
+// Returns whether the packed vertices [first, last) of a part are those of the last step, bit by bit. `box`
+// is the box around them. Only parts that were copied can be compared. A part is copied when it is new, and
+// when its box stays the same: so a part that moves in every step is not copied in every step.
 bool compare_packed(LastPositions& rest, std::size_t part, const float* positions, std::uint32_t first,
                     std::uint32_t last, const Box& box) noexcept;
 

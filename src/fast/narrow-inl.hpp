@@ -1,6 +1,6 @@
-// The last part of the query of a tile: it decides pairs of candidates and tets in single precision with a bound on the
-// rounding errors. What that leaves open is decided exactly by the receiver of the findings (decide.hpp). Included once
-// for each SIMD target, after hwy/highway.h.
+// The last part of the query of a tile: it decides pairs of candidates and tets in single precision with a
+// bound on the rounding errors. What that leaves open is decided exactly by the receiver of the findings
+// (decide.hpp). Included once for each SIMD target, after hwy/highway.h.
 //
 // The float filter. Let p be in the closed box of tet abcd, w the sides of that box (rounded up by at most
 // one relative u = 2^-24), and W = w_x w_y w_z. All of b-a, c-a, d-a, p-a are within w component by
@@ -79,8 +79,8 @@ private:
 using FewCorners = Corners<SmallTable>; // of at most few_vertices
 using ManyCorners = Corners<Table>;
 #else
-// Loaded vertex by vertex and transposed. With AVX2, a scene in half overlap takes 0.89 of the time that it took with
-// permutations of tables in registers.
+// Loaded vertex by vertex and transposed. With AVX2, a scene in half overlap takes 0.89 of the time that it
+// took with permutations of tables in registers.
 class Corners {
 public:
     struct Tets {
@@ -134,7 +134,8 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
     std::uint32_t kept_count = 0;
     for (std::uint32_t i = 0; i < count; i += lanes) {
         const auto pair = hn::LoadU(du, s.pairs + i);
-        // Pairs are sorted by candidate and each candidate has some, so the candidates of a register are consecutive.
+        // Pairs are sorted by candidate and each candidate has some, so the candidates of a register are
+        // consecutive.
         const std::uint32_t first = s.pairs[i] >> 6;
         const auto candidate =
             hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
@@ -181,8 +182,8 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
     for (std::uint32_t i = 0; i < kept_count; ++i) {
         const std::uint32_t pair = s.pairs[i] & ~certain_pair;
         const std::uint32_t place = pair >> 6, tet = pair & 63, f = s.finding_count++;
-        // Written as a whole, as bit fields set one by one are slow to read back. The weights are computed when the
-        // buffer is full.
+        // Written as a whole, as bit fields set one by one are slow to read back. The weights are computed
+        // when the buffer is full.
         s.findings[f] = {s.candidate_body[s.meeting[place]],
                          s.candidate_id[s.meeting[place]],
                          tets[tet] & 0x7fffffffu,

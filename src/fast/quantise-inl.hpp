@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 
 using Bytes = hn::CappedTag<std::uint8_t, 64>;
 
-// Maps coordinates of a box along one axis to 0 .. 255: (c - origin) * scale, truncated. Both are 0 where that could
-// not be computed: then all coordinates map to 0, which is monotone too.
+// Maps coordinates of a box along one axis to 0 .. 255: (c - origin) * scale, truncated. Both are 0 where
+// that could not be computed: then all coordinates map to 0, which is monotone too.
 struct Scale {
     float origin, scale;
 };
@@ -54,7 +54,8 @@ HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
 
 constexpr std::uint32_t few_vertices = 48; // three registers of 16 bytes; most tiles have no more
 
-// A table of bytes, looked up in quarters of 16. The lookup in a quarter gives 0 where the index is in another one.
+// A table of bytes, looked up in quarters of 16. The lookup in a quarter gives 0 where the index is in
+// another one.
 template <std::uint32_t kQuarters>
 struct ByteTable {
     hn::Vec<Bytes> quarter[kQuarters];

@@ -1,7 +1,7 @@
-// The query takes a tile at a time. It fetches the points in the tile's box from the rows of cells that the box meets;
-// quantises points and vertices to 8 bits within the box (monotone, so a point in a tet's box is in its quantised box);
-// tests each point against the 64 boxes of the tets at once; and decides the pairs that are left in single precision
-// (narrow-inl.hpp).
+// The query takes a tile at a time. It fetches the points in the tile's box from the rows of cells that the
+// box meets; quantises points and vertices to 8 bits within the box (monotone, so a point in a tet's box is
+// in its quantised box); tests each point against the 64 boxes of the tets at once; and decides the pairs
+// that are left in single precision (narrow-inl.hpp).
 #include "fast/query.hpp"
 #include "base/simd.hpp"
 
@@ -22,8 +22,9 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Finds for each candidate the set of tets whose quantised box it is in, without those that `own` it. Drops candidates
-// whose set is empty, and returns how many are left. Nothing branches, as these sets are hard to predict.
+// Finds for each candidate the set of tets whose quantised box it is in, without those that `own` it. Drops
+// candidates whose set is empty, and returns how many are left. Nothing branches, as these sets are hard to
+// predict.
 template <class Own>
 HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::uint32_t end,
                                    std::uint32_t left, std::uint64_t valid, Own own) {
@@ -318,7 +319,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-// Computes the barycentric coordinates of the findings here, where the points are in the cache; later they would not be.
+// Computes the barycentric coordinates of the findings here, where the points are in the cache; later they
+// would not be.
 void weigh(QueryScratch& s) {
     for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
         Finding* findings = s.findings + first;
@@ -370,8 +372,8 @@ void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t
     for (const std::uint32_t r : broad.of_b(body)) add(broad.regions[r].a, broad.regions[r].region);
 }
 
-// Makes room for one stamp for each vertex. No tile may mistake the stamps of another for its own, also when the tag
-// wraps round.
+// Makes room for one stamp for each vertex. No tile may mistake the stamps of another for its own, also when
+// the tag wraps round.
 void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<std::uint32_t>& stamps,
                     QueryScratch& scratch) {
     if (stamps.size() < vertices) stamps.resize(vertices, 0);
@@ -382,8 +384,8 @@ void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<st
 
 } // namespace
 
-void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece, StepBoxes& boxes,
-           QueryBuffers& buffers, Findings& out) {
+void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
+           StepBoxes& boxes, QueryBuffers& buffers, Findings& out) {
     const std::uint32_t b = piece.body;
     const StepBody& body = step.of[b];
     const bool self = !is_empty(windows.of[b].own), reached = broad.is_reached(b);
@@ -412,7 +414,8 @@ void query(const Step& step, const BroadPhase& broad, const Windows& windows, co
         near.clear();
         for (const Source& source : buffers.sources) {
             if (!overlap(super_boxes[s], source.region)) continue;
-            if (source.body == b) { // where most of a body is certified, few super-tiles meet the other vertices
+            if (source.body ==
+                b) { // where most of a body is certified, few super-tiles meet the other vertices
                 Box met = super_boxes[s];
                 intersect(met, source.region);
                 if (!holds_point(source.window, met)) continue;

@@ -63,7 +63,8 @@ struct alignas(64) QueryScratch : TileVertices {
     alignas(64) std::uint32_t candidate_body[most_candidates + 64];
     alignas(64) std::uint8_t candidate_quantised[3][most_candidates + 64];
     // Candidates in the box of some tet. Their coordinates move up to these places in candidate_x, _y, _z.
-    alignas(64) std::uint64_t masks[most_candidates + 64];   // the tets in whose box the candidate is, one at least
+    alignas(
+        64) std::uint64_t masks[most_candidates + 64]; // the tets in whose box the candidate is, one at least
     alignas(64) std::uint32_t meeting[most_candidates + 64]; // the place where its other properties stayed
     // Pairs: place of the candidate << 6 | tet.
     alignas(64) std::uint32_t pairs[most_pairs + 64];
@@ -89,13 +90,15 @@ struct Query {
     Box* boxes;
     std::uint8_t* known;
     // Not null: the first source, and all of the same body that follow it, hold vertices of the body of the
-    // tiles, and tets do not meet their own corners. One word for each vertex, zeroed at first, kept with the scratch.
+    // tiles, and tets do not meet their own corners. One word for each vertex, zeroed at first, kept with the
+    // scratch.
     std::uint32_t* stamps;
     bool rounded; // whether some positions of the tiles or the sources are
 };
 
-// Finds every point of the sources that is in the closed box of a tet of the tiles [first, last) and not certainly, by
-// floats, outside the tet. Full buffers of findings go to `out`; flush() hands over the rest, which stays in scratch.
+// Finds every point of the sources that is in the closed box of a tet of the tiles [first, last) and not
+// certainly, by floats, outside the tet. Full buffers of findings go to `out`; flush() hands over the rest,
+// which stays in scratch.
 void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
                  QueryScratch& scratch, Findings& out);
 void flush(QueryScratch& scratch, Findings& out);
@@ -113,7 +116,7 @@ struct QueryBuffers {
 };
 
 // Some super-tiles of a body against the windows of the bodies that reach it.
-void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece, StepBoxes& boxes,
-           QueryBuffers& buffers, Findings& out);
+void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
+           StepBoxes& boxes, QueryBuffers& buffers, Findings& out);
 
 } // namespace vox::fast

@@ -1,11 +1,12 @@
-// The stages of a step of the fast engine, by the name each has everywhere: of its function and file, of its time in
-// vox_profile (with _ns), of its row in bench/stages and in src/README.md.
+// The stages of a step of the fast engine, by the name each has everywhere: of its function and file, of its
+// time in vox_profile (with _ns), of its row in bench/stages and in src/README.md.
 #pragma once
 
 namespace vox::fast {
 
-// In the order in which they begin. Part of `winding` runs within the tasks of `windows`, and all of `decide` within
-// those of `query`.
-inline constexpr const char* stage_names[] = {"stream", "winding", "broad_phase", "windows", "query", "decide"};
+// In the order in which they begin. Part of `winding` runs within the tasks of `windows`, and all of `decide`
+// within those of `query`.
+inline constexpr const char* stage_names[] = {"stream",  "winding", "broad_phase",
+                                              "windows", "query",   "decide"};
 
 } // namespace vox::fast

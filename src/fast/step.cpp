@@ -9,8 +9,9 @@ namespace vox::fast {
 
 namespace {
 
-// Far from zero, floats are far apart. So bodies whose positions are rounded anyway are rounded relative to a point
-// among them. Zero where they are near enough to it, judged by a few vertices: it only matters for speed.
+// Far from zero, floats are far apart. So bodies whose positions are rounded anyway are rounded relative to a
+// point among them. Zero where they are near enough to it, judged by a few vertices: it only matters for
+// speed.
 Vec3d choose_origin(std::span<const Body> bodies) {
     constexpr std::uint32_t samples = 8;
     constexpr double far = 256; // sizes away
@@ -35,7 +36,8 @@ Vec3d choose_origin(std::span<const Body> bodies) {
     return {origin[0], origin[1], origin[2]};
 }
 
-void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, std::pmr::vector<Piece>& pieces) {
+void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most,
+                std::pmr::vector<Piece>& pieces) {
     for (std::uint32_t first = 0; first < count; first += most)
         pieces.push_back({body, first, std::min(first + most, count)});
 }
@@ -56,7 +58,8 @@ void lay_out(Step& step, StepBoxes& boxes) {
     step.super_pieces.clear();
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
         StepBody& body = step.of[b];
-        const std::uint32_t own_blocks = body.tiles->block_count(), own_supers = body.tiles->super_tile_count();
+        const std::uint32_t own_blocks = body.tiles->block_count(),
+                            own_supers = body.tiles->super_tile_count();
         body.rounded = moved_origin || step.bodies[b].positions.rounded();
         body.first_block = static_cast<std::uint32_t>(blocks);
         body.first_super = static_cast<std::uint32_t>(supers);

@@ -1,5 +1,5 @@
-// One step as its stages see it: the bodies, how they are cut into pieces of work, and the boxes the stages make.
-// The blocks, super-tiles and tiles (mesh/tiles.hpp) of all bodies are numbered one body after another.
+// One step as its stages see it: the bodies, how they are cut into pieces of work, and the boxes the stages
+// make. The blocks, super-tiles and tiles (mesh/tiles.hpp) of all bodies are numbered one body after another.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -27,7 +27,7 @@ struct OrientationCache;
 struct Piece {
     std::uint32_t body, first, last;
 };
-inline constexpr std::uint32_t piece_blocks = 2048;    // at most
+inline constexpr std::uint32_t piece_blocks = 2048;   // at most
 inline constexpr std::uint32_t piece_super_tiles = 8; // at most
 
 // What a step knows of one of its bodies, beside the Body itself.
@@ -37,7 +37,7 @@ struct StepBody {
     LastPositions* last;           // null: nothing is kept of the body from step to step
     const Boundary* boundary;      // null: its self-collision is not culled by winding numbers
     OrientationCache* orientation; // null where `boundary` is
-    bool moved;                    // or may have moved, since the last step; stream() adds what it finds
+    bool moved;                    // since the last step, or may have; stream() adds what it finds
 
     // Set by lay_out().
     bool rounded;   // positions are the nearest floats of the exact ones less Step::origin, else as they are
@@ -53,7 +53,8 @@ struct StepBody {
 };
 
 struct Step {
-    explicit Step(std::pmr::memory_resource* memory) : of(memory), block_pieces(memory), super_pieces(memory) {}
+    explicit Step(std::pmr::memory_resource* memory)
+        : of(memory), block_pieces(memory), super_pieces(memory) {}
 
     std::span<const Body> bodies;
     std::pmr::vector<StepBody> of; // of each of `bodies`
@@ -64,8 +65,8 @@ struct Step {
 
     std::uint32_t worker_count() const noexcept { return workers ? workers->count() : 1; }
 
-    // Calls function(begin, end, worker) for ranges that make up [0, items). `work` is that of all items together;
-    // a task of its own is given at least `least` of it.
+    // Calls function(begin, end, worker) for ranges that make up [0, items). `work` is that of all items
+    // together; a task of its own is given at least `least` of it.
     template <class Function>
     void for_ranges(std::size_t items, std::size_t work, std::size_t least, Function&& function) const {
         if (items == 0) return;
@@ -74,7 +75,7 @@ struct Step {
     }
 };
 
-// Boxes of tiles are made by the first stage that needs them; which are made, `tile_known` says.
+// Boxes of tiles are made by the first stage that needs them; `tile_known` has which were.
 struct StepBoxes {
     explicit StepBoxes(std::pmr::memory_resource* memory)
         : bodies(memory), blocks(memory), moves(memory), super_tiles(memory), tiles(memory),
@@ -82,9 +83,10 @@ struct StepBoxes {
 
     std::pmr::vector<Box> bodies, blocks;
     std::pmr::vector<Box> moves; // around displacements of blocks from the reference of OrientationCache
-    std::pmr::vector<Box> super_tiles; // boxes that hold them; empty where the broad phase found them out of reach
+    // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of reach.
+    std::pmr::vector<Box> super_tiles;
     std::pmr::vector<Box> tiles;
-    std::pmr::vector<std::uint8_t> super_positive; // surely all tets of the super-tile are
+    std::pmr::vector<std::uint8_t> super_positive; // whether all tets of the super-tile certainly are
     std::pmr::vector<std::uint8_t> tile_known;
 };
 

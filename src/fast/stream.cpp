@@ -1,5 +1,5 @@
-// Minimum and maximum of positions, with a position or several in a register. Whether all coordinates are finite is a
-// maximum too, of their bits.
+// Minimum and maximum of positions, with a position or several in a register. Whether all coordinates are
+// finite is a maximum too, of their bits.
 #include "fast/stream.hpp"
 
 #include "base/error.hpp"
@@ -80,8 +80,8 @@ HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec
 }
 
 // Several positions in a register, three lanes each, and a third as many lanes of the positions that follow.
-// Where registers are wide, all positions of a block take two or four of them. These overlap where the block has fewer
-// than block_size positions, which does not change a minimum.
+// Where registers are wide, all positions of a block take two or four of them. These overlap where the block
+// has fewer than block_size positions, which does not change a minimum.
 using Wide = hn::CappedTag<float, 16>;
 constexpr std::uint32_t wide_lanes = hn::MaxLanes(Wide());
 constexpr std::uint32_t wide_positions = wide_lanes / 4;
@@ -313,15 +313,16 @@ void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers) {
     std::atomic<bool> finite{true};
     buffers.piece_boxes.resize(step.block_pieces.size());
     buffers.piece_moved.resize(step.block_pieces.size());
-    step.for_ranges(step.block_pieces.size(), step.block_count, piece_blocks,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t p = begin; p < end; ++p) {
-                            bool moved = false;
-                            if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
-                                finite.store(false, std::memory_order_relaxed);
-                            buffers.piece_moved[p] = moved;
-                        }
-                    });
+    step.for_ranges(
+        step.block_pieces.size(), step.block_count, piece_blocks,
+        [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t p = begin; p < end; ++p) {
+                bool moved = false;
+                if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
+                    finite.store(false, std::memory_order_relaxed);
+                buffers.piece_moved[p] = moved;
+            }
+        });
     if (!finite) {
         for (const Body& body : step.bodies) check_finite(body);
         throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");

@@ -14,14 +14,14 @@
 namespace vox::fast {
 
 // Writes the floats nearest to the exact positions [first, last), less `origin`, packed to out + 3 * first
-// and so on. A coordinate that no finite float is nearest to gives NaN; one that is only too far from the origin gives
-// the largest float.
+// and so on. A coordinate that no finite float is nearest to gives NaN; one that is only too far from the
+// origin gives the largest float.
 void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
                      float* out);
 
 // Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
-// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes are undefined
-// then.
+// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes are
+// undefined then.
 bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
 
 // The same, and the boxes around the displacements from `reference`, which are packed positions too, to
@@ -39,9 +39,9 @@ struct StreamBuffers {
     std::pmr::vector<float> packed; // of bodies of which nothing is kept
 };
 
-// Packs positions, makes the boxes of bodies and blocks, and finds out which of the bodies that have LastPositions
-// moved. Throws Error(NON_FINITE) naming mesh and vertex. Positions that are packed are good until `buffers` or the
-// LastPositions change.
+// Packs positions, makes the boxes of bodies and blocks, and finds out which of the bodies that have
+// LastPositions moved. Throws Error(NON_FINITE) naming mesh and vertex. Positions that are packed are good
+// until `buffers` or the LastPositions change.
 void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers);
 
 } // namespace vox::fast

@@ -1,5 +1,5 @@
-// What the stages that work on whole tiles share: loading their vertices into registers, and determinants. Included
-// once for each SIMD target, after hwy/highway.h.
+// What the stages that work on whole tiles share: loading their vertices into registers, and determinants.
+// Included once for each SIMD target, after hwy/highway.h.
 #if defined(VOX_FAST_TILE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_FAST_TILE_INL
 #undef VOX_FAST_TILE_INL
@@ -21,7 +21,8 @@ using Four = hn::FixedTag<float, 4>;
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
 
-// x, y, z of a vertex and one float more, which is the x of the next vertex. Not for the last vertex of the mesh.
+// x, y, z of a vertex and one float more, which is the x of the next vertex. Not for the last vertex of the
+// mesh.
 HWY_INLINE hn::Vec<Four> LoadVertex(const float* positions, std::uint32_t v) {
     return hn::LoadU(Four(), positions + std::size_t{v} * 3);
 }
@@ -166,7 +167,8 @@ HWY_INLINE V Dot(const V* a, const V* b) {
     return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// A bound on errors by underflow for tets with a box of these sides; infinite when some product could overflow.
+// A bound on errors by underflow for tets with a box of these sides; infinite when some product could
+// overflow.
 HWY_INLINE float Underflow(float x, float y, float z) {
     const float sums = (x + y + z) + 4 * (x * y + y * z + z * x) + 1;
     const float largest = x * y * z * 64;

@@ -21,9 +21,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on, and returns their number. `count`
-// is the number of all positions. Runs are short, so the end of a run takes a whole register too, where other
-// positions follow it.
+// Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on, and returns their
+// number. `count` is the number of all positions. Runs are short, so the end of a run takes a whole register
+// too, where other positions follow it.
 std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, std::uint32_t last,
                       std::uint32_t count, const Box& region, float* HWY_RESTRICT x, float* HWY_RESTRICT y,
                       float* HWY_RESTRICT z, std::uint32_t* HWY_RESTRICT id) {
@@ -106,9 +106,10 @@ HWY_AFTER_NAMESPACE();
 namespace vox::fast {
 
 void Points::reserve(std::size_t most) {
-    if (id.size() >= most + padding) return; // `id` grows last, so this holds after an earlier call ran out of memory
-    // An eighth more, so that a number of points that varies needs no new room in every step. resize() alone would
-    // double the room.
+    if (id.size() >= most + padding)
+        return; // `id` grows last, so this holds after an earlier call ran out of memory
+    // An eighth more, so that a number of points that varies needs no new room in every step. resize() alone
+    // would double the room.
     const std::size_t size = most + most / 8 + padding;
     const auto grow = [size](auto& list) {
         list.reserve(size);
@@ -126,7 +127,8 @@ WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_ce
         extent[a] = double{box.hi[a]} - double{box.lo[a]};
         longest = std::max(longest, extent[a]);
     }
-    // Whatever was asked for, a cell index stays below 2^23, where floats are exact, and the inverse is normal.
+    // Whatever was asked for, a cell index stays below 2^23, where floats are exact, and the inverse is
+    // normal.
     cell_size = std::clamp(std::max(cell_size, longest * 0x1p-20), 0x1p-100, 0x1p+125);
     const auto most = static_cast<double>(std::max<std::size_t>(most_cells, 1));
     WindowLattice lattice;
@@ -159,9 +161,9 @@ struct Range {
     std::uint32_t first, count;
 };
 
-// A window is crowded when a point shares its cell with this many others on average: one register of them, so that up
-// to there a row of cells takes little longer to read than an empty one. bench/README.md has what halving crowded windows
-// gains ("A k-d tree of windows") and what it costs where nothing is gained.
+// A window is crowded when a point shares its cell with this many others on average: one register of them, so
+// that up to there a row of cells takes little longer to read than an empty one. bench/README.md has what
+// halving crowded windows gains ("A k-d tree of windows") and what it costs where nothing is gained.
 constexpr std::uint64_t most_crowded = 16;
 // So few points are never halved: they are read in a few registers, whatever cells they are in.
 constexpr std::uint32_t few_points = 128;
@@ -175,7 +177,8 @@ bool is_coarse(const WindowLattice& lattice, double cell_size) { return double{l
 WindowLattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
                            std::size_t most_cells) {
     const WindowLattice lattice = make_lattice(box, cell_size, most_cells);
-    constexpr std::uint32_t tail = 4; // samples at either end that are not of the bulk: some 3 % of the points
+    constexpr std::uint32_t tail =
+        4; // samples at either end that are not of the bulk: some 3 % of the points
     if (range.count < 4 * most_samples || !is_coarse(lattice, cell_size)) return lattice;
     // The bulk is the interval of the samples without those tails, and a quarter of it more on either side.
     const float* coordinates[3] = {points.x.data(), points.y.data(), points.z.data()};
@@ -232,7 +235,8 @@ bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t po
     return sum > (most_crowded + 1) * points;
 }
 
-// Adds a window of some points, and returns whether it did. With `unless_crowded`, adds none that would be crowded.
+// Adds a window of some points, and returns whether it did. With `unless_crowded`, adds none that would be
+// crowded.
 bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box, bool unless_crowded,
              std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
     const std::uint32_t n = range.count;

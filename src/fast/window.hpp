@@ -1,7 +1,7 @@
-// The vertices of one body that may be in contact, binned into a dense window of cells. The window is stored as
-// compressed rows over all cells, x fastest, so that the cells of a tile's box along x are one range of vertices, and
-// coordinates are a structure of arrays. One window over clumps that are far apart would need cells so large that most
-// vertices share a few of them; such a body gets a k-d tree of windows.
+// The vertices of one body that may be in contact, binned into a dense window of cells. The window is stored
+// as compressed rows over all cells, x fastest, so that the cells of a tile's box along x are one range of
+// vertices, and coordinates are a structure of arrays. One window over clumps that are far apart would need
+// cells so large that most vertices share a few of them; such a body gets a k-d tree of windows.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -31,9 +31,9 @@ struct alignas(16) WindowCell {
     std::uint32_t index[4]; // along x, y, z; [3] is unused
 };
 
-// A coordinate is in cell trunc((c - origin) * inverse), clamped to [0, last]. As computed, this is still monotone in c.
-// So the cells from that of a box's low corner to that of its high corner hold every point of the box, wherever the
-// lattice is; points outside belong to the nearest border cell.
+// A coordinate is in cell trunc((c - origin) * inverse), clamped to [0, last]. As computed, this is still
+// monotone in c. So the cells from that of a box's low corner to that of its high corner hold every point of
+// the box, wherever the lattice is; points outside belong to the nearest border cell.
 struct WindowLattice {
     alignas(16) float origin[4] = {0, 0, 0, 0}; // [3] is unused, here and in `last`
     alignas(16) float last[4] = {0, 0, 0, 0};
@@ -46,8 +46,8 @@ struct WindowLattice {
         t = t < last[axis] ? t : last[axis];
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(t));
     }
-    // The cells of all axes, from a corner of a box. In SSE2 as it is inlined in loops of code that is compiled for the
-    // base target, and compilers do not vectorise the loop below.
+    // The cells of all axes, from a corner of a box. In SSE2 as it is inlined in loops of code that is
+    // compiled for the base target, and compilers do not vectorise the loop below.
     WindowCell cell(const float (&corner)[4]) const noexcept {
         WindowCell c;
 #if defined(__SSE2__)
@@ -73,8 +73,8 @@ inline std::size_t most_window_cells(std::uint32_t points) noexcept {
 // Covers `box` with cells of `cell_size`, or of larger ones where more than `most_cells` would be needed.
 WindowLattice make_lattice(const Box& box, double cell_size, std::size_t most_cells);
 
-// The same for points in `box`. Where a few points far from the others would make the cells large, the lattice covers
-// the bulk only.
+// The same for points in `box`. Where a few points far from the others would make the cells large, the
+// lattice covers the bulk only.
 WindowLattice make_lattice(const Points& points, const Box& box, double cell_size, std::size_t most_cells);
 
 struct Bins;
@@ -107,21 +107,22 @@ struct Bins {
     }
 };
 
-// Appends the vertices [first, last) of `count` packed positions that are in `region`. The caller has reserved room.
+// Appends the vertices [first, last) of `count` packed positions that are in `region`. The caller has
+// reserved room.
 void collect(const float* positions, std::uint32_t first, std::uint32_t last, std::uint32_t count,
              const Box& region, Points& points);
 
 // The box of points.
 Box bounds(const Points& points);
 
-// Adds the window of `points`, sorted stably into the cells of `lattice`. `buffer` takes the cell of each unsorted
-// point; keep it from call to call.
+// Adds the window of `points`, sorted stably into the cells of `lattice`. `buffer` takes the cell of each
+// unsorted point; keep it from call to call.
 Window bin(const Points& points, const WindowLattice& lattice, const Box& box,
            std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
 
-// Appends to bins.windows a tree of windows of all points, with cells of `cell_size`, or of larger ones where those
-// would be too many. It is a single window unless its cells would be crowded. Changes the order of `points`. Returns
-// the index of the root.
+// Appends to bins.windows a tree of windows of all points, with cells of `cell_size`, or of larger ones where
+// those would be too many. It is a single window unless its cells would be crowded. Changes the order of
+// `points`. Returns the index of the root.
 std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
 
 // Whether there is a point in `box`.

@@ -16,13 +16,14 @@ constexpr double cells_per_tile = 0.6;
 constexpr double largest_factor = 16;
 // The same as cells_per_tile for the winding numbers of self-collision.
 constexpr double winding_cells_per_tile = 0.55;
-// The winding numbers of a body with so many tets are worth sharing among the workers: by bench_stages, they take
-// 0.2 ms of one. Each such body is a task of the step, so their number is limited to stay below VOX_MAX_TASKS.
+// The winding numbers of a body with so many tets are worth sharing among the workers: by bench_stages, they
+// take 0.2 ms of one. Each such body is a task of the step, so their number is limited to stay below
+// VOX_MAX_TASKS.
 constexpr std::size_t many_tets = 1u << 17;
 constexpr std::size_t most_shared = 16;
 
-// Bodies are grouped up to so many vertices, and two groups are worth a task: by bench_stages, their windows take ten
-// microseconds. That is long beside handing out a task, and short enough to share a scene evenly.
+// Bodies are grouped up to so many vertices, and two groups are worth a task: by bench_stages, their windows
+// take ten microseconds. That is long beside handing out a task, and short enough to share a scene evenly.
 constexpr std::size_t group_vertices = 2048;
 
 bool is_large(const Body& body) { return body.self_collision && body.tets.size() >= many_tets; }
@@ -46,8 +47,8 @@ void prepare(const Step& step, Windows& out) {
     while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.get_allocator().resource());
     for (Bins& bins : out.bins) bins.clear();
 
-    // Any worker may be given any body. A body that is more than a worker's share of all gets buffers of its own, so
-    // that all buffers together are no more than twice what one worker for each body would need.
+    // Any worker may be given any body. A body that is more than a worker's share of all gets buffers of its
+    // own, so that all buffers together are no more than twice what one worker for each body would need.
     out.large_of.assign(step.bodies.size(), Windows::none);
     if (step.worker_count() == 1) return;
     std::uint32_t large = 0;
@@ -103,7 +104,8 @@ void activate_blocks(const StepBody& body, const StepBoxes& boxes, WindowBuffers
     active.assign(count, 0);
     const std::pmr::vector<std::uint32_t>& first = body.tiles->block_first;
     for (const std::uint32_t v : body.boundary->loose)
-        active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() - 1)] = 1;
+        active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
+                                        1)] = 1;
     if (certificate.complete) return;
     const Box* blocks = boxes.blocks.data() + body.first_block;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -136,7 +138,8 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
 
     Points& points = buffers.points;
     points.count = 0;
-    collect_near(step, boxes, broad, a, around, self && !culled, culled ? buffers.active.data() : nullptr, points);
+    collect_near(step, boxes, broad, a, around, self && !culled, culled ? buffers.active.data() : nullptr,
+                 points);
     if (points.count == 0) return;
 
     // From the mean side of the tiles that will query the window.
@@ -166,21 +169,23 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
         const std::uint32_t some = std::min(most_boxes, count - b);
         std::uint64_t wanted = all_blocks ? ~std::uint64_t{0} >> (64 - some) : 0;
         for (std::uint32_t i = 0; i < some && active; ++i) wanted |= std::uint64_t{active[b + i]} << i;
-        for (const PairRegion& pair : broad.of_a(body)) wanted |= find_overlaps(blocks + b, some, pair.region);
+        for (const PairRegion& pair : broad.of_a(body))
+            wanted |= find_overlaps(blocks + b, some, pair.region);
         while (wanted) { // runs of blocks
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
             wanted = end < 64 ? wanted >> end << end : 0;
             points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
-            collect(step_body.positions, first[b + begin], first[b + end], step.bodies[body].vertex_count, around,
-                    points);
+            collect(step_body.positions, first[b + begin], first[b + end], step.bodies[body].vertex_count,
+                    around, points);
         }
     }
 }
 
-// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, all workers share the
-// winding numbers of each, before the groups.
-void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes, Windows& out) {
+// A group of bodies is the work of one worker. Where there are fewer large bodies than workers, all workers
+// share the winding numbers of each, before the groups.
+void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes,
+                  Windows& out) {
     prepare(step, out);
     std::size_t vertices = 0, large = 0;
     for (std::size_t a = 0; a < step.bodies.size(); ++a) {
@@ -197,8 +202,8 @@ void make_windows(const Step& step, const BroadPhase& broad, double cell_size, S
                         for (std::size_t g = begin; g < end; ++g)
                             for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
                                 if (!share || !is_large(step.bodies[a]))
-                                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker], nullptr,
-                                                boxes, out);
+                                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker],
+                                                nullptr, boxes, out);
                     });
     out.workers.level();
 }

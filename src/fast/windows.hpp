@@ -1,5 +1,5 @@
-// Which vertices of a body may be in contact, binned for the query in cells of a size that fits the tiles that will
-// look for them.
+// Which vertices of a body may be in contact, binned for the query in cells of a size that fits the tiles
+// that will look for them.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -36,7 +36,8 @@ struct WindowBuffers {
     std::pmr::vector<std::uint32_t> cell_of;
 
     auto buffers() {
-        return std::tuple_cat(certificate.buffers(), std::tie(active, points.x, points.y, points.z, points.id, cell_of));
+        return std::tuple_cat(certificate.buffers(),
+                              std::tie(active, points.x, points.y, points.z, points.id, cell_of));
     }
 };
 
@@ -63,12 +64,13 @@ struct Windows {
     std::pmr::vector<std::uint32_t> large_of; // each body in `large`, or none
 };
 
-// Makes the windows of all bodies with vertices that reach another body or that may be in tets of their own. Cells are
-// of `cell_size`; 0: of a size chosen for each body.
-void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes, Windows& out);
+// Makes the windows of all bodies with vertices that reach another body or that may be in tets of their own.
+// Cells are of `cell_size`; 0: of a size chosen for each body.
+void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes,
+                  Windows& out);
 
-// Appends the vertices in `around` of those blocks of a body that meet one of its regions, or that are `active` (null: none),
-// or of all its blocks.
+// Appends the vertices in `around` of those blocks of a body that meet one of its regions, or that are
+// `active` (null: none), or of all its blocks.
 void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& broad, std::uint32_t body,
                   const Box& around, bool all_blocks, const std::uint8_t* active, Points& points);
 

@@ -508,9 +508,8 @@ void vox_grid::describe(CellSizeScene& scene) const {
         scene.bodies.push_back(s.mesh.body(id));
         scene.tiles.push_back(s.mesh.tiles_if_made());
         scene.meshes.push_back(&s.mesh);
-        const bool in_last_step = s.body < fast_engine_.last_step().of.size();
-        scene.at_rest.push_back(in_last_step && !fast_engine_.moved(s.body));
-        scene.cleared.push_back(in_last_step && fast_engine_.cleared(s.body, s.mesh.vertex_count()));
+        scene.at_rest.push_back(!fast_engine_.moved(s.body));
+        scene.cleared.push_back(fast_engine_.cleared(s.body, s.mesh.vertex_count()));
     }
     if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }

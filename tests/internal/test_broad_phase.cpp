@@ -125,7 +125,8 @@ std::size_t check_regions(const Bodies& s, const char* level) {
     return filled;
 }
 
-// Tiles that meet a region have their box; no box is wrong; super-tiles are in theirs, unless they are out of reach.
+// Tiles that meet a region have their box; no box is wrong; super-tiles are in theirs, unless they are out of
+// reach.
 void check_boxes(const Bodies& s, const char* level) {
     for (std::uint32_t b = 0; b < s.bodies.size(); ++b) {
         const Tiles& tiles = s.tiles[b];
@@ -133,7 +134,8 @@ void check_boxes(const Bodies& s, const char* level) {
         for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t) {
             const Box expected = s.tile_box(b, t);
             const bool known = s.boxes.tile_known[body.first_tile + t];
-            ck_assert_msg(!known || same(s.boxes.tiles[body.first_tile + t], expected), "%s: box of a tile", level);
+            ck_assert_msg(!known || same(s.boxes.tiles[body.first_tile + t], expected), "%s: box of a tile",
+                          level);
             const std::uint32_t super = tiles.super_tile_of(t);
             for (const std::uint32_t r : s.broad.of_b(b)) {
                 if (!overlap(expected, s.broad.regions[r].region)) continue;
@@ -156,8 +158,8 @@ std::size_t check_vertices(const Bodies& s, const char* level) {
             for (std::uint32_t a = 0; a < s.bodies.size(); ++a) {
                 if (!s.may_collide(a, b)) continue;
                 const auto of_a = s.broad.of_a(a);
-                const auto pair =
-                    std::find_if(of_a.begin(), of_a.end(), [&](const fast::PairRegion& r) { return r.b == b; });
+                const auto pair = std::find_if(of_a.begin(), of_a.end(),
+                                               [&](const fast::PairRegion& r) { return r.b == b; });
                 for (const Vec3f& p : s.meshes[a].positions) {
                     if (!is_inside(p, box)) continue;
                     ck_assert_msg(pair != of_a.end() && is_inside(p, pair->region),
@@ -237,7 +239,8 @@ START_TEST(filters_and_bodies_at_rest_leave_pairs_out) {
     s.moved = {false, false, false, false};
     ck_assert_uint_eq(pairs(), 0);
     s.moved = {true, true, true, true};
-    const std::uint32_t others[2] = {s.bodies[0].mesh_id, s.bodies[1].mesh_id}, last[1] = {s.bodies[2].mesh_id};
+    const std::uint32_t others[2] = {s.bodies[0].mesh_id, s.bodies[1].mesh_id},
+                        last[1] = {s.bodies[2].mesh_id};
     s.bodies[2].exceptions = others;
     s.bodies[0].exceptions = s.bodies[1].exceptions = last;
     ck_assert_uint_eq(pairs(), 8);
@@ -274,7 +277,8 @@ START_TEST(workers_find_the_same) {
             ck_assert_uint_eq(s.broad.regions.size(), one.size());
             for (std::size_t i = 0; i < one.size(); ++i) {
                 const fast::PairRegion &found = s.broad.regions[i], &expected = one[i];
-                ck_assert(found.a == expected.a && found.b == expected.b && same(found.region, expected.region));
+                ck_assert(found.a == expected.a && found.b == expected.b &&
+                          same(found.region, expected.region));
                 ck_assert_double_eq(found.tile_size.inverse_sum, expected.tile_size.inverse_sum);
             }
             ck_assert(std::equal(known.begin(), known.end(), s.boxes.tile_known.begin()));

@@ -1,19 +1,20 @@
 // Where all tets are positive, the number of tets that cover a point off the facets is the winding number of
 // the boundary around it (the degree of the map; e.g. A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust
-// inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013). Suppose that a vertex v is in a tet
-// that does not own it. Then next to v there are points that both this tet and v's own tets cover, so some winding
-// number next to v is above one; or v and that tet meet at the boundary only (see below). So a region where no winding
-// number exceeds one has no such vertex.
+// inside-outside segmentation using generalized winding numbers, SIGGRAPH 2013). Suppose that a vertex v is
+// in a tet that does not own it. Then next to v there are points that both this tet and v's own tets cover,
+// so some winding number next to v is above one; or v and that tet meet at the boundary only (see below). So
+// a region where no winding number exceeds one has no such vertex.
 //
 // Space is cut into cells. A cell that no boundary triangle touches has one winding number, the same as the
-// untouched cells next to it: 0 outside, else it is counted at one point. A touched cell is safe if there is a direction
-// d such that the normals of all its triangles have a positive product with d, and the cells that are entered from it
-// by going against d are safe: along d the winding number only falls, from one at most. Two pieces of boundary that
-// touch each other from outside face opposite ways, so no d suits both, and exact contact without overlap is not
-// certified away. Neither is a vertex where two pieces that share a d meet: the inside of both is against d there, so
-// they overlap.
+// untouched cells next to it: 0 outside, else it is counted at one point. A touched cell is safe if there is
+// a direction d such that the normals of all its triangles have a positive product with d, and the cells that
+// are entered from it by going against d are safe: along d the winding number only falls, from one at most.
+// Two pieces of boundary that touch each other from outside face opposite ways, so no d suits both, and exact
+// contact without overlap is not certified away. Neither is a vertex where two pieces that share a d meet:
+// the inside of both is against d there, so they overlap.
 //
-// Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count elsewhere.
+// Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count
+// elsewhere.
 #include "fast/winding/certificate.hpp"
 #include "base/simd.hpp"
 
@@ -74,10 +75,11 @@ void LoadTriangles(const float* HWY_RESTRICT positions, std::uint32_t last_verte
     }
 }
 
-// Writes the set of directions that the normal of each triangle certainly has a positive product with, and the cells
-// that meet its box. The components of a normal are off by less than 9 u L^2, where L is the largest difference of
-// coordinates, and sums of three of them by less than 64 u L^2. Where coordinates are rounded and a difference is off
-// by at most e, a component is off by another 2 e (2 L + e), and a sum of three by 12 e (L + e).
+// Writes the set of directions that the normal of each triangle certainly has a positive product with, and
+// the cells that meet its box. The components of a normal are off by less than 9 u L^2, where L is the
+// largest difference of coordinates, and sums of three of them by less than 64 u L^2. Where coordinates are
+// rounded and a difference is off by at most e, a component is off by another 2 e (2 L + e), and a sum of
+// three by 12 e (L + e).
 void Facing(TriangleBatch& batch, std::size_t count, const WindowLattice& lattice, float e_of_rounding) {
     const Floats d;
     const Words du;
@@ -180,15 +182,15 @@ private:
         nx_ = l.cells[0];
         nxy_ = nx_ * l.cells[1];
         cells_ = l.count();
-        // Visits of cells by large triangles and boxes. More than a few for each cell and each triangle means that the
-        // lattice is too fine for them, and certifying takes longer than testing all vertices.
+        // Visits of cells by large triangles and boxes. More than a few for each cell and each triangle means
+        // that the lattice is too fine for them, and certifying takes longer than testing all vertices.
         work_left_ = 8 * cells_ + 16 * body_.boundary.triangles.size();
         out_.directions.assign(cells_, untouched);
         if (!mark_surface()) return false;
         // The corner cell reaches out to infinity: nothing there, unless rounding ate the margin.
         if (out_.directions[0] != untouched) return false;
-        // First as if all untouched cells that are not outside were covered once. This is cheap, and decides whether
-        // more is worth doing.
+        // First as if all untouched cells that are not outside were covered once. This is cheap, and decides
+        // whether more is worth doing.
         judge(false);
         if (!worthwhile()) return false;
         out_.bad.resize(body_.tiles.tiles.size());
@@ -311,8 +313,9 @@ private:
         return true;
     }
 
-    // Decides which cells are safe. Untouched cells outside are. The other untouched ones are assumed to be or, with
-    // `count`, decided by the winding number at one point of each component. Then the touched ones follow.
+    // Decides which cells are safe. Untouched cells outside are. The other untouched ones are assumed to be
+    // or, with `count`, decided by the winding number at one point of each component. Then the touched ones
+    // follow.
     void judge(bool count) {
         const Components& components = find_components();
         bool safe[most_components + 1];
@@ -325,8 +328,8 @@ private:
         judge_touched();
     }
 
-    // Finds the components of untouched cells. The first is outside. For each of the others the tets around a point may
-    // have to be counted, so only the first few are used.
+    // Finds the components of untouched cells. The first is outside. For each of the others the tets around a
+    // point may have to be counted, so only the first few are used.
     const Components& find_components() {
         Components& components = out_.components;
         components.find(out_.directions.data(), untouched, out_.lattice.cells);
@@ -340,9 +343,9 @@ private:
         return components;
     }
 
-    // A thin body has boundary everywhere, facing both ways, and so has one that lies on itself: most of it stays
-    // uncertified. bench/README.md has what certifying such bodies costs ("Culling by winding numbers also for bodies
-    // that are mostly surface").
+    // A thin body has boundary everywhere, facing both ways, and so has one that lies on itself: most of it
+    // stays uncertified. bench/README.md has what certifying such bodies costs ("Culling by winding numbers
+    // also for bodies that are mostly surface").
     bool worthwhile() const {
         std::size_t inside = inside_;
         for (const std::uint32_t set : out_.directions) inside += set != untouched;
@@ -417,8 +420,8 @@ private:
 
     // Decides touched cells, in passes over the unsafe ones until a pass finds none that is safe.
     void judge_touched() {
-        // enterable[n] is the set of directions that are open when the neighbours n (bits x-, x+, y-, y+, z-, z+) are
-        // safe.
+        // enterable[n] is the set of directions that are open when the neighbours n (bits x-, x+, y-, y+, z-,
+        // z+) are safe.
         std::uint32_t enterable[64];
         for (std::uint32_t n = 0; n < 64; ++n) {
             enterable[n] = 0;
@@ -465,7 +468,8 @@ private:
         }
     }
 
-    // At the far end of a row the next cell is the first of another row: one condition too many, which does no harm.
+    // At the far end of a row the next cell is the first of another row: one condition too many, which does
+    // no harm.
     void find_with_next() {
         out_.complete = out_.touched.empty();
         std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
@@ -474,7 +478,8 @@ private:
             for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
-    static constexpr std::size_t most_components = 64; // whose cells can be certified; a body with more is no solid
+    static constexpr std::size_t most_components =
+        64; // whose cells can be certified; a body with more is no solid
 
     const WindingBody& body_;
     Certificate& out_;

@@ -1,5 +1,5 @@
-// Which vertices of a body may be in its own tetrahedra, by winding numbers. In a compact body that does not touch
-// itself there are none, and to find that out little more than its boundary is read.
+// Which vertices of a body may be in its own tetrahedra, by winding numbers. In a compact body that does not
+// touch itself there are none, and to find that out little more than its boundary is read.
 #pragma once
 
 #include "fast/winding/components.hpp"
@@ -49,7 +49,8 @@ struct Certificate {
             is_small &= hi.index[a] - lo.index[a] <= 1;
         }
         if (is_small && with_next[lattice.offset(lo)]) return true;
-        constexpr std::uint32_t few = 16; // a block has at most half as many vertices, which are looked up one by one then
+        constexpr std::uint32_t few =
+            16; // a block has at most half as many vertices, which are looked up one by one then
         if (cells > few) return false;
         for (WindowCell c = lo; c.index[2] <= hi.index[2]; ++c.index[2])
             for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
@@ -70,21 +71,22 @@ struct WindingBody {
     std::uint32_t vertex_count;
     Box box;
     double cell_size;                  // of the lattice
-    const Box* super_boxes;             // boxes that hold the super-tiles
+    const Box* super_boxes;            // boxes that hold the super-tiles
     const std::uint8_t* super_positive; // whether all tets of a super-tile are known to be positive
     Box* tile_boxes;                    // boxes that are needed are made
     std::uint8_t* tile_known;
     OrientationCache& orientation; // renewed where that pays
     Workers* workers;              // not null: share the pass over the tiles, as one task
-    // Whether the packed positions are those in `exact` less `origin`, rounded to floats; else they are exact.
+    // Whether the packed positions are those in `exact` less `origin`, rounded to floats; else they are
+    // exact.
     bool rounded = false;
     Vec3d origin{};
     Positions exact{};
 };
 
-// Fills `out` so that no vertex in a certified cell is in a tet that does not own it. This does not cover vertices of no
-// tet (Boundary::loose). Returns false when it would not pay or cannot be decided: then all vertices have to be used.
-// `exact_tests` as in predicates.hpp.
+// Fills `out` so that no vertex in a certified cell is in a tet that does not own it. This does not cover
+// vertices of no tet (Boundary::loose). Returns false when it would not pay or cannot be decided: then all
+// vertices have to be used. `exact_tests` as in predicates.hpp.
 bool certify(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests);
 
 } // namespace vox::fast

@@ -4,8 +4,8 @@
 
 namespace vox::fast {
 
-// While runs are joined, `component` is the index of another run of the same component, a lower one, or of the run
-// itself.
+// While runs are joined, `component` is the index of another run of the same component, a lower one, or of
+// the run itself.
 std::uint32_t Components::root(std::uint32_t run) noexcept {
     while (runs[run].component != run) {
         runs[run].component = runs[runs[run].component].component; // halves the path for the next search

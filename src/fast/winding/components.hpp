@@ -1,9 +1,9 @@
 // The connected components of some cells of a lattice, where cells are connected through facets.
 //
-// Runs are maximal rows of such cells along x; there are two to three orders of magnitude fewer of them than of cells.
-// Each run is joined with those next to it in the row before and in the layer before (A. Rosenfeld, J. L. Pfaltz,
-// Sequential operations in digital picture processing, J. ACM 13, 1966; joined as in R. E. Tarjan, Efficiency
-// of a good but not linear set union algorithm, J. ACM 22, 1975).
+// Runs are maximal rows of such cells along x; there are two to three orders of magnitude fewer of them than
+// of cells. Each run is joined with those next to it in the row before and in the layer before (A. Rosenfeld,
+// J. L. Pfaltz, Sequential operations in digital picture processing, J. ACM 13, 1966; joined as in R. E.
+// Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22, 1975).
 #pragma once
 
 #include <cstdint>

@@ -17,10 +17,11 @@ namespace HWY_NAMESPACE {
 
 HWY_INLINE V SquaredLength(const V* a) { return Dot(a, a); }
 
-// A lower bound on the widths of tets with edges e1, e2, e3 at the first corner. `longest` is the largest difference of
-// coordinates of these; `volume` is six times the volume, less what it may be off by. The width is that volume over the
-// longest of seven cross products: of the edges of each facet, and of each two opposite edges. A cross product is off
-// by less than 16 u L^2. The bound is zero where squares would leave the range of floats.
+// A lower bound on the widths of tets with edges e1, e2, e3 at the first corner. `longest` is the largest
+// difference of coordinates of these; `volume` is six times the volume, less what it may be off by. The width
+// is that volume over the longest of seven cross products: of the edges of each facet, and of each two
+// opposite edges. A cross product is off by less than 16 u L^2. The bound is zero where squares would leave
+// the range of floats.
 HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longest, V volume) {
     const Floats d;
     V n12[3], n31[3], s[3];
@@ -43,9 +44,10 @@ HWY_INLINE V Width(const V* e1, const V* e2, const V* e3, const V* n23, V longes
 }
 
 template <bool kMeasure>
-HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions,
-                             bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
-                             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
+HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& boundary,
+                             const float* HWY_RESTRICT positions, bool rounded, std::uint32_t first,
+                             std::uint32_t last, Box* HWY_RESTRICT boxes, std::uint8_t* HWY_RESTRICT known,
+                             std::uint64_t* HWY_RESTRICT bad) {
     const Floats d;
     const Words du;
     const hn::Rebind<std::uint8_t, Floats> db;
@@ -121,8 +123,9 @@ namespace vox::fast {
 
 namespace {
 
-// An upper bound on the diagonal of a box around differences of floats. Such a difference x - y is off by at most
-// u |x - y|, and so is, a few times, what is computed here; underflow takes away less than what is added.
+// An upper bound on the diagonal of a box around differences of floats. Such a difference x - y is off by at
+// most u |x - y|, and so is, a few times, what is computed here; underflow takes away less than what is
+// added.
 float diagonal(const Box& moves) noexcept {
     float square = 0;
     for (int a = 0; a < 3; ++a) {
@@ -152,9 +155,9 @@ Box box_of(std::span<const std::uint32_t> items, const Box* boxes) noexcept {
 
 } // namespace
 
-// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a coordinate. So
-// the extents of tets, and their widths, are off by 2 sqrt(3) r for two of them; sides of boxes around displacements by
-// 2 r at either end, and their diagonals by 2 sqrt(3) r.
+// Positions rounded to floats are off by r = u M along an axis, where M is the largest magnitude of a
+// coordinate. So the extents of tets, and their widths, are off by 2 sqrt(3) r for two of them; sides of
+// boxes around displacements by 2 r at either end, and their diagonals by 2 sqrt(3) r.
 float slack_of_rounding(const Box& box) noexcept {
     float largest = 0;
     for (int a = 0; a < 3; ++a) largest = std::max({largest, -box.lo[a], box.hi[a]});
@@ -184,24 +187,24 @@ void track_orientation(Step& step, StepBoxes& boxes) {
         if (body.has_super_boxes) tiles += body.tiles->tiles.size();
     }
     if (tiles == 0) return;
-    step.for_ranges(step.super_pieces.size(), tiles, task_tiles,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t p = begin; p < end; ++p) {
-                            const Piece& piece = step.super_pieces[p];
-                            const StepBody& body = step.of[piece.body];
-                            if (!body.has_super_boxes) continue;
-                            track_orientation(*body.tiles, *body.orientation, boxes.blocks.data() + body.first_block,
-                                              body.has_moves ? boxes.moves.data() + body.first_move : nullptr,
-                                              body.rounded ? slack_of_rounding(boxes.bodies[piece.body]) : 0,
-                                              piece.first, piece.last, boxes.super_tiles.data() + body.first_super,
-                                              boxes.super_positive.data() + body.first_super);
-                        }
-                    });
+    step.for_ranges(
+        step.super_pieces.size(), tiles, task_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t p = begin; p < end; ++p) {
+                const Piece& piece = step.super_pieces[p];
+                const StepBody& body = step.of[piece.body];
+                if (!body.has_super_boxes) continue;
+                track_orientation(*body.tiles, *body.orientation, boxes.blocks.data() + body.first_block,
+                                  body.has_moves ? boxes.moves.data() + body.first_move : nullptr,
+                                  body.rounded ? slack_of_rounding(boxes.bodies[piece.body]) : 0, piece.first,
+                                  piece.last, boxes.super_tiles.data() + body.first_super,
+                                  boxes.super_positive.data() + body.first_super);
+            }
+        });
 }
 
 bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
-    // Taking a reference costs about as much as orienting all tets once, so it has to serve several steps. A body for
-    // which it did not deforms too fast, and is left alone for a while.
+    // Taking a reference costs about as much as orienting all tets once, so it has to serve several steps. A
+    // body for which it did not deforms too fast, and is left alone for a while.
     constexpr std::uint32_t young = 4, pause = 32; // steps
     ++cache.age;
     if (cache.wait > 0) {
