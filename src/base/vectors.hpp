@@ -20,7 +20,9 @@ inline Vec3d cross(const Vec3d& a, const Vec3d& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 // Of the matrix with these rows: six times the signed volume of the tetrahedron that they span.
-inline double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept { return dot(a, cross(b, c)); }
+inline double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
+    return dot(a, cross(b, c));
+}
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
 // Of length 1 to rounding; zero where `a` is, or so short that its square loses digits.

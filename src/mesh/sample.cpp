@@ -1,6 +1,6 @@
 // Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): a list is cut into equal parts, and one
-// item is taken from each, at a random place: what repeats in the list, as in a lattice, is met in all its
-// kinds.
+// item is taken from a random place in each, so that in a list that repeats, as that of a lattice does, every
+// kind occurs.
 #include "mesh/sample.hpp"
 
 #include "base/bits.hpp"
@@ -42,7 +42,7 @@ MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::mem
         std::uint32_t shared = 0;
         for (std::uint32_t f = 0; f < 4; ++f) {
             const std::uint32_t across = topology.across[t][f];
-            // Where three or more meet, nothing is told to be across.
+            // Where three or more meet, `across` says nothing.
             const bool own =
                 across != Topology::nothing && (across & Topology::surface_bit) != 0;
             shared |= std::uint32_t{!own} << f;

@@ -39,7 +39,7 @@ void Queries::require_prepared() const {
         throw Error(VOX_ERROR_INVALID_STATE, "the grid is not prepared: call vox_grid_prepare_queries first");
 }
 
-void Queries::forget() noexcept {
+void Queries::invalidate() noexcept {
     prepared_ = false;
     meshes_.clear();
     vertices_.clear();
@@ -69,7 +69,7 @@ void Queries::prepare(std::span<const QueryBody> bodies) {
     reserve(tree_, nodes);
     reserve(surface_tree_, nodes);
 
-    forget();
+    invalidate();
     for (const QueryBody& body : bodies) {
         add(body, static_cast<std::uint32_t>(meshes_.size()));
         meshes_.push_back({body.body.mesh_id, body.body.filter.category});

@@ -30,7 +30,7 @@ public:
     // Copies the bodies, whose positions are finite. Throws what the memory throws, and leaves all as it was
     // then.
     void prepare(std::span<const QueryBody> bodies);
-    void forget() noexcept;
+    void invalidate() noexcept;
     // Throws Error(INVALID_STATE) when it is not.
     void require_prepared() const;
 
