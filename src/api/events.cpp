@@ -1,4 +1,4 @@
-// The C border of what touches: pairs, events, contacts of a mesh or a pair, and their readings.
+// The C border of pairs, events, contacts of a mesh or a pair, and their readings.
 
 #include "base/border.hpp"
 #include "grid/grid.hpp"
@@ -19,8 +19,8 @@ std::span<const vox_contact> contacts_of(const vox_grid& grid) noexcept {
 
 std::span<const vox_reading> readings_of(const vox_grid& grid) { return grid.readings(); }
 
-// Copies items of contacts, of which all_of(grid) has one for each: those that a mesh has a part in, or those
-// between two meshes. `name` is that of the parameter `items`.
+// Copies items of contacts, of which all_of(grid) has one for each: those of one mesh, or those between two
+// meshes. `name` is that of the parameter `items`.
 template <class Item>
 vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_mesh> meshes, Item* items,
                       const char* name, std::uint64_t capacity, std::uint64_t* out_count,

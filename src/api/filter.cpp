@@ -1,9 +1,17 @@
-// The C border of what does not collide.
+#include "api/filter.hpp"
 
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "grid/grid.hpp"
 #include "mesh/filter.hpp"
+
+vox_filter vox::read_filter(const vox_filter* given) {
+    if (!given) return filter_defaults();
+    vox_filter filter = read_struct(given, filter_defaults(), "filter");
+    filter.struct_size = sizeof filter;
+    check_filter(filter);
+    return filter;
+}
 
 using namespace vox;
 

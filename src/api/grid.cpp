@@ -1,5 +1,6 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
+#include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/memory.hpp"
 #include "base/structs.hpp"
@@ -153,7 +154,10 @@ vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* 
         require(grid, "grid");
         require(out_mesh, "out_mesh");
         const vox_mesh_desc settings = read_struct(desc, mesh_defaults(), "desc");
-        *out_mesh = grid->insert(settings, check_mesh(settings, "", NullPositions::allowed));
+        const Body view = check_mesh(settings, "", NullPositions::allowed);
+        vox_filter filter = read_filter(settings.filter);
+        if (view.self_collision) filter.self_collision = 1;
+        *out_mesh = grid->insert(settings, view, filter);
     });
 }
 

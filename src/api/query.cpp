@@ -1,4 +1,4 @@
-// The C border of the queries between steps.
+// The C border of queries between steps.
 
 #include "base/border.hpp"
 #include "grid/grid.hpp"
@@ -31,7 +31,7 @@ Vec3d read_point(const double* p, const char* name) {
     return point;
 }
 
-// The hits, as many as there is room for.
+// Copies as many hits as there is room for.
 template <class Hit>
 void write(const std::pmr::vector<Hit>& found, Hit* hits, std::uint64_t capacity, std::uint64_t* out_count) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(capacity, found.size()));

@@ -11,7 +11,7 @@ using namespace vox;
 
 namespace {
 
-// Calls of the public interface from behind it.
+// Turns a failed call of the public interface into an Error.
 void check(vox_result result) {
     if (result != VOX_OK) throw Error(result, vox_last_error());
 }

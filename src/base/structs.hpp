@@ -24,6 +24,22 @@ inline std::uint32_t checked_struct_size(const void* from_caller, const char* na
     return struct_size;
 }
 
+// An enum of the caller as a number: a value outside the enum must not be read as one.
+template <class Enum>
+std::int32_t enum_value(const Enum& field) noexcept {
+    static_assert(sizeof field == sizeof(std::int32_t));
+    std::int32_t value;
+    std::memcpy(&value, &field, sizeof value);
+    return value;
+}
+
+template <class Enum>
+void check_enum(const Enum& field, std::int32_t last, const char* name) {
+    const std::int32_t value = enum_value(field);
+    if (value < 0 || value > last)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %d, expected 0 to %d", name, value, last));
+}
+
 // Fills the caller's struct with `defaults`, as far as struct_size reaches.
 template <class T>
 void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name) {

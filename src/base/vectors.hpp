@@ -22,7 +22,9 @@ inline Vec3d max(const Vec3d& a, const Vec3d& b) noexcept {
     return {b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z};
 }
 // Of the matrix with these rows: six times the signed volume of the tetrahedron that they span.
-inline double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept { return dot(a, cross(b, c)); }
+inline double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
+    return dot(a, cross(b, c));
+}
 inline double length(const Vec3d& a) noexcept { return std::sqrt(dot(a, a)); }
 
 // `a` scaled to length 1, to rounding. Zero when `a` is zero, or so short that its square loses digits.

@@ -17,9 +17,9 @@ struct MeshState {
     LastPositions last_positions;
     OrientationCache orientation;
 
-    // Brings the state up to date with the tiles of a mesh, before a step. `version` is that of the tiles: where
-    // they were made anew, so is the state, else it takes in the edits since the last call. Throws what the
-    // memory throws; the next call completes what is missing then.
+    // Brings the state up to date with the tiles of a mesh, before a step. `version` is that of the tiles:
+    // where they were made anew, so is the state, else it takes in the edits since the last call. Throws what
+    // the memory throws; the next call completes what is missing then.
     void update(const TiledMesh& mesh, std::uint32_t version, std::uint32_t vertex_count);
 
     // The next step takes the mesh for one that moved.

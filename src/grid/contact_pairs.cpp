@@ -1,5 +1,5 @@
-// Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2): of the pairs by one mesh and the
-// other, and of runs of contacts by pair.
+// Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2) of the pairs by either mesh, and of
+// runs of contacts by pair.
 #include "grid/contact_pairs.hpp"
 
 #include "base/error.hpp"
@@ -41,7 +41,7 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
     for (std::uint32_t first = 0, end; first < count; first = end) {
         const vox_mesh a = contacts[first].mesh_a, b = contacts[first].mesh_b;
         for (end = first + 1; end < count && contacts[end].mesh_a == a && contacts[end].mesh_b == b;) ++end;
-        // What an earlier mesh_a or step left here names another pair, or none.
+        // An earlier mesh_a or step may have left the index of another pair here, or one past the end.
         std::uint32_t& index = buffers.last_of_slot[slot_of(b)];
         if (index >= directed.size() || directed[index].mesh_a != a || directed[index].mesh_b != b) {
             index = static_cast<std::uint32_t>(directed.size());
@@ -51,7 +51,7 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
         runs.push_back({index, first, end - first});
     }
 
-    // Both directions of a pair after each other: mesh_a ascends in `directed`, and sorting is stable.
+    // The two directions of a pair become neighbours: mesh_a ascends in `directed`, and sorting is stable.
     buffers.order.resize(directed.size());
     buffers.scratch.resize(directed.size());
     std::iota(buffers.scratch.begin(), buffers.scratch.end(), 0u);

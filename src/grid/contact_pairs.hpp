@@ -36,12 +36,12 @@ struct TouchingBuffers {
 struct Touching {
     explicit Touching(std::pmr::memory_resource* memory) : pairs(memory), contacts(memory) {}
 
-    std::pmr::vector<vox_pair> pairs; // user data: the caller's business
+    std::pmr::vector<vox_pair> pairs; // without user data, which the caller fills in
     std::pmr::vector<std::uint32_t> contacts;
 };
 
-// Writes what vox_pair_view says of `contacts`, which are in canonical order; `slots` is above the slot of
-// every mesh. Throws Error(LIMIT) beyond VOX_MAX_CONTACTS.
+// Makes the pairs of vox_pair_view from `contacts` in canonical order; `slots` is above the slot of every
+// mesh. Throws Error(LIMIT) beyond VOX_MAX_CONTACTS.
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
                    Touching& out);
 

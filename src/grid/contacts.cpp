@@ -59,8 +59,9 @@ void radix_sort(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox
     }
 }
 
-// Moves to `kept` what becomes contacts of [begin, end), all with the same body_a and vertex, in canonical
-// order: per body_b the hits in the interior of a tetrahedron, or else the first of those on a boundary.
+// Moves those of [begin, end), all with the same body_a and vertex, that become contacts to `kept`, in
+// canonical order: for each body_b the hits in the interior of a tetrahedron, or else the first of those on a
+// boundary.
 Hit* keep(Hit* begin, Hit* end, Hit* kept) {
     std::sort(begin, end, before);
     for (Hit* next; begin != end; begin = next) {
@@ -99,7 +100,7 @@ void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit
             std::copy(weights[i].begin(), weights[i].end(), out[first + i].barycentric);
 }
 
-// Room for a few more, so that contacts that come and go need no new room in every step.
+// With room for a few more, so that a few more contacts in a later step allocate nothing.
 void resize(std::pmr::vector<vox_contact>& contacts, std::size_t count) {
     if (contacts.capacity() < count) {
         contacts.clear();

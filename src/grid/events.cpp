@@ -1,6 +1,7 @@
 #include "grid/events.hpp"
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -9,12 +10,6 @@
 namespace vox {
 
 namespace {
-
-// Grows as push_back() would: to more than is needed now.
-template <class T>
-void room_for(std::pmr::vector<T>& vector, std::size_t count) {
-    if (count > vector.capacity()) vector.reserve(std::max(count, vector.capacity() + vector.capacity() / 2));
-}
 
 bool pair_before(const vox_pair& x, const vox_pair& y) {
     return std::tie(x.mesh_a, x.mesh_b) < std::tie(y.mesh_a, y.mesh_b);
@@ -56,31 +51,31 @@ void Events::hide_events() noexcept {
 
 void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
     const std::size_t pairs = std::min(8 * mesh_count, contact_count);
-    room_for(buffers_.last_of_slot, mesh_count);
-    room_for(buffers_.runs, contact_count);
-    room_for(buffers_.directed, 2 * pairs);
-    room_for(buffers_.order, 2 * pairs);
-    room_for(buffers_.scratch, 2 * pairs);
-    room_for(buffers_.place, mesh_count);
-    room_for(touch_events_, 2 * pairs);
+    reserve_growing(buffers_.last_of_slot, mesh_count);
+    reserve_growing(buffers_.runs, contact_count);
+    reserve_growing(buffers_.directed, 2 * pairs);
+    reserve_growing(buffers_.order, 2 * pairs);
+    reserve_growing(buffers_.scratch, 2 * pairs);
+    reserve_growing(buffers_.place, mesh_count);
+    reserve_growing(touch_events_, 2 * pairs);
     for (Touching& touching : touching_) {
-        room_for(touching.pairs, pairs);
-        room_for(touching.contacts, contact_count);
+        reserve_growing(touching.pairs, pairs);
+        reserve_growing(touching.contacts, contact_count);
     }
     if (!of_contacts_) return;
-    room_for(contact_events_, 2 * contact_count);
-    for (std::pmr::vector<Inside>& inside : inside_) room_for(inside, contact_count);
+    reserve_growing(contact_events_, 2 * contact_count);
+    for (std::pmr::vector<Inside>& inside : inside_) reserve_growing(inside, contact_count);
 }
 
 void Events::compare(std::span<const vox_contact> contacts) {
-    // Room in both halves for what one has, and for all of it to end while as much begins: a later step that
-    // finds no more than this one allocates nothing.
+    // Both halves get room for what one of them has, and the events for all of it to end while as much
+    // begins. So a later step that finds no more than this one allocates nothing.
     const Touching& is = next();
     Touching& was = touching_[current_];
-    room_for(was.pairs, is.pairs.size());
-    room_for(was.contacts, is.contacts.size());
-    room_for(touch_events_, 2 * std::max(was.pairs.size(), is.pairs.size()));
-    room_for(buffers_.runs, contacts.size());
+    reserve_growing(was.pairs, is.pairs.size());
+    reserve_growing(was.contacts, is.contacts.size());
+    reserve_growing(touch_events_, 2 * std::max(was.pairs.size(), is.pairs.size()));
+    reserve_growing(buffers_.runs, contacts.size());
     try {
         compare_pairs();
         if (of_contacts_) compare_contacts(contacts);
@@ -93,7 +88,7 @@ void Events::compare(std::span<const vox_contact> contacts) {
 }
 
 void Events::repeat() {
-    // All that can fail: room for this step, and for the one that finds as much anew.
+    // All that can fail comes first: room for this step, and for one that finds as much, all of it new.
     touch_events_.reserve(touching_[current_].pairs.size());
     next().pairs.reserve(touching_[current_].pairs.size());
     next().contacts.reserve(touching_[current_].contacts.size());
@@ -129,8 +124,8 @@ void Events::compare_contacts(std::span<const vox_contact> contacts) {
         if (is.empty() || is.back() != inside)
             is.push_back(inside); // in the interior of several tets at once
     }
-    room_for(inside_[current_], is.size());
-    room_for(contact_events_, 2 * std::max(was.size(), is.size()));
+    reserve_growing(inside_[current_], is.size());
+    reserve_growing(contact_events_, 2 * std::max(was.size(), is.size()));
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_ENDED})
         for_each_of_kind(kind, was, is, std::less<>(), [&](const Inside& inside) {
             contact_events_.push_back({inside.mesh_a, inside.vertex, inside.mesh_b, kind});

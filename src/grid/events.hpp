@@ -1,6 +1,6 @@
-// What changes from step to step: pairs of meshes, and vertices in meshes, that begin and end touching.
-// Differences of two sorted sets, the last successful step's and this one's, so that nothing that happens
-// between two steps can lose an event.
+// Events: pairs of meshes, and vertices in meshes, that began or ended touching. They are the differences of
+// two sorted sets, those of the last successful step and of this one, so that nothing between two steps loses
+// an event.
 #pragma once
 
 #include "grid/contact_pairs.hpp"
@@ -19,15 +19,15 @@ namespace vox {
 
 class Events {
 public:
-    // `of_contacts`: those of single vertices too.
+    // `of_contacts`: whether there are events of single vertices, too.
     Events(std::pmr::memory_resource* memory, bool of_contacts);
 
-    // A step begins, or what the last one found is not wanted any more: no pairs until a step ends.
+    // When a step begins, or the grid is cleared: no pairs until a step ends.
     void hide_pairs() noexcept { pairs_are_shown_ = false; }
     void hide_events() noexcept;
 
-    // A step succeeded but for this. Until it returns (it may throw) nothing is forgotten. user_data(mesh_id)
-    // is asked for every mesh that touches.
+    // The last stage of a step. If it throws, the state of the step before is kept. Calls user_data(mesh_id)
+    // for every mesh that touches another.
     template <class UserData>
     void update(std::span<const vox_contact> contacts, std::size_t slots, UserData&& user_data) {
         find_touching(contacts, slots, buffers_, next());
@@ -38,7 +38,7 @@ public:
         compare(contacts);
     }
 
-    // The same of a step whose contacts are those of the last one.
+    // The same for a step with the contacts of the last one.
     void repeat();
 
     // Room for what so many contacts need, and the pairs of so many meshes (eight each).
@@ -50,8 +50,8 @@ public:
     std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
         return {pair_contacts() + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
     }
-    // Copies as many as there is room for of the items, one for each contact, that a mesh has a part in, in
-    // the order of its pairs, or those of a pair of meshes; returns how many there are.
+    // Items are one for each contact. Copies those of the contacts of a mesh, in the order of its pairs, or
+    // of a pair of meshes, as far as there is room; returns how many there are.
     template <class Item>
     std::uint64_t copy_of_mesh(std::span<const Item> items, vox_mesh mesh,
                                std::span<Item> out) const noexcept {
@@ -69,7 +69,7 @@ public:
     }
     // Views without an epoch.
     vox_touch_view touch_events() const noexcept;
-    vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) where they are not wanted
+    vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) without `of_contacts`
 
 private:
     friend class Snapshot;
@@ -91,7 +91,7 @@ private:
             ++count;
         }
     }
-    // Of two meshes in either order; null when they do not touch.
+    // The pair of two meshes, in either order; null when they do not touch.
     const vox_pair* find_pair(vox_mesh a, vox_mesh b) const noexcept;
 
     Touching& next() noexcept { return touching_[1 - current_]; }

@@ -3,28 +3,23 @@
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/room.hpp"
+#include "base/structs.hpp"
 #include "cell_size/suggest.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
-#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace vox {
 
 void check_grid_desc(const vox_grid_desc& desc) {
     const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
-    const auto check_enum = [&](const auto& field, int last, const char* name) {
-        std::int32_t value; // copied as a number: a value outside the enum must not be read as one
-        std::memcpy(&value, &field, sizeof value);
-        if (value < 0 || value > last) refuse(format("grid %s is %d, expected 0 to %d", name, value, last));
-    };
-    check_enum(desc.engine, VOX_ENGINE_FAST, "engine");
-    check_enum(desc.storage, VOX_STORAGE_DENSE, "storage");
-    check_enum(desc.hash, VOX_HASH_PAPER, "hash");
+    check_enum(desc.engine, VOX_ENGINE_FAST, "grid engine");
+    check_enum(desc.storage, VOX_STORAGE_DENSE, "grid storage");
+    check_enum(desc.hash, VOX_HASH_PAPER, "grid hash");
     if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
         refuse(format("grid cell_size is %g, expected a finite number >= 0", desc.cell_size));
 
@@ -48,24 +43,6 @@ void check_grid_desc(const vox_grid_desc& desc) {
             format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
 }
 
-namespace {
-
-// Room for `count` elements, at least doubled when it grows, so that n insertions copy O(n) elements.
-template <class T>
-void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
-    if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
-}
-
-} // namespace
-
-void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what) {
-    if (added > limit - count)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("the grid holds %llu %s and cannot take %llu more, the limit is %llu",
-                           static_cast<unsigned long long>(count), what,
-                           static_cast<unsigned long long>(added), static_cast<unsigned long long>(limit)));
-}
-
 } // namespace vox
 
 using namespace vox;
@@ -81,16 +58,16 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      cell_size_(desc.cell_size), choose_cell_size_(desc.cell_size == 0), slots_(&memory_),
-      free_slots_(&memory_), bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_),
-      contacts_(&memory_), penetrations_(&memory_),
+      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
+      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
+      topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
       queries_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
-// What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its facets.
+// What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its
+// facets.
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
     if (find_penetrations_) mesh.make_topology();
     if (!fast_ || !mesh.has_positions()) return;
@@ -98,63 +75,42 @@ void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
     state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
 }
 
-vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view) {
-    check_limit(vertex_count_, view.vertex_count, VOX_MAX_VERTICES, "vertices");
-    check_limit(tet_count_, view.tets.size(), VOX_MAX_TETS, "tets");
-    const bool fresh_slot = free_slots_.empty();
-    if (fresh_slot) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
-
-    // Everything that can fail comes first.
-    vox_filter filter = read_filter(desc.filter);
-    if (desc.flags & VOX_MESH_SELF_COLLISION) filter.self_collision = 1;
+vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {
+    meshes_.check_room(view);
     Mesh mesh(desc, view, filter, &memory_);
     fast::MeshState state(&memory_);
     prepare(mesh, state);
-    if (fresh_slot) {
-        grow_capacity(slots_, slots_.size() + 1);
-        grow_capacity(free_slots_, slots_.size() + 1);
-    }
+    const vox_mesh id = meshes_.insert(std::move(mesh), std::move(state));
+    scene_changed();
+    return id;
+}
 
-    std::uint32_t slot;
-    if (fresh_slot) {
-        slot = static_cast<std::uint32_t>(slots_.size());
-        slots_.emplace_back(&memory_);
-    } else {
-        slot = free_slots_.back();
-        free_slots_.pop_back();
-    }
-    slots_[slot].mesh = std::move(mesh);
-    slots_[slot].state = std::move(state);
-    slots_[slot].live = true;
-    slots_[slot].generation += 1;
-    vertex_count_ += view.vertex_count;
-    tet_count_ += view.tets.size();
+// The last step of the fast engine does not describe the meshes any more.
+void vox_grid::scene_changed() noexcept {
     adaptive_.scene_changed();
     meshes_hold_ = false;
-    return make_id(slot, slots_[slot].generation);
 }
 
 void vox_grid::remove(vox_mesh id) {
-    (void)mesh(id); // throws for an id that names no mesh
-    vacate(slot_of(id));
+    meshes_.remove(id);
+    scene_changed();
 }
 
 void vox_grid::clear() {
-    for (std::size_t slot = slots_.size(); slot-- > 0;)
-        if (slots_[slot].live) vacate(static_cast<std::uint32_t>(slot));
+    meshes_.clear();
+    scene_changed();
     contacts_.clear();
     penetrations_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
-    readings_.forget();
+    readings_.invalidate();
     queries_.invalidate();
     ++epoch_;
 }
 
 void vox_grid::mark_moved(vox_mesh id) {
     meshes_hold_ = false;
-    (void)mesh(id); // throws for an id that names no mesh
-    slots_[slot_of(id)].state.invalidate_positions();
+    meshes_[id].state.invalidate_positions();
 }
 
 void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
@@ -186,141 +142,86 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 // ---- cutting and growing --------------------------------------------------------------------------
 
-void vox_grid::was_cut(vox_mesh id, std::uint64_t count) {
+void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
     mark_moved(id);
     adaptive_.scene_changed();
 }
 
 void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
-    Mesh& changed = mesh(id);
-    check_limit(vertex_count_ - changed.vertex_count(), view.vertex_count, VOX_MAX_VERTICES, "vertices");
-    check_limit(tet_count_ - changed.tet_count(), view.tets.size(), VOX_MAX_TETS, "tets");
-    Mesh made = changed.with_topology(desc, view);
+    const Mesh& old = mesh(id);
+    meshes_.check_room(view, old);
+    Mesh made = old.with_topology(desc, view);
     fast::MeshState state(&memory_);
     prepare(made, state);
-    vertex_count_ += view.vertex_count - std::uint64_t{changed.vertex_count()};
-    tet_count_ += view.tets.size() - changed.tet_count();
-    made.take_over(std::move(changed));
-    changed = std::move(made);
-    slots_[slot_of(id)].state = std::move(state);
-    if (view.vertex_count == 0) contacts_hold_ = false; // nothing of it can be seen to move
-    meshes_hold_ = false;
-    adaptive_.scene_changed();
+    meshes_.replace(id, std::move(made), std::move(state));
+    if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
+    scene_changed();
 }
 
 void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
     mesh(id).set_tets_enabled(tets, enabled);
-    was_cut(id, tets.size());
+    was_edited(id, tets.size());
 }
 
 void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
     mesh(id).replace_tets(tets, corners);
-    was_cut(id, tets.size());
+    was_edited(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
-    Mesh& grown = mesh(id);
-    check_limit(tet_count_, corners.size(), VOX_MAX_TETS, "tets");
+    const Mesh& grown = mesh(id);
+    meshes_.check_growth(0, corners.size());
     if (find_penetrations_) check_tet_count(grown.tet_count() + corners.size());
-    const std::uint32_t first = grown.append_tets(corners);
-    tet_count_ += corners.size();
-    was_cut(id, corners.size());
+    const std::uint32_t first = meshes_.append_tets(id, corners);
+    was_edited(id, corners.size());
     return first;
 }
 
 void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
     mesh(id).remove_tets(tets);
-    was_cut(id, tets.size());
+    was_edited(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
-    Mesh& grown = mesh(id);
-    check_limit(vertex_count_, desc.count, VOX_MAX_VERTICES, "vertices");
-    const std::uint32_t first = grown.append_vertices(desc);
-    vertex_count_ += desc.count;
-    was_cut(id, desc.count);
+    (void)mesh(id); // throws for an id that names no mesh
+    meshes_.check_growth(desc.count, 0);
+    const std::uint32_t first = meshes_.append_vertices(id, desc);
+    was_edited(id, desc.count);
     return first;
 }
 
 void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
     mesh(id).remove_vertices(vertices);
-    was_cut(id, vertices.size());
+    was_edited(id, vertices.size());
 }
 
-// ---- more of meshes -------------------------------------------------------------------------------
-
-void vox_grid::vacate(std::uint32_t slot) noexcept {
-    Slot& s = slots_[slot];
-    for (const vox_mesh other : s.mesh.exceptions())
-        slots_[slot_of(other)].mesh.remove_exception(make_id(slot, s.generation));
-    vertex_count_ -= s.mesh.vertex_count();
-    tet_count_ -= s.mesh.tet_count();
-    s.mesh = Mesh(&memory_);
-    s.state = fast::MeshState(&memory_);
-    s.live = false;
-    s.body = Slot::none;
-    adaptive_.scene_changed();
-    meshes_hold_ = false;
-    // A slot whose generations are used up is retired, so that no old id comes to life again.
-    if (s.generation < VOX_MAX_GENERATIONS) free_slots_.push_back(slot);
-}
+// ---- settings -------------------------------------------------------------------------------------
 
 void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
-    if (mesh_count > VOX_MAX_MESHES)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("mesh_count is %u, the limit is %u", mesh_count, VOX_MAX_MESHES));
-    const auto room_for = [](auto& vector, std::uint64_t count) {
-        if (count > vector.max_size()) throw std::bad_alloc();
-        if (count > vector.capacity()) vector.reserve(static_cast<std::size_t>(count));
-    };
-    room_for(slots_, mesh_count);
-    room_for(free_slots_, mesh_count);
-    room_for(bodies_, mesh_count);
-    room_for(prepared_, mesh_count);
-    room_for(hits_, contact_count);
-    room_for(contacts_, contact_count);
-    if (find_penetrations_) room_for(penetrations_, contact_count);
+    meshes_.reserve(mesh_count);
+    reserve_exactly(bodies_, mesh_count);
+    reserve_exactly(prepared_, mesh_count);
+    reserve_exactly(hits_, contact_count);
+    reserve_exactly(contacts_, contact_count);
+    if (find_penetrations_) reserve_exactly(penetrations_, contact_count);
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
-
-const Mesh* vox_grid::find(vox_mesh id) const noexcept {
-    const std::uint32_t slot = slot_of(id);
-    if (slot >= slots_.size() || !slots_[slot].live || slots_[slot].generation != generation_of(id))
-        return nullptr;
-    return &slots_[slot].mesh;
-}
-
-const Mesh& vox_grid::mesh(vox_mesh id) const {
-    if (const Mesh* found = find(id)) return *found;
-    if (id == VOX_NULL_MESH) throw Error(VOX_ERROR_INVALID_HANDLE, "mesh id is 0, which names no mesh");
-    const std::uint32_t slot = slot_of(id);
-    if (slot >= slots_.size())
-        throw Error(VOX_ERROR_INVALID_HANDLE,
-                    format("mesh id %u names slot %u, the grid has %zu", id, slot, slots_.size()));
-    throw Error(VOX_ERROR_INVALID_HANDLE,
-                format("mesh id %u (slot %u, generation %u) is stale: the slot %s generation %u", id, slot,
-                       generation_of(id), slots_[slot].live ? "holds" : "is empty after",
-                       slots_[slot].generation));
-}
-
-Mesh& vox_grid::mesh(vox_mesh id) { return const_cast<Mesh&>(std::as_const(*this).mesh(id)); }
 
 void vox_grid::set_cell_size(double cell_size) {
     if (!(cell_size >= 0) || std::isinf(cell_size))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("cell_size is %g, expected a finite number >= 0", cell_size));
-    cell_size_ = cell_size;
-    choose_cell_size_ = cell_size == 0;
+    requested_cell_size_ = used_cell_size_ = cell_size;
     adaptive_.restart();
-    contacts_hold_ = false; // they do, but the next step should show what the cell size does
+    contacts_hold_ = false; // contacts do not depend on it, but the next step should show what it costs
 }
 
 void vox_grid::set_worker_count(std::uint32_t worker_count) {
     check_workers(tasks_, worker_count);
     workers_.set_count(worker_count);
-    contacts_hold_ = false; // as for the cell size
+    contacts_hold_ = false; // as in set_cell_size()
 }
 
 // ---- step -----------------------------------------------------------------------------------------
@@ -332,7 +233,7 @@ void vox_grid::step() {
     hits_.clear();
     events_.hide_pairs();
     events_.hide_events();
-    readings_.forget();
+    readings_.invalidate();
     ++epoch_;
 
     vox_counters counters{};
@@ -347,7 +248,7 @@ void vox_grid::step() {
 
         const std::uint64_t detected = nanoseconds();
         if (carry && counters.moved_meshes < bodies_.size()) counters.carried_contacts = carry_contacts();
-        // Where these are all there were and all there are, they and what follows from them stay as they are.
+        // If every old contact was carried and no new one found, contacts, depth and events are unchanged.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_);
@@ -363,7 +264,8 @@ void vox_grid::step() {
         if (carry && all_carried)
             events_.repeat();
         else
-            events_.update(contacts_, slots_.size(), [this](vox_mesh id) { return mesh(id).user_data(); });
+            events_.update(contacts_, meshes_.slot_count(),
+                           [this](vox_mesh id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
     } catch (...) {
         contacts_.clear();
@@ -378,7 +280,7 @@ void vox_grid::step() {
     }
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.size();
-    if (choose_cell_size_ && !fast_) {
+    if (chooses_cell_size() && !fast_) {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
     }
@@ -392,33 +294,31 @@ void vox_grid::gather_bodies(vox_counters& counters) {
     bodies_.clear();
     topologies_.clear();
     prepared_.clear();
-    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-        Slot& s = slots_[slot];
-        s.body = Slot::none;
-        if (!s.live) continue;
-        if (!s.mesh.is_enabled()) {
+    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+        Mesh& mesh = slot.mesh;
+        slot.body = MeshSlot::none;
+        if (!mesh.is_enabled()) {
             ++counters.disabled_meshes;
-            continue;
+            return;
         }
-        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
-        if (!s.mesh.has_positions())
+        if (!mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the step", id));
-        s.body = static_cast<std::uint32_t>(bodies_.size());
-        // Of meshes that were inserted without positions, and after edits.
-        s.mesh.make_rings();
-        prepare(s.mesh, s.state);
-        Body& body = bodies_.emplace_back(s.mesh.body(id));
-        if (body.off_count == body.tets.size()) { // no stage need know of them
+        slot.body = static_cast<std::uint32_t>(bodies_.size());
+        // What edits invalidated, and what meshes inserted without positions lack.
+        mesh.make_rings();
+        prepare(mesh, slot.state);
+        Body& body = bodies_.emplace_back(mesh.body(id));
+        if (body.off_count == body.tets.size()) { // the stages need not look at them
             body.tets = {};
             body.off_count = 0;
         }
-        topologies_.push_back(&s.mesh.topology());
-        if (fast_) prepared_.push_back({&s.mesh.tiled().tiles, &s.mesh.tiled().boundary, &s.state});
-    }
+        topologies_.push_back(&mesh.topology());
+        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
+    });
 }
 
-// What vertices that were removed are in does not matter.
+// Removed vertices make no contacts.
 void vox_grid::drop_removed_vertices() {
     if (std::all_of(bodies_.begin(), bodies_.end(),
                     [](const Body& body) { return body.removed_vertices.empty(); }))
@@ -430,27 +330,27 @@ void vox_grid::drop_removed_vertices() {
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
-    const FastSettings settings{
-        .cell_size = choose_cell_size_ ? 0 : cell_size_, .workers = &workers_, .carry = carry};
+    const FastSettings settings{.cell_size = requested_cell_size_, .workers = &workers_, .carry = carry};
     fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
-    if (choose_cell_size_) cell_size_ = fast_engine_.cell_size();
+    if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();
 }
 
-// Appends the contacts of the last step between meshes that have not moved as hits, and returns how many. All
-// hits of a vertex with a mesh are carried or none; taken for interior ones, those that became contacts do so
-// again.
+// Appends the contacts of the last step between meshes that have not moved as hits, and returns how many.
+// Either all hits of a vertex with a mesh are carried or none, so that marking them as interior makes the
+// same contacts again.
 std::uint64_t vox_grid::carry_contacts() {
     const std::size_t found = hits_.size();
-    const auto rests = [this](vox_mesh id) {
-        const Slot& s = slots_[slot_of(id)];
-        return s.body != Slot::none && s.generation == generation_of(id) && !fast_engine_.moved(s.body);
+    const auto resting_body = [this](vox_mesh id) {
+        const MeshSlot* slot = meshes_.find(id);
+        return slot && slot->body != MeshSlot::none && !fast_engine_.moved(slot->body) ? slot->body
+                                                                                       : MeshSlot::none;
     };
     for (const vox_contact& contact : contacts_) {
-        if (!rests(contact.mesh_a) || !rests(contact.mesh_b)) continue;
         Hit hit{};
-        hit.body_a = slots_[slot_of(contact.mesh_a)].body;
+        hit.body_a = resting_body(contact.mesh_a);
+        hit.body_b = resting_body(contact.mesh_b);
+        if (hit.body_a == MeshSlot::none || hit.body_b == MeshSlot::none) continue;
         hit.vertex = contact.vertex;
-        hit.body_b = slots_[slot_of(contact.mesh_b)].body;
         hit.tet = contact.tet & 0x7fffffffu;
         hit.interior = 1;
         std::copy(contact.barycentric, contact.barycentric + 4, hit.weights.of);
@@ -466,51 +366,51 @@ void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
 }
 
 void vox_grid::choose_cell_size() {
-    settings_.cell_size = cell_size_;
+    settings_.cell_size = requested_cell_size_;
     settings_.levels = {};
-    if (!choose_cell_size_) return;
-    const double before = cell_size_;
+    if (!chooses_cell_size()) return;
+    const double before = used_cell_size_;
     const std::uint64_t changes = adaptive_.changes();
     settings_.levels = adaptive_.cell_sizes(bodies_, settings_.storage, byte_limit(), &memory_);
-    cell_size_ = settings_.levels[0].cell_size;
+    used_cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
-    std::string text = format("cell size %.9g", cell_size_);
+    std::string text = format("cell size %.9g", used_cell_size_);
     for (std::size_t l = 1; l < settings_.levels.size(); ++l)
         text += format(", %.9g", settings_.levels[l].cell_size);
     text += before > 0 ? format(" after %.9g,", before) : " chosen";
     write_log(VOX_LOG_INFO, format("%s for %llu tets in %zu meshes", text.c_str(),
-                                   static_cast<unsigned long long>(tet_count_), bodies_.size())
+                                   static_cast<unsigned long long>(meshes_.tet_count()), bodies_.size())
                                 .c_str());
 }
 
-// Most bytes for the cells of dense storage: the budget less what is held without them, and less what a first step
-// is about to take. 0: no limit.
+// The most bytes that cells of dense storage may take: the budget less what the grid holds beside them, and
+// less what a first step will take. 0: no limit.
 double vox_grid::byte_limit() const noexcept {
     if (memory_.budget() == 0) return 0;
     double held = static_cast<double>(memory_.bytes());
     if (counters_.vertices == 0) // of positions, links and cells, and of boxes
-        held += 40 * static_cast<double>(vertex_count_) + 24 * static_cast<double>(tet_count_);
+        held +=
+            40 * static_cast<double>(meshes_.vertex_count()) + 24 * static_cast<double>(meshes_.tet_count());
     else
         held -= static_cast<double>(reference_.cell_bytes());
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 
 void vox_grid::describe(CellSizeScene& scene) const {
-    const auto reserve = [this](auto&... lists) { (lists.reserve(slots_.size()), ...); };
-    reserve(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
-    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-        const Slot& s = slots_[slot];
-        if (!s.live || !s.mesh.is_enabled()) continue;
-        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
-        if (!s.mesh.has_positions())
+    const auto reserve_all = [this](auto&... lists) { (lists.reserve(meshes_.slot_count()), ...); };
+    reserve_all(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
+    meshes_.for_each([&](vox_mesh id, const MeshSlot& slot) {
+        const Mesh& mesh = slot.mesh;
+        if (!mesh.is_enabled()) return;
+        if (!mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        scene.bodies.push_back(s.mesh.body(id));
-        scene.tiles.push_back(s.mesh.tiles_if_made());
-        scene.meshes.push_back(&s.mesh);
-        scene.at_rest.push_back(!fast_engine_.moved(s.body));
-        scene.cleared.push_back(fast_engine_.cleared(s.body, s.mesh.vertex_count()));
-    }
+        scene.bodies.push_back(mesh.body(id));
+        scene.tiles.push_back(mesh.tiles_if_made());
+        scene.meshes.push_back(&mesh);
+        scene.at_rest.push_back(!fast_engine_.moved(slot.body));
+        scene.cleared.push_back(fast_engine_.cleared(slot.body, mesh.vertex_count()));
+    });
     if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }
 
@@ -535,7 +435,7 @@ void vox_grid::prepare_readings() {
     for (ReadingBody& reading : readings_.list_meshes(events_)) {
         const vox_mesh id = reading.body.mesh_id;
         if (!is_valid(id)) continue;
-        Mesh& mesh = slots_[slot_of(id)].mesh;
+        Mesh& mesh = this->mesh(id);
         if (!mesh.has_positions()) continue;
         mesh.make_topology();
         reading = {mesh.body(id), &mesh.topology()};
@@ -548,19 +448,18 @@ void vox_grid::prepare_readings() {
 
 void vox_grid::prepare_queries() {
     std::pmr::vector<QueryBody> bodies(&memory_);
-    for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-        Slot& s = slots_[slot];
-        if (!s.live || !s.mesh.is_enabled() || s.mesh.tet_count() == 0) continue;
-        const vox_mesh id = make_id(static_cast<std::uint32_t>(slot), s.generation);
-        if (!s.mesh.has_positions())
+    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+        Mesh& mesh = slot.mesh;
+        if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
+        if (!mesh.has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("mesh %u has no positions: bind some before the queries", id));
-        const Body body = s.mesh.body(id);
+        const Body body = mesh.body(id);
         check_finite(body);
-        s.mesh.make_topology();
-        s.mesh.make_tiles(); // of the reference engine's meshes too
-        bodies.push_back({body, &s.mesh.tiled().tiles, &s.mesh.topology()});
-    }
+        mesh.make_topology();
+        mesh.make_tiles(); // the reference engine needs none
+        bodies.push_back({body, &mesh.tiled().tiles, &mesh.topology()});
+    });
     queries_.prepare(bodies);
 }
 

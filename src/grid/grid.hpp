@@ -9,8 +9,8 @@
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
 #include "grid/events.hpp"
+#include "grid/mesh_table.hpp"
 #include "grid/readings.hpp"
-#include "mesh/mesh.hpp"
 #include "query/queries.hpp"
 #include "reference/engine.hpp"
 
@@ -26,13 +26,10 @@ class Snapshot;
 // Throws Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
 
-// Throws Error(LIMIT) when `added` more of what a grid holds `count` of would be more than `limit`.
-void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what);
-
 } // namespace vox
 
-// Every public vox_grid_* and vox_mesh_* function is one member here; all throw, none changes anything when
-// it does (step: see vox_grid_step).
+// Every public vox_grid_* and vox_mesh_* function is one member here. All of them throw; one that throws has
+// changed nothing (for step, see vox_grid_step).
 struct vox_grid {
 public:
     // `desc` is checked; `held` bytes were allocated for this object.
@@ -44,7 +41,7 @@ public:
     void reserve(std::uint32_t mesh_count, std::uint64_t contact_count);
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
-    double cell_size() const noexcept { return cell_size_; }
+    double cell_size() const noexcept { return used_cell_size_; }
 
     // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and budget unless the
     // caller chose these, and the share of tets that held no vertex in the last step as a p_nc left at its default.
@@ -52,7 +49,8 @@ public:
     void describe(vox::CellSizeScene& scene) const;
     void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
 
-    vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view);
+    // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.
+    vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);
     void remove(vox_mesh mesh);
     void mark_moved(vox_mesh mesh);
     void set_filter(vox_mesh mesh, const vox_filter& filter);
@@ -65,9 +63,9 @@ public:
     void remove_tets(vox_mesh mesh, std::span<const std::uint32_t> tets);
     std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
     void remove_vertices(vox_mesh mesh, std::span<const std::uint32_t> vertices);
-    bool is_valid(vox_mesh mesh) const noexcept { return find(mesh) != nullptr; }
-    vox::Mesh& mesh(vox_mesh mesh);
-    const vox::Mesh& mesh(vox_mesh mesh) const;
+    bool is_valid(vox_mesh mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
+    vox::Mesh& mesh(vox_mesh mesh) { return meshes_[mesh].mesh; }
+    const vox::Mesh& mesh(vox_mesh mesh) const { return meshes_[mesh].mesh; }
 
     void step();
 
@@ -92,22 +90,10 @@ public:
 private:
     friend class vox::Snapshot;
 
-    struct Slot {
-        Slot(std::pmr::memory_resource* memory, std::uint32_t last_generation = 0) noexcept
-            : mesh(memory), state(memory), generation(last_generation) {}
-
-        vox::Mesh mesh;
-        vox::fast::MeshState state; // of the mesh, for the fast engine
-        std::uint32_t generation = 0; // of the mesh that lives here, or of the last one that did
-        bool live = false;
-        static constexpr std::uint32_t none = ~0u;
-        std::uint32_t body = none; // in bodies_; none when it takes no part in the step
-    };
-
-    const vox::Mesh* find(vox_mesh mesh) const noexcept;
-    void vacate(std::uint32_t slot) noexcept;
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state) const;
-    void was_cut(vox_mesh mesh, std::uint64_t count);
+    void scene_changed() noexcept;
+    void was_edited(vox_mesh mesh, std::uint64_t count);
+    bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
     void gather_bodies(vox_counters& counters);
     void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
@@ -126,16 +112,12 @@ private:
     // settings
     bool fast_;
     bool find_penetrations_;
-    vox::ReferenceSettings settings_; // its cell size is cell_size_, set at every step
-    double cell_size_;
-    bool choose_cell_size_; // the library chooses the cell size: the fast engine itself, for each window
-    vox::AdaptiveCellSize adaptive_; // that of the reference engine
+    vox::ReferenceSettings settings_; // each step sets the cell size in it
+    double requested_cell_size_;      // 0: the library chooses it; the fast engine itself, for each window
+    double used_cell_size_;           // in the last step; before the first one the requested one
+    vox::AdaptiveCellSize adaptive_;  // chooses for the reference engine
 
-    // meshes
-    std::pmr::vector<Slot> slots_;
-    std::pmr::vector<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
-    std::uint64_t vertex_count_ = 0;
-    std::uint64_t tet_count_ = 0;
+    vox::MeshTable meshes_;
 
     // one step
     std::pmr::vector<vox::Body> bodies_;
@@ -148,10 +130,10 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
-    // They are what another step would find of meshes that were in the last one and have not moved since.
-    // False after every change of a setting that contacts may depend on.
+    // Whether another step would find the same contacts between meshes that were in the last one and have not
+    // moved since. False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
-    // The meshes are those of the fast engine's last step, positions aside.
+    // Whether the meshes, positions aside, are those of the last step of the fast engine.
     bool meshes_hold_ = false;
     std::pmr::vector<vox_penetration> penetrations_;
     vox::Events events_;

@@ -1,4 +1,4 @@
-// Contacts are taken mesh by mesh in which the vertices are, so that the tree over its surface is built once.
+// Contacts are grouped by the mesh that the vertices are in, so that the tree over its surface is built once.
 #include "grid/readings.hpp"
 
 #include "base/bits.hpp"
@@ -101,7 +101,7 @@ const ReadingBody& Readings::body_of(vox_mesh mesh) const noexcept {
 
 void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
                        const Events& events, Workers& workers) {
-    // Room for all first: nothing can fail after that but a task system of the caller's.
+    // Room for all comes first: after it only a task system of the caller can fail.
     std::size_t triangles = 0;
     for (const ReadingBody& body : bodies_)
         if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
@@ -198,7 +198,7 @@ void Readings::read_vertex(const Run& run, std::span<const std::uint32_t> same,
     const Vec3d p = a.positions.exact(vertex);
     write(out.position, p);
     out.known |= VOX_READING_POSITION;
-    // The first of the tetrahedra with the vertex that still is one.
+    // The first of the tetrahedra with the vertex that is still on.
     const auto tet = std::find_if(same.begin(), same.end(), [&](std::uint32_t contact) {
         return contacts[contact].tet < b.tets.size() && !has_bit(b.off, contacts[contact].tet);
     });

@@ -1,5 +1,5 @@
-// Contacts as a program reads them: where each vertex is, the surface next to it, its depth, user data. Made
-// when they are asked for, after a step; see vox_reading.
+// Readings of contacts: where each vertex is, the surface next to it, its depth, user data. Made after a
+// step, on request; see vox_reading.
 #pragma once
 
 #include "base/scene.hpp"
@@ -21,7 +21,7 @@ class Workers;
 // A mesh as it is now.
 struct ReadingBody {
     Body body{};
-    const Topology* topology = nullptr; // null: gone
+    const Topology* topology = nullptr; // null: the mesh was removed
 };
 
 class Readings {
@@ -30,16 +30,17 @@ public:
     Readings(const Readings&) = delete;
     Readings& operator=(const Readings&) = delete;
 
-    // The meshes that touch, ascending, as ids: to be completed before prepare(), with finite positions.
+    // Lists the meshes that touch, ascending, with their ids alone. The caller fills in the rest before
+    // prepare(); positions have to be finite.
     std::span<ReadingBody> list_meshes(const Events& events);
-    // Of the contacts of a step and what else it found; meshes may have changed since. Throws what the memory
-    // throws, and leaves all as it was then, or Error(INVALID_ARGUMENT) for a defective task system, and
-    // there are none then.
+    // Makes the readings from the results of a step; meshes may have changed since. Throws what the memory
+    // throws, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
+    // no readings then.
     void prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
                  const Events& events, Workers& workers);
-    void forget() noexcept { prepared_ = false; }
+    void invalidate() noexcept { prepared_ = false; }
 
-    // One for each contact. Throws Error(INVALID_STATE) when they are not prepared.
+    // One for each contact. Throws Error(INVALID_STATE) unless they are prepared.
     std::span<const vox_reading> all() const;
 
 private:
@@ -59,7 +60,7 @@ private:
     void list_runs(const Events& events);
     void list_depths(std::span<const vox_penetration> penetrations) noexcept;
     void read(const Group& group, std::span<const vox_contact> contacts, depth::SurfaceTree& tree);
-    // One vertex of a run, of whose contacts `same` are; no tree: mesh_b has no surface.
+    // Reads one vertex of a run; `same` are its contacts there. `tree` is null where mesh_b has no surface.
     void read_vertex(const Run& run, std::span<const std::uint32_t> same,
                      std::span<const vox_contact> contacts, depth::SurfaceTree* tree, vox_reading& out);
 

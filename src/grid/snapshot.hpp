@@ -19,7 +19,7 @@ std::uint64_t save_snapshot(const vox_grid& grid, std::byte* out) noexcept;
 // needs them. Throws Error(FORMAT, UNSUPPORTED).
 vox_grid_desc snapshot_settings(SnapshotReader in, const vox_grid_desc& machine);
 // Fills a grid made from these settings. Throws Error(FORMAT, UNSUPPORTED, LIMIT, BUDGET) or what the memory
-// throws; the grid is then good for nothing but its destructor.
+// throws; the grid is then only fit to be destroyed.
 void load_snapshot(SnapshotReader in, vox_grid& grid);
 
 } // namespace vox

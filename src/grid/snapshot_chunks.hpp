@@ -1,5 +1,5 @@
 // Snapshots as bytes: a header, then chunks, all little-endian (docs/snapshot.md). What the chunks hold is
-// the business of snapshot.cpp.
+// defined in snapshot.cpp and snapshot_meshes.cpp.
 //   chunk names: an upper-case first letter means that a reader which does not know the chunk must refuse the
 //   file, a lower-case one that it may skip it; the rule of PNG (ISO/IEC 15948:2004, 5.4)
 #pragma once
@@ -18,7 +18,7 @@ namespace vox {
 // CRC-32 of ISO/IEC 3309 (polynomial 0x04c11db7, reflected), as in PNG and zlib.
 std::uint32_t crc32(std::span<const std::byte> bytes) noexcept;
 
-// Writes a snapshot into memory that is large enough, or only counts how large it would have to be.
+// Writes a snapshot into memory that is large enough, or only counts its bytes.
 class SnapshotWriter {
 public:
     SnapshotWriter() : SnapshotWriter(nullptr) {} // counts

@@ -20,8 +20,8 @@ std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept {
 
 namespace {
 
-// Finds the tets that are mirrored or ignored, for each tile, and the vertices of no other tets. Returns for each
-// tet whether it is mirrored.
+// Finds the tets that are mirrored or ignored, for each tile, and the vertices of no other tets. Returns for
+// each tet whether it is mirrored.
 std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
                                             const Positions& positions, const Tiles& tiles, Boundary& made) {
     std::pmr::memory_resource* memory = made.triangles.get_allocator().resource();
@@ -66,15 +66,14 @@ bool make_triangles(std::span<const Tet> tets, std::span<const std::uint8_t> neg
             if (across == MatchedFacets::nothing) return false; // three tets or more
             const SortedFacet facet = as_positive(t, i);
             if (across & MatchedFacets::surface_bit) {
-                std::array<std::uint32_t, 3>& triangle =
-                    made.triangles[across & ~MatchedFacets::surface_bit];
+                std::array<std::uint32_t, 3>& triangle = made.triangles[across & ~MatchedFacets::surface_bit];
                 if (triangle != missing) return false; // a doubled tet
                 triangle = triangle_of(facet);
                 continue;
             }
             const auto& back = facets.across[across];
             const auto j = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), t) - back.begin());
-            if (j == 4) return false; // a doubled tet
+            if (j == 4) return false;                                    // a doubled tet
             if (as_positive(across, j).even == facet.even) return false; // both on one side
         }
     }

@@ -1,4 +1,4 @@
-// The boundary of a mesh, prepared for winding.hpp: the facets that no two tetrahedra share.
+// The boundary of a mesh, for winding numbers: the facets that no two tetrahedra share.
 #pragma once
 
 #include "mesh/facets.hpp"
@@ -16,26 +16,26 @@ struct Boundary {
     explicit Boundary(std::pmr::memory_resource* memory) noexcept
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
-    // The triangles are the boundary of all tets: their facets, where those on different sides cancel. So
-    // they are when every facet belongs to one tet, or to two that lie on different sides of it, and in some
-    // other cases. False: there is no use for the rest, which is empty then.
+    // Whether the triangles are the boundary of all tets: their facets, where those on different sides
+    // cancel. This holds when every facet belongs to one tet, or to two on different sides of it, and in some
+    // other cases. Else all that follows is empty.
     bool is_closed = false;
-    // Facets with a tet on one side that is not cancelled, counter-clockwise from outside when it is
+    // Facets whose tet is not cancelled by another one; counter-clockwise from outside when that tet is
     // positive.
     std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
-    // For each tile, tets to be taken with the last two corners swapped (negative when they were prepared),
-    // and tets that name a corner twice and never hold anything.
+    // For each tile a bit for each tet: those that were negative when they were prepared, whose last two
+    // corners are to be swapped, and those that name a corner twice and never hold a vertex.
     std::pmr::vector<std::uint64_t> mirrored, ignored;
-    std::pmr::vector<std::uint32_t> loose; // vertices of no tet but ignored ones, ascending
+    std::pmr::vector<std::uint32_t> loose; // vertices that are in no tet, ignored ones aside; ascending
 };
 
-// Self-collision is culled by winding numbers from this many tets, and this many tets a boundary triangle,
-// on: a surface that is most of the body never pays.
+// Whether culling self-collision by winding numbers pays: not for small bodies, nor where most of the body is
+// boundary.
 constexpr bool boundary_pays(std::size_t triangles, std::size_t tets) noexcept {
     return tets >= 2000 && triangles * 8 <= tets;
 }
 
-// Whether a tet is prepared as mirrored.
+// Whether a tet is negative, and so is prepared as mirrored.
 bool is_negative(const Tet& tet, const Positions& positions) noexcept;
 
 // Counter-clockwise from outside, when `even` means that low, middle, high are.

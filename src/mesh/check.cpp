@@ -1,6 +1,7 @@
 #include "mesh/check.hpp"
 
 #include "base/error.hpp"
+#include "base/structs.hpp"
 
 #include <cinttypes>
 #include <cmath>
@@ -31,9 +32,7 @@ std::size_t check_stride(std::uint64_t byte_stride, vox_format position_format, 
 }
 
 void check_format(const vox_format& position_format, const char* where) {
-    // Copied as a number: a value outside the enum must not be read as one.
-    std::int32_t value;
-    std::memcpy(&value, &position_format, sizeof value);
+    const std::int32_t value = enum_value(position_format);
     if (value != VOX_FORMAT_FLOAT3 && value != VOX_FORMAT_DOUBLE3)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_format is %" PRId32 ", not a vox_format", where, value));

@@ -1,4 +1,4 @@
-// What a mesh description must fulfil before anything is computed from it: shared by vox_mesh_insert and
+// Checks of a mesh description, before anything is computed from it, for vox_mesh_insert and
 // vox_suggest_cell_size.
 #pragma once
 
@@ -15,7 +15,7 @@ enum class NullPositions : bool { rejected, allowed };
 // LIMIT. The positions are not looked at: whether they are finite is known only when they are used.
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
 
-// A byte stride as the caller gave it (0: tightly packed) as a number of bytes, checked.
+// Checks a byte stride of the caller, where 0 means tightly packed, and returns it as a number of bytes.
 std::size_t check_stride(std::uint64_t byte_stride, vox_format format, std::uint64_t vertex_count,
                          const char* where);
 
@@ -23,7 +23,7 @@ std::size_t check_stride(std::uint64_t byte_stride, vox_format format, std::uint
 void check_format(const vox_format& format, const char* where);
 
 // Throws NON_FINITE naming the mesh and the first vertex whose position is not finite, LIMIT when it is
-// finite but has no finite float near it.
+// finite but rounds to no finite float.
 void check_finite(const Body& body);
 
 } // namespace vox

@@ -1,8 +1,9 @@
 // Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
-// prepared of the mesh, in proportion to the edit.
+// prepared of the mesh, which takes time in proportion to the edit.
 #include "mesh/mesh.hpp"
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "mesh/check.hpp"
 #include "mesh/tile_repair.hpp"
 
@@ -15,12 +16,6 @@
 namespace vox {
 
 namespace {
-
-// Room for `count` elements, at least doubled when it grows, so that n edits copy O(n) elements.
-template <class T>
-void grow_capacity(std::pmr::vector<T>& vector, std::size_t count) {
-    if (count > vector.capacity()) vector.reserve(std::max(count, 2 * vector.capacity()));
-}
 
 Tet hidden(const Tet& tet) { return {{tet.v[0], tet.v[0], tet.v[0], tet.v[0]}}; }
 
@@ -50,7 +45,7 @@ void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
     }
 }
 
-// So that switch_off() cannot fail.
+// Afterwards switch_off() cannot fail.
 void Mesh::reserve_off() {
     off_.reserve(tets_.size());
     if (given_.empty()) given_.assign(tets_.begin(), tets_.end());
@@ -78,7 +73,7 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
         off_.remove(tet);
         changes.push_back({tet, false, true, {}, tets_[tet]});
     }
-    follow(changes);
+    apply(changes);
 }
 
 void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
@@ -93,7 +88,7 @@ void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
         switch_off(tet, changes);
         removed_.add(tet);
     }
-    follow(changes);
+    apply(changes);
 }
 
 void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
@@ -108,7 +103,7 @@ void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet
         if (!off_[tet]) changes.push_back({tet, true, true, tets_[tet], corners[i]});
         tets_[tet] = off_[tet] ? hidden(corners[i]) : corners[i];
     }
-    follow(changes);
+    apply(changes);
 }
 
 std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
@@ -118,15 +113,15 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(corners.size());
     const std::size_t count = tets_.size() + corners.size();
-    grow_capacity(tets_, count);
-    if (!given_.empty()) grow_capacity(given_, count);
+    reserve_growing(tets_, count);
+    if (!given_.empty()) reserve_growing(given_, count);
 
     if (!given_.empty()) given_.insert(given_.end(), corners.begin(), corners.end());
     for (const Tet& tet : corners) {
         changes.push_back({static_cast<std::uint32_t>(tets_.size()), false, true, {}, tet});
         tets_.push_back(tet);
     }
-    follow(changes);
+    apply(changes);
     return first;
 }
 
@@ -157,11 +152,11 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
                    " more",
                    added));
 
-    // The positions to come: where they are borrowed all of them, else those of the new vertices.
+    // Positions: all of them where they are borrowed, else those of the new vertices.
     Positions given{.data = static_cast<const std::byte*>(desc.positions),
                     .byte_stride = stride,
                     .doubles = positions_.doubles};
-    std::pmr::vector<std::byte> news(memory()); // apart, as they may be copies of what moves in memory
+    std::pmr::vector<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
     if (owns) {
         news.resize(added * size);
         for (std::size_t i = 0; i < added; ++i)
@@ -171,7 +166,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
                         size);
     }
 
-    // A rest pose has to grow, too.
+    // The rest pose grows, too.
     std::pmr::vector<Vec3f> rest(memory());
     const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
@@ -192,13 +187,13 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
         else
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
-        if (has_transform_) poses.transform = transform_.data(); // as they collide
+        if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
         check_finite({.vertex_count = added, .positions = poses});
         for (std::uint32_t i = 0; i < added; ++i) rest.push_back(poses[i]);
     }
-    grow_capacity(self_filter_.rest, self_filter_.rest.size() + rest.size());
+    reserve_growing(self_filter_.rest, self_filter_.rest.size() + rest.size());
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
-    if (owns) grow_capacity(owned_, doubles);
+    if (owns) reserve_growing(owned_, doubles);
 
     self_filter_.rest.insert(self_filter_.rest.end(), rest.begin(), rest.end());
     vertex_count_ = count;
@@ -210,7 +205,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     } else if (given.data) {
         bind(given);
     }
-    follow_vertices(before);
+    apply_vertices(before);
     return before;
 }
 
@@ -258,7 +253,7 @@ void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std
         if (has_bit(off, t)) switch_off(t, changes);
         if (has_bit(removed, t)) removed_.add(t);
     }
-    forget_prepared();
+    invalidate_prepared();
 }
 
 // ---- what was prepared ----------------------------------------------------------------------------
@@ -269,50 +264,50 @@ void Mesh::list_tets_of() {
     has_tets_of_ = true;
 }
 
-void Mesh::forget_tiles() noexcept {
+void Mesh::invalidate_tiles() noexcept {
     tiled_ = TiledMesh(memory());
     has_tiles_ = false;
 }
 
-void Mesh::forget_topology() noexcept {
+void Mesh::invalidate_topology() noexcept {
     topology_ = Topology(memory());
     has_topology_ = false;
 }
 
-void Mesh::forget_rings() noexcept {
+void Mesh::invalidate_rings() noexcept {
     self_filter_.rings = Rings(memory());
     has_rings_ = filter_.self_rings == 0;
 }
 
-void Mesh::forget_prepared() noexcept {
+void Mesh::invalidate_prepared() noexcept {
     tets_of_ = IndexLists(memory());
     has_tets_of_ = false;
     sample_.reset();
-    forget_tiles();
-    forget_topology();
-    forget_rings();
+    invalidate_tiles();
+    invalidate_topology();
+    invalidate_rings();
 }
 
-void Mesh::follow(std::span<const TetChange> changes) noexcept {
+void Mesh::apply(std::span<const TetChange> changes) noexcept {
     if (changes.empty()) return;
     sample_.reset();
     const bool has_rings = has_rings_ && filter_.self_rings != 0;
     if (!has_tets_of_ && !has_tiles_ && !has_topology_ && !has_rings) return;
-    // So many at once are more work than all anew.
-    if (changes.size() > tets_.size() / 8 + 64) return forget_prepared();
+    // Repairing so many takes longer than making all anew.
+    if (changes.size() > tets_.size() / 8 + 64) return invalidate_prepared();
     try {
         if (has_tets_of_)
-            vox::follow(changes, tets_of_);
+            apply_changes(changes, tets_of_);
         else
             list_tets_of();
     } catch (...) {
-        return forget_prepared();
+        return invalidate_prepared();
     }
     if (has_tiles_) {
         try {
-            if (!repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) forget_tiles();
+            if (!repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) invalidate_tiles();
         } catch (...) {
-            forget_tiles();
+            invalidate_tiles();
         }
     }
     if (has_topology_) {
@@ -320,37 +315,37 @@ void Mesh::follow(std::span<const TetChange> changes) noexcept {
             check_tet_count(tets_.size());
             repair_topology(tets_, tets_of_, changes, topology_);
         } catch (...) {
-            forget_topology();
+            invalidate_topology();
         }
     }
     if (has_rings) {
         try {
             self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
         } catch (...) {
-            forget_rings();
+            invalidate_rings();
         }
     }
 }
 
-void Mesh::follow_vertices(std::uint32_t count_before) noexcept {
+void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
         if (has_tets_of_) tets_of_.resize(vertex_count_);
-        if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) forget_tiles();
+        if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) invalidate_tiles();
         if (has_topology_) add_vertices(vertex_count_, topology_);
         if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
     } catch (...) {
-        forget_prepared();
+        invalidate_prepared();
     }
 }
 
-// ---- all of it ------------------------------------------------------------------------------------
+// ---- another topology -----------------------------------------------------------------------------
 
 Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
     Mesh made(desc, view, filter_defaults(), memory());
     made.set_transform(has_transform_ ? transform_.data() : nullptr);
     if (!desc.positions && view.vertex_count == vertex_count_) {
-        made.positions_ = positions_; // to be owned by take_over()
+        made.positions_ = positions_; // take_over() moves owned ones
         if (!desc.rest_positions) made.self_filter_.rest = self_filter_.rest;
     }
     made.set_filter(filter_);

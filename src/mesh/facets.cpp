@@ -1,5 +1,5 @@
-// Tetrahedra are listed by corner with a counting sort. Then the facets that have a vertex as their lowest one
-// are sorted and matched, vertex by vertex: these lists are short and stay in cache.
+// Tetrahedra are listed by corner with a counting sort. Then the facets that have a vertex as their lowest
+// one are sorted and matched, vertex by vertex: these lists are short and stay in cache.
 #include "mesh/facets.hpp"
 
 #include <algorithm>
@@ -8,8 +8,8 @@ namespace vox {
 
 namespace {
 
-// The corners of a tetrahedron, ascending, each as vertex << 2 | local index. Without branches, which would be
-// mispredicted.
+// The corners of a tetrahedron, ascending, each as vertex << 2 | local index. Without branches, which would
+// be mispredicted.
 std::array<std::uint64_t, 4> sorted_corners(const Tet& tet) noexcept {
     std::array<std::uint64_t, 4> c;
     for (std::uint32_t i = 0; i < 4; ++i) c[i] = std::uint64_t{tet.v[i]} << 2 | i;
@@ -57,7 +57,7 @@ void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<c
         const std::array<std::uint64_t, 4> c = sorted_corners(tets[t]);
         const auto facet = [&](std::size_t middle, std::size_t high, std::size_t opposite) {
             return TetFacet{c[middle] >> 2 << 32 | c[high] >> 2, static_cast<std::uint32_t>(c[opposite] >> 2),
-                         4 * t + static_cast<std::uint32_t>(c[opposite] & 3)};
+                            4 * t + static_cast<std::uint32_t>(c[opposite] & 3)};
         };
         const bool lowest = c[0] >> 2 == vertex, second = c[1] >> 2 == vertex;
         facets[count] = facet(lowest ? 1 : 2, lowest ? 2 : 3, lowest ? 3 : 0);

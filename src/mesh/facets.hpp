@@ -1,5 +1,5 @@
-// Facets of tetrahedra, matched in one place: the topology, the boundary and the geometry of a mesh all need to
-// know which tetrahedra share one.
+// Facets of tetrahedra, matched in one place: the topology, the boundary and the geometry of a mesh all need
+// to know which tetrahedra share one.
 #pragma once
 
 #include "base/lists.hpp"
@@ -90,8 +90,8 @@ void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
 IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
                           std::pmr::memory_resource* memory);
 
-// Calls visit(vertex, same) for each facet of the tetrahedra, in the order of their keys. `vertex` is its lowest
-// one, `same` as above. Throws what the memory throws.
+// Calls visit(vertex, same) for each facet of the tetrahedra, in the order of their keys. `vertex` is its
+// lowest one, `same` as above. Throws what the memory throws.
 template <class Visit>
 void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
                     Visit&& visit) {

@@ -1,10 +1,9 @@
 // Category, mask and group decide as in Box2D and Box3D (E. Catto). The vertices within k edges of each are
-// found by breadth-first search from tetrahedron to tetrahedron, again where the mesh is cut, and kept sorted, so
-// that a test in the step is four binary searches and allocates nothing.
+// found by breadth-first search from tetrahedron to tetrahedron, again where the mesh is edited. They are
+// kept sorted, so that a test in the step is four binary searches and allocates nothing.
 #include "mesh/filter.hpp"
 
 #include "base/error.hpp"
-#include "base/structs.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/predicates.hpp"
@@ -22,10 +21,7 @@ vox_filter filter_defaults() noexcept {
     return filter;
 }
 
-vox_filter read_filter(const vox_filter* given) {
-    if (!given) return filter_defaults();
-    vox_filter filter = read_struct(given, filter_defaults(), "filter");
-    filter.struct_size = sizeof filter;
+void check_filter(const vox_filter& filter) {
     if (filter.self_collision > 1)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("filter self_collision is %u, expected 0 or 1", filter.self_collision));
@@ -36,7 +32,6 @@ vox_filter read_filter(const vox_filter* given) {
     if (filter.self_rings > VOX_MAX_RINGS)
         throw Error(VOX_ERROR_LIMIT,
                     format("filter self_rings is %u, the limit is %u", filter.self_rings, VOX_MAX_RINGS));
-    return filter;
 }
 
 bool collide(const Body& a, const Body& b) noexcept {
@@ -46,7 +41,7 @@ bool collide(const Body& a, const Body& b) noexcept {
     } else if ((f.category & g.mask) == 0 || (g.category & f.mask) == 0) {
         return false;
     }
-    // Each of an excepted pair knows of the other: the shorter list tells.
+    // Both meshes of an excepted pair list each other: the shorter list is searched.
     const bool a_is_shorter = a.exceptions.size() < b.exceptions.size();
     const std::span<const std::uint32_t> exceptions = a_is_shorter ? a.exceptions : b.exceptions;
     return !std::binary_search(exceptions.begin(), exceptions.end(), a_is_shorter ? b.mesh_id : a.mesh_id);

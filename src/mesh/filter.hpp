@@ -1,5 +1,5 @@
-// What never collides, as data: pairs of meshes by category, mask, group and exception; vertices and
-// tetrahedra of one mesh by their distance along edges and in the rest pose.
+// Which pairs never collide: of meshes by category, mask, group and exception; of a vertex and a tetrahedron
+// of one mesh by their distance along edges and in the rest pose.
 #pragma once
 
 #include "base/lists.hpp"
@@ -16,30 +16,29 @@
 
 namespace vox {
 
-// Completes and checks a vox_filter; null: the defaults. Throws Error(INVALID_ARGUMENT), and Error(LIMIT) for
-// too many rings.
-vox_filter read_filter(const vox_filter* filter);
+// Throws Error(INVALID_ARGUMENT), and Error(LIMIT) for too many rings.
+void check_filter(const vox_filter& filter);
 vox_filter filter_defaults() noexcept;
 
-// Whether vertices of one of the bodies may be in tetrahedra of the other (another one).
+// Whether vertices of one body may make contacts with tetrahedra of another one.
 bool collide(const Body& a, const Body& b) noexcept;
 
 // The vertices within so many edges of each vertex.
 struct Rings {
     explicit Rings(std::pmr::memory_resource* memory) noexcept : near(memory), reached_from(memory) {}
-    // Time and memory in proportion to what they hold. None for count 0.
+    // Takes time and memory in proportion to the rings. Empty for count 0.
     Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_t count,
           std::pmr::memory_resource* memory);
 
-    // Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it. Throws what the memory
-    // throws, and is to be made anew then.
+    // Applies changes. `tets` and `tets_of`, which lists the tets at each vertex, are the state after them.
+    // Throws what the memory throws; then the rings are to be made anew.
     void repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                 std::uint32_t count);
 
-    // More of them, at the end, that no tetrahedron names. Throws as repair().
+    // Adds vertices, at the end, that no tetrahedron names. Throws as repair().
     void add_vertices(std::size_t vertex_count);
 
-    IndexLists near; // of each vertex: ascending, itself among them
+    IndexLists near; // of each vertex, which is among them; ascending
 
 private:
     void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex, std::uint32_t count,
@@ -57,8 +56,8 @@ struct SelfFilter {
     std::pmr::vector<Vec3f> rest; // positions in the rest pose, once they are known
     double rest_distance = 0;     // 0: no such filter
 
-    // Whether a contact of `vertex` with `tet` is none: a corner of the tet is within the rings, or the
-    // closed tet is closer than rest_distance in the rest pose.
+    // Whether the filters drop a contact of `vertex` with `tet`: a corner of the tet is within the rings, or
+    // the closed tet is closer than rest_distance in the rest pose.
     bool skips(std::uint32_t vertex, const Tet& tet) const noexcept {
         return (!rings.near.empty() && is_near(vertex, tet)) ||
                (rest_distance > 0 && rests_close(vertex, tet));

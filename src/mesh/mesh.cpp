@@ -37,7 +37,7 @@ void Mesh::make_topology() {
     has_topology_ = true;
 }
 
-// A const call may not take the grid's memory.
+// From the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
         std::pmr::memory_resource* heap = std::pmr::new_delete_resource();

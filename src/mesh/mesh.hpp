@@ -1,5 +1,5 @@
-// One inserted mesh: topology (copied), positions (borrowed or copied), settings; and what the stages prepare
-// of it, which edits of the mesh (mesh_edit.cpp) keep up to date.
+// One inserted mesh: topology (copied), positions (borrowed or copied), settings, and what the stages prepare
+// of it, which edits (edit.cpp) keep up to date.
 #pragma once
 
 #include "base/bits.hpp"
@@ -28,18 +28,19 @@ public:
         : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
           owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), filter_(filter_defaults()),
           self_filter_(memory), exceptions_(memory) {}
-    // A copy of a checked desc: `view` are its arrays (mesh_check.hpp), desc.filter not looked at.
+    // Copies a checked desc. `view` is what check_mesh() made of it; `filter` is used in place of
+    // desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
          std::pmr::memory_resource* memory);
 
     Mesh(Mesh&&) noexcept = default;
     Mesh& operator=(Mesh&&) noexcept = default;
 
-    // Prepares the depth stage, unless that is done.
+    // Makes the topology, unless that is done.
     void make_topology();
     const Topology& topology() const noexcept { return topology_; }
 
-    // What suggestions look at, made when the first one asks. From the topology where that is prepared.
+    // What suggestions of a cell size look at, made at the first call, from the topology where that is made.
     const MeshSample& sample() const;
     bool may_sample() const noexcept { return tets_.size() <= most_tets; }
 
@@ -51,13 +52,12 @@ public:
     // Null before they are made.
     const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &tiled_.tiles : nullptr; }
 
-    // Finds the rings of the filter, unless that is done.
+    // Makes the rings of the filter, unless that is done.
     void make_rings();
 
-    // Edits. Each checks all it is given and takes all memory that it cannot do without, then changes the
-    // mesh, then repairs what was prepared of it; what cannot be repaired for want of memory, and what is
-    // better made anew because much has changed, is not prepared any more. Throw Error or what the memory
-    // throws, and then have changed nothing.
+    // Edits. Each checks its arguments and takes the memory that it needs, then changes the mesh, then
+    // repairs what was prepared of it. What cannot be repaired for lack of memory, or is cheaper to make
+    // anew, is invalidated. Throw Error or what the memory throws, and have changed nothing then.
     void set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled);
     void replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners);
     std::uint32_t append_tets(std::span<const Tet> corners); // the index of the first
@@ -65,26 +65,26 @@ public:
     std::uint32_t append_vertices(const vox_vertices_desc& desc);
     void remove_vertices(std::span<const std::uint32_t> vertices);
 
-    // For a mesh that was not edited: those tets are off, those of them and those vertices are removed (bits,
-    // as many words as it takes). Throws Error(INVALID_MESH) where that cannot be.
+    // For a mesh that was not edited yet: which tets are off, which of these are removed, and which vertices
+    // are (bits). Throws Error(INVALID_MESH) where these contradict each other or the tets.
     void restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
                        std::span<const std::uint64_t> removed_vertices);
 
-    // A mesh of another topology with this one's settings: `desc` is checked, `view` its arrays. Where desc
-    // has no positions and the number of vertices stays, so do positions and rest pose. What cannot fail is
-    // left to take_over().
+    // A mesh of another topology with this one's settings; `desc` and `view` as for the constructor. Without
+    // desc.positions, and with as many vertices as before, it keeps positions and rest pose. take_over()
+    // completes it and cannot fail.
     Mesh with_topology(const vox_mesh_desc& desc, const Body& view) const;
     void take_over(Mesh&& before) noexcept;
 
-    // Borrows positions; those of its own are released.
+    // Borrows positions and releases the mesh's own ones.
     void bind(const Positions& positions) noexcept;
 
-    // The mesh's own positions, to be written to: at first a copy of the borrowed ones, or zeros where there
-    // are none, in the same format.
+    // The mesh's own positions, for the caller to write to: at first a copy of the borrowed ones in their
+    // format, or zeros where there are none.
     void* map_positions();
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
 
-    // Null: none. Three rows of four, finite.
+    // Three rows of four finite numbers; null: no transform.
     void set_transform(const double* matrix) noexcept;
 
     bool has_positions() const noexcept { return vertex_count_ == 0 || positions_.data != nullptr; }
@@ -92,15 +92,16 @@ public:
     std::uint64_t tet_count() const noexcept { return tets_.size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
 
-    // Takes a checked filter, and takes the rest pose from the positions when it is wanted and not known.
-    // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and leaves all as it was then.
+    // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
+    // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and changes nothing then.
     void set_filter(const vox_filter& filter);
     const vox_filter& filter() const noexcept { return filter_; }
 
     void set_enabled(bool enabled) noexcept { enabled_ = enabled; }
     bool is_enabled() const noexcept { return enabled_; }
 
-    // Meshes that this one does not collide with, ascending. Room first, so that adding cannot fail.
+    // Meshes that this one does not collide with, ascending. After reserve_exception(), adding one cannot
+    // fail.
     void reserve_exception();
     void add_exception(vox_mesh other) noexcept;
     void remove_exception(vox_mesh other) noexcept;
@@ -123,19 +124,19 @@ private:
     void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;
     void reserve_off();
     void list_tets_of();
-    void follow(std::span<const TetChange> changes) noexcept;
-    void follow_vertices(std::uint32_t count_before) noexcept;
-    void forget_tiles() noexcept;
-    void forget_topology() noexcept;
-    void forget_rings() noexcept;
-    void forget_prepared() noexcept;
+    void apply(std::span<const TetChange> changes) noexcept;
+    void apply_vertices(std::uint32_t count_before) noexcept;
+    void invalidate_tiles() noexcept;
+    void invalidate_topology() noexcept;
+    void invalidate_rings() noexcept;
+    void invalidate_prepared() noexcept;
 
     std::pmr::vector<Tet> tets_;  // as the stages see them: those that are off name one vertex four times
-    std::pmr::vector<Tet> given_; // as they are or will be when on; empty: all as in tets_
+    std::pmr::vector<Tet> given_; // corners as given by the caller; empty while no tet is off
     Bits off_, removed_;          // tets; those that are removed are off as well
     Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
-    IndexLists tets_of_;                  // the tets around each vertex, once an edit needed them
+    IndexLists tets_of_;             // the tets around each vertex, from the first edit on
     Topology topology_;
     Lazy<MeshSample> sample_;
     TiledMesh tiled_;
@@ -144,7 +145,7 @@ private:
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
-    bool owns_positions_ = false; // also where there are no vertices yet
+    bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
     bool enabled_ = true;

@@ -1,6 +1,5 @@
-// The part of a mesh that its geometry is estimated from, again and again while it deforms: some of its
-// tetrahedra, edges and boundary facets, and how many of them there are. That depends on the topology alone,
-// so it is chosen once.
+// Some tetrahedra, edges and boundary facets of a mesh, and how many of each there are in all. Its geometry
+// is estimated from them while it deforms. They depend on the topology alone, so they are chosen once.
 #pragma once
 
 #include "base/scene.hpp"
@@ -21,13 +20,13 @@ struct MeshSample {
 
     struct SampledTet {
         Tet tet;
-        std::uint32_t shared; // of its facets, as bits: facet i, opposite corner i, is another one's as well
+        std::uint32_t shared; // bit i: another tet has facet i, opposite corner i, as well
         static constexpr std::uint32_t no_facets = 16; // it names a vertex twice
     };
     using Edge = std::array<std::uint32_t, 2>;
     using Facet = std::array<std::uint32_t, 3>;
 
-    // From everywhere in their lists; all where there are few.
+    // Spread evenly over the lists of all; all where there are few.
     std::pmr::vector<SampledTet> tets; // none that is off
     std::pmr::vector<Edge> edges;
     std::pmr::vector<Facet> facets; // of the boundary
@@ -44,7 +43,7 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept;
 
 // `topology` is that of the tets. Throws what the memory throws.
 MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::memory_resource* memory);
-// The same without one, which takes as long as to make a topology, and its memory meanwhile.
+// The same for a mesh without a topology: makes one for the time of the call.
 MeshSample make_sample(const Body& body, std::pmr::memory_resource* memory);
 
 } // namespace vox

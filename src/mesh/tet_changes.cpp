@@ -19,7 +19,7 @@ void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, st
     tets_of = std::move(made);
 }
 
-void follow(std::span<const TetChange> changes, IndexLists& tets_of) {
+void apply_changes(std::span<const TetChange> changes, IndexLists& tets_of) {
     for (const TetChange& change : changes) {
         if (change.was_on)
             for_corners(change.before, [&](std::uint32_t v) { tets_of.remove(v, change.tet); });

@@ -1,5 +1,5 @@
-// What an edit does to tetrahedra, and the facets and vertices that it does it to: what is made of a mesh's
-// tetrahedra is repaired around those alone.
+// How an edit changes tetrahedra, and which facets and vertices it touches: only around these is what was
+// prepared of a mesh repaired.
 #pragma once
 
 #include "base/lists.hpp"
@@ -13,11 +13,12 @@
 
 namespace vox {
 
-// A tetrahedron before and after. Changes of one edit follow each other: one tetrahedron may change twice.
+// A tetrahedron before and after a change. An edit is a sequence of changes; a tetrahedron may occur twice in
+// it.
 struct TetChange {
     std::uint32_t tet;
     bool was_on, is_on;
-    Tet before, after; // where it was, or is, on
+    Tet before, after; // valid where it was on, is on
 };
 
 // Calls function(vertex) for each different corner of a tetrahedron.
@@ -30,13 +31,13 @@ void for_corners(const Tet& tet, Function&& function) {
     }
 }
 
-// The tetrahedra around each vertex: those that are on, in any order.
+// Lists the tetrahedra around each vertex: those that are on, in any order.
 void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, std::uint32_t vertex_count,
                IndexLists& tets_of);
-// Follows changes. Throws what the memory throws, and is to be made anew then.
-void follow(std::span<const TetChange> changes, IndexLists& tets_of);
+// Throws what the memory throws; then `tets_of` is to be made anew.
+void apply_changes(std::span<const TetChange> changes, IndexLists& tets_of);
 
-// The facets of all that changed, before and after; their vertices. Sorted, each once.
+// The facets, and the vertices, of the tetrahedra that changed, before and after. Sorted, each once.
 void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<FacetKey>& facets);
 void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<std::uint32_t>& vertices);
 

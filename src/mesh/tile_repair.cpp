@@ -1,7 +1,7 @@
-// The surface is the boundary of the chain of all tets: a facet is in it when tets on one side outnumber
-// those on the other, and faces away from them. It is there once, however many more they are: across it the
-// winding number falls, by how much does not matter to winding.cpp. So a facet is looked at again when a tet
-// that has it changes, and counted over the tets around it.
+// The boundary is that of the chain of all tets: a facet is in it when the tets on one side outnumber those
+// on the other, and faces away from them. It is there once, however many more they are: the winding number
+// falls across it, and by how much does not matter to the certificate. So where a tet changes, the tets
+// around each of its facets are counted again.
 #include "mesh/tile_repair.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ constexpr std::uint64_t bit(std::uint32_t i) { return std::uint64_t{1} << i; }
 class Repair {
 public:
     Repair(TiledMesh& mesh, const Body& body, const IndexLists& tets_of)
-        : tiles_(mesh.tiles), boundary_(mesh.boundary), places_(mesh.places), body_(body), tets_of_(tets_of) {}
+        : tiles_(mesh.tiles), boundary_(mesh.boundary), places_(mesh.places), body_(body), tets_of_(tets_of) {
+    }
 
     void run(std::span<const TetChange> changes) {
         if (places_.room.empty()) find_places();
@@ -32,7 +33,7 @@ public:
         for (const FacetKey& key : keys) count_facet(key);
         std::pmr::vector<std::uint32_t> vertices(memory);
         list_changed_vertices(changes, vertices);
-        for (const std::uint32_t v : vertices) mind_loose(v);
+        for (const std::uint32_t v : vertices) update_loose(v);
         if (!boundary_pays(boundary_.triangles.size(), body_.tets.size() - body_.off_count))
             boundary_ = Boundary(memory);
     }
@@ -111,8 +112,8 @@ private:
         return missing;
     }
 
-    // Of the tiles of tets that share a vertex, the first few of those around each, the one that has room and
-    // the most of the corners.
+    // The tile that has room and holds the most corners already, among those of the first few tets around
+    // each corner.
     std::uint32_t choose_tile(const Tet& corners) {
         constexpr std::size_t most_tets = 16, most_tiles = 8;
         std::uint32_t seen[most_tiles], best = TilePlaces::none, fewest_missing = 4;
@@ -168,7 +169,8 @@ private:
         return t;
     }
 
-    // For one more tet and so many more vertices: where a tile has none, its lists move to the end, once.
+    // Makes room for one more tet and so many more vertices. The lists of a tile that has none move to the
+    // end, once.
     void make_room(std::uint32_t t, std::uint32_t vertices) {
         Tile& tile = tiles_.tiles[t];
         TilePlaces::Room& room = places_.room[t];
@@ -189,7 +191,7 @@ private:
         }
     }
 
-    // Of a vertex that may be new to the tile, which has room for it.
+    // The local index of a vertex, which is added to the tile if it is new there.
     std::uint32_t local_index(std::uint32_t t, std::uint32_t vertex) {
         Tile& tile = tiles_.tiles[t];
         const auto first = tiles_.vertices.begin() + tile.first_vertex, last = first + tile.vertex_count;
@@ -249,7 +251,7 @@ private:
         triangles.pop_back();
     }
 
-    void mind_loose(std::uint32_t vertex) {
+    void update_loose(std::uint32_t vertex) {
         const std::span<const std::uint32_t> around = tets_of_[vertex];
         const bool is_loose = std::all_of(around.begin(), around.end(), [&](std::uint32_t tet) {
             return names_a_vertex_twice(body_.tets[tet]);
@@ -271,7 +273,8 @@ private:
 
 } // namespace
 
-bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of) {
+bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> changes,
+            const IndexLists& tets_of) {
     // The share of the tets that may change before tiles are made anew, which takes about as long as their
     // repair did by then.
     if (mesh.places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;

@@ -1,6 +1,6 @@
-// Edits of a mesh that is in tiles. The last tet of a tile fills the gap that a tet leaves. A new tet joins its
-// neighbours while their tile has room, else a new tile at the end. The tiles stay correct whatever is done, but
-// become less compact: after enough changes they are to be made anew.
+// Edits of a mesh that is in tiles. The last tet of a tile fills the gap that a tet leaves. A new tet joins
+// its neighbours while their tile has room, else a new tile at the end. The tiles stay correct whatever is
+// done, but become less compact: after enough changes they are to be made anew.
 #pragma once
 
 #include "base/lists.hpp"

@@ -41,8 +41,9 @@ struct TiledMesh {
     TilePlaces places;
 };
 
-// The positions only decide how compact tiles are; they may move later. `facets` are those of the body's tets;
-// null: they are matched here where they are needed. Throws what the memory throws and leaves `out` unchanged then.
+// The positions only decide how compact tiles are; they may move later. `facets` are those of the body's
+// tets; null: they are matched here where they are needed. Throws what the memory throws and leaves `out`
+// unchanged then.
 void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* facets = nullptr);
 
 } // namespace vox

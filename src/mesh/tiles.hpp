@@ -1,6 +1,6 @@
-// What the fast engine prepares of a mesh: its tetrahedra in tiles. A tile is at most 64 neighbouring
-// tetrahedra over at most 64 vertices, so that a corner is an index of 8 bits into the tile's own vertices,
-// and so that a set of tetrahedra of a tile is one 64-bit mask.
+// The tetrahedra of a mesh in tiles. A tile is at most 64 neighbouring tetrahedra over at most 64 vertices,
+// so that a corner is an 8-bit index into the tile's own vertices, and a set of its tetrahedra is one 64-bit
+// mask.
 #pragma once
 
 #include "base/lists.hpp"
@@ -43,7 +43,7 @@ struct Tiles {
     // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
     // self-collision.
     std::pmr::vector<std::uint64_t> own;
-    // Blocks: runs of vertices, as the caller numbers them, that lie close together. Block i is vertices
+    // Blocks: runs of vertices in the caller's numbering, mostly close together in space. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     std::pmr::vector<std::uint32_t> block_first;
     // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree.
@@ -58,15 +58,15 @@ struct Tiles {
     }
 
 private:
-    // Between the ends of a list; none before make_tiles().
+    // How many intervals a list of ends makes; 0 before make_tiles().
     static std::uint32_t intervals(const std::pmr::vector<std::uint32_t>& ends) noexcept {
         return ends.empty() ? 0 : static_cast<std::uint32_t>(ends.size() - 1);
     }
 };
 
-// Splits `tets` by a k-d tree over their centroids. Positions only decide how compact the tiles are; they may
-// be anything, and may move later. Tetrahedra that are `off` (bits) are in no tile. Throws std::bad_alloc and
-// leaves `out` empty then.
+// Splits `tets` by a k-d tree over their centroids. Positions only decide how compact the tiles are: they may
+// have any values, and may move later. Tetrahedra that are `off` (bits) are in no tile. Throws what the
+// memory throws and leaves `out` empty then.
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
                 std::span<const std::uint64_t> off = {});
 

@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    // The facet is on the surface no more, if it was; the last triangle takes the place of its triangle.
+    // Drops the triangle of a facet that may have been on the surface; the last triangle takes its place.
     void drop_triangle(const FacetKey& key) {
         const std::span<const std::uint32_t> ring = topology_.ring_of(key.low);
         const auto found = std::find_if(ring.begin(), ring.end(),

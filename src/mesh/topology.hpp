@@ -1,7 +1,7 @@
-// What the depth stage prepares of a mesh's tetrahedra: neighbours of vertices, tetrahedra across facets, and
-// the surface. Positions play no part in it. Made once, and repaired where the mesh is cut.
+// Neighbours of vertices, tetrahedra across facets, and the surface of a mesh, for depths, queries and
+// readings. Positions play no part in it. Made once, and repaired where the mesh is edited.
 //
-// Tetrahedra that name a vertex twice have no edges and facets of their own, and doubled ones count once.
+// Tetrahedra that name a vertex twice have no edges and facets, and doubled ones count once.
 #pragma once
 
 #include "base/lists.hpp"
@@ -34,7 +34,7 @@ struct Topology : MatchedFacets {
         return rings[vertex];
     }
 
-    // The order in which triangles count, whatever edits the mesh went through: by their vertices, sorted.
+    // The order of triangles by their sorted vertices, which does not depend on earlier edits.
     bool before(std::uint32_t triangle, std::uint32_t other) const noexcept {
         return is_repaired ? key(triangle) < key(other) : triangle < other;
     }
@@ -48,15 +48,15 @@ struct Topology : MatchedFacets {
 // Throws Error(LIMIT) for more than most_tets.
 void check_tet_count(std::uint64_t tets);
 
-// Throws std::bad_alloc (or what the memory throws) and leaves `out` as it was then.
+// Throws what the memory throws and leaves `out` unchanged then.
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out);
 
-// More vertices, at the end, that no tetrahedron names. Throws as repair_topology().
+// Adds vertices, at the end, that no tetrahedron names. Throws as repair_topology().
 void add_vertices(std::uint32_t vertex_count, Topology& topology);
 
-// Follows changes of the mesh, which is `tets` now, around each vertex `tets_of` it; those that are off name a
-// vertex twice. As make_topology() but for the order of triangles. Throws what the memory throws, and is to be
-// made anew then.
+// Applies changes. `tets` and `tets_of`, which lists the tets at each vertex, are the state after them; tets
+// that are off name a vertex twice. The result is that of make_topology() but for the order of triangles.
+// Throws what the memory throws; then the topology is to be made anew.
 void repair_topology(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                      Topology& topology);
 

@@ -1,7 +1,7 @@
 // Limits that would take more memory than a machine has: what checks them, given the counts alone.
 #include "base/error.hpp"
 #include "grid/contact_pairs.hpp"
-#include "grid/grid.hpp"
+#include "grid/mesh_table.hpp"
 #include "mesh/topology.hpp"
 
 #include "support/suite.h"

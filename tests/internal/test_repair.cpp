@@ -57,7 +57,7 @@ struct Edited {
     }
 
     // Takes the changes so far for done.
-    void follow_all() { follow(changes, tets_of); }
+    void apply_all() { apply_changes(changes, tets_of); }
 
     Body body() const {
         Body body;
@@ -219,7 +219,7 @@ START_TEST(topology_is_repaired) {
     make_topology(e.mesh.tets, vertex_count(e.mesh), topology);
     for (int step = 0; step < 40; ++step) {
         edit(e, random, 5);
-        e.follow_all();
+        e.apply_all();
         repair_topology(e.mesh.tets, e.tets_of, e.changes, topology);
         check_topology(e, topology);
         e.changes.clear();
@@ -234,7 +234,7 @@ START_TEST(rings_are_repaired) {
     Rings rings(e.mesh.tets, vertex_count(e.mesh), count, heap());
     for (int step = 0; step < 30; ++step) {
         edit(e, random, 4);
-        e.follow_all();
+        e.apply_all();
         rings.repair(e.mesh.tets, e.tets_of, e.changes, count);
         const Rings anew(e.mesh.tets, vertex_count(e.mesh), count, heap());
         for (std::uint32_t v = 0; v < vertex_count(e.mesh); ++v)
@@ -333,7 +333,7 @@ struct Prepared : TiledMesh {
     }
 
     bool apply(Edited& e) {
-        e.follow_all();
+        e.apply_all();
         const bool done = repair(*this, e.body(), e.changes, e.tets_of);
         e.changes.clear();
         return done;
@@ -385,7 +385,7 @@ START_TEST(all_off_and_on_again) {
             check_tiles(e, p.tiles, p.places);
         }
     for (std::uint32_t t = 0; t < tets; ++t) e.switch_tet(t, false);
-    e.follow_all();
+    e.apply_all();
     const Prepared none(e, true);
     ck_assert_uint_eq(none.tiles.tiles.size(), 0);
     ck_assert_uint_eq(none.boundary.triangles.size(), 0);

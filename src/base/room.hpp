@@ -1,0 +1,24 @@
+// Room in vectors, made ahead of what must not fail.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+
+namespace vox {
+
+// Room for `count` elements in all, and no more.
+template <class Vector>
+void reserve_exactly(Vector& vector, std::uint64_t count) {
+    if (count > vector.max_size()) throw std::bad_alloc();
+    if (count > vector.capacity()) vector.reserve(static_cast<std::size_t>(count));
+}
+
+// Grows by half at least, so that n additions copy O(n) elements.
+template <class Vector>
+void reserve_growing(Vector& vector, std::size_t count) {
+    if (count > vector.capacity()) vector.reserve(std::max(count, vector.capacity() + vector.capacity() / 2));
+}
+
+} // namespace vox

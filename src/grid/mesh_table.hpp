@@ -1,0 +1,93 @@
+// The meshes of a grid: slots, ids, generations and limits.
+#pragma once
+
+#include "fast/mesh_state.hpp"
+#include "mesh/ids.hpp"
+#include "mesh/mesh.hpp"
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vox {
+
+// Throws Error(LIMIT) when `added` more of what a grid holds `count` of would be more than `limit`.
+void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, const char* what);
+
+struct MeshSlot {
+    explicit MeshSlot(std::pmr::memory_resource* memory, std::uint32_t last_generation = 0) noexcept
+        : mesh(memory), state(memory), generation(last_generation) {}
+
+    Mesh mesh;
+    fast::MeshState state;    // of the mesh, for the fast engine
+    std::uint32_t generation; // of the mesh that lives here, or of the last one that did; 0: there was none
+    bool live = false;
+    static constexpr std::uint32_t none = ~0u;
+    std::uint32_t body = none; // index in the last step; none when it took no part
+};
+
+class MeshTable {
+public:
+    explicit MeshTable(std::pmr::memory_resource* memory) noexcept : slots_(memory), free_slots_(memory) {}
+
+    void reserve(std::uint32_t mesh_count);
+    std::size_t slot_count() const noexcept { return slots_.size(); }
+
+    // Of all meshes together.
+    std::uint64_t vertex_count() const noexcept { return vertex_count_; }
+    std::uint64_t tet_count() const noexcept { return tet_count_; }
+
+    // Throw Error(LIMIT) where there is no room for one more such mesh, for it in place of `old`, or for so
+    // many more vertices and tetrahedra.
+    void check_room(const Body& mesh) const;
+    void check_room(const Body& mesh, const Mesh& old) const;
+    void check_growth(std::uint64_t vertices, std::uint64_t tets) const;
+
+    // After check_room(). Throws what the memory throws and leaves all unchanged then.
+    vox_mesh insert(Mesh&& mesh, fast::MeshState&& state);
+    void replace(vox_mesh id, Mesh&& mesh, fast::MeshState&& state) noexcept;
+    void remove(vox_mesh id); // throws as operator[]
+    void clear() noexcept;
+
+    // After check_growth(). Throw as Mesh does.
+    std::uint32_t append_tets(vox_mesh id, std::span<const Tet> corners);
+    std::uint32_t append_vertices(vox_mesh id, const vox_vertices_desc& desc);
+
+    // Null for an id that names no mesh.
+    const MeshSlot* find(vox_mesh id) const noexcept;
+    MeshSlot* find(vox_mesh id) noexcept { return const_cast<MeshSlot*>(std::as_const(*this).find(id)); }
+    // Throws Error(INVALID_HANDLE) for such an id.
+    const MeshSlot& operator[](vox_mesh id) const;
+    MeshSlot& operator[](vox_mesh id) { return const_cast<MeshSlot&>(std::as_const(*this)[id]); }
+
+    // Calls visit(id, slot), ascending.
+    template <class Visit>
+    void for_each(Visit&& visit) {
+        for (std::size_t s = 0; s < slots_.size(); ++s)
+            if (slots_[s].live)
+                visit(make_id(static_cast<std::uint32_t>(s), slots_[s].generation), slots_[s]);
+    }
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        const_cast<MeshTable*>(this)->for_each(
+            [&](vox_mesh id, MeshSlot& slot) { visit(id, std::as_const(slot)); });
+    }
+
+private:
+    friend class Snapshot;
+
+    void vacate(std::uint32_t slot) noexcept;
+    std::pmr::memory_resource* memory() const noexcept { return slots_.get_allocator().resource(); }
+
+    std::pmr::vector<MeshSlot> slots_;
+    std::pmr::vector<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
+    std::uint64_t vertex_count_ = 0;
+    std::uint64_t tet_count_ = 0;
+};
+
+} // namespace vox

@@ -1,0 +1,82 @@
+// The parts of a snapshot: each is one chunk (docs/snapshot.md), with a function that writes it and one that
+// reads it.
+#pragma once
+
+#include "base/error.hpp"
+#include "grid/grid.hpp"
+#include "grid/snapshot_chunks.hpp"
+
+#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+// What loading knows beside the grid.
+struct Loading {
+    vox_grid& grid;
+    std::pmr::vector<vox_mesh> awaited; // meshes whose chunk has to come, ascending
+    std::size_t next = 0;               // index in `awaited`
+    std::pmr::vector<std::uint32_t> free_slots;
+    vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
+};
+
+// Calls what a program would call; an argument that it refuses makes the snapshot invalid.
+template <class Function>
+void or_refuse(const SnapshotChunk& in, vox_mesh id, Function&& function) {
+    try {
+        function();
+    } catch (const Error& error) {
+        const vox_result result = error.result();
+        if (result == VOX_ERROR_LIMIT || result == VOX_ERROR_BUDGET) throw;
+        in.refuse(format("mesh %" PRIu32 ": %s", id, error.what()));
+    }
+}
+
+class Snapshot {
+public:
+    static void save(const vox_grid& grid, SnapshotWriter& out);
+    static vox_grid_desc settings(SnapshotReader& in, const vox_grid_desc& machine);
+    static void load(SnapshotReader& in, vox_grid& grid);
+
+private:
+    static void save_settings(const vox_grid& grid, SnapshotWriter& out);
+    static vox_grid_desc read_settings(SnapshotChunk& in, vox_grid_desc desc);
+    static void load_settings(SnapshotChunk& in, Loading& to);
+    static void save_slots(const vox_grid& grid, SnapshotWriter& out);
+    static void load_slots(SnapshotChunk& in, Loading& to);
+    static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
+    static void save_mesh(const vox_grid& grid, vox_mesh id, SnapshotWriter& out);
+    static void load_mesh(SnapshotChunk& in, Loading& to);
+    static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
+    static void load_cuts(SnapshotChunk& in, Loading& to);
+    static void save_filters(const vox_grid& grid, SnapshotWriter& out);
+    static void load_filter(SnapshotChunk& in, Loading& to);
+    static void save_exceptions(const vox_grid& grid, SnapshotWriter& out);
+    static void load_exceptions(SnapshotChunk& in, Loading& to);
+    static void save_events(const vox_grid& grid, SnapshotWriter& out);
+    static void load_events(SnapshotChunk& in, Loading& to);
+
+    template <class Function>
+    static void for_each_mesh(const vox_grid& grid, Function&& function) {
+        grid.meshes_.for_each([&](vox_mesh id, const MeshSlot&) { function(id); });
+    }
+    static vox_mesh mesh_that_was(SnapshotChunk& in, const vox_grid& grid);
+
+    // In the order in which they follow each other in a file.
+    struct Part {
+        const char* name;
+        bool repeats;  // may come any number of times, else once
+        bool required; // where it may come once
+        void (*load)(SnapshotChunk& in, Loading& to);
+    };
+    static constexpr Part parts[] = {
+        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
+        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
+        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
+        {"EVNT", false, true, load_events}};
+};
+
+} // namespace vox
