@@ -60,7 +60,7 @@ using namespace vox;
 
 namespace {
 
-using ::Mesh; // of a test scene, not of a grid
+using vox::test::Mesh; // of a test scene, not of a grid
 
 std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
 
