@@ -187,12 +187,12 @@ typedef struct vox_grid_desc {
     vox_engine engine;
     vox_storage storage;
     vox_hash hash;
-    /* Edge length of a cell, > 0. 0 (the default): the library chooses it, by the cost model of the engine. The
-     * reference engine chooses at the first step, and again when the counts of its steps show that another size
+    /* Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
+     * model, at the first step, and again when the counts of its steps show that another size
      * would be better (bodies deform, come into contact, are inserted or removed). Every change is written to the
      * log and counted in cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would
      * be expensive, it uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the
-     * tetrahedra of a range of sizes. The fast engine chooses a cell size for each of its windows, at every step. */
+     * tetrahedra of a range of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near other bodies. */
     double cell_size;
     /* World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border
      * cell. All zero (the default): the box of all positions, computed at every step. */
@@ -244,7 +244,8 @@ VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
 /* The cell size in use: the one set, or the one chosen for the last step. If several were chosen, it is that of the
- * smallest tetrahedra; if none was chosen yet, it is 0. */
+ * smallest tetrahedra (reference engine) or of the last body that needed one (fast engine); if none was chosen yet,
+ * it is 0. */
 VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
 
 /* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and for 0

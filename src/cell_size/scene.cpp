@@ -16,10 +16,8 @@ void CellSizeScene::prepare(vox_cost_model model) {
     std::uint64_t tets = 0;
     for (const Body& body : bodies) tets += body.tets.size();
     if (!meshes.empty()) budget = quick(model, tets);
-    if (model == VOX_COST_MODEL_FAST) {
-        if (last_step && moved_since_last_step()) last_step = nullptr;
-        if (!last_step) find_near_bodies();
-    }
+    if (model != VOX_COST_MODEL_FAST || (last_step && moved_since_last_step())) last_step = nullptr;
+    if (model == VOX_COST_MODEL_FAST && !last_step) find_near_bodies();
     geometry = measure(*this);
 }
 

@@ -237,6 +237,34 @@ START_TEST(bodies_at_rest_cost_nothing) {
 }
 END_TEST
 
+/* A grid's suggestion looks at positions as they are now, also where the last step found others. */
+START_TEST(a_grid_suggests_for_positions_as_they_are) {
+    for (int m = 0; m < 3; ++m) {
+        pair p = make_pair(0.5f);
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        desc.model = models[m];
+        vox_suggestion moved, fresh;
+        moved.struct_size = fresh.struct_size = sizeof moved;
+        vox_grid* grids[2] = {grid_of(NULL), grid_of(NULL)};
+        for (int b = 0; b < 2; ++b) insert_mesh(grids[0], &p.meshes[b]);
+        ck_ok(vox_grid_step(grids[0]));
+        for (int b = 0; b < 2; ++b)
+            for (uint32_t i = 0; i < 3 * p.boxes[b].vertex_count; ++i) p.boxes[b].positions[i] *= 4;
+        for (int b = 0; b < 2; ++b) insert_mesh(grids[1], &p.meshes[b]);
+        /* a share of tets without contact that no step can change */
+        desc.p_nc = 0.9;
+        ck_ok(vox_grid_suggest_cell_size(grids[0], &desc, &moved));
+        ck_ok(vox_grid_suggest_cell_size(grids[1], &desc, &fresh));
+        ck_assert_double_eq_tol(moved.cell_size, fresh.cell_size, 1e-3 * fresh.cell_size);
+        for (int a = 0; a < 3; ++a) ck_assert_double_eq(moved.stats.bounds_max[a], fresh.stats.bounds_max[a]);
+        ck_assert_double_eq_tol(moved.cells_per_axis, fresh.cells_per_axis, 1e-3 * fresh.cells_per_axis);
+        ck_assert_double_eq(moved.rules.object_512, fresh.rules.object_512);
+        for (int g = 0; g < 2; ++g) vox_grid_destroy(grids[g]);
+        free_pair(&p);
+    }
+}
+END_TEST
+
 /* What is off counts for nothing; where all is, there is no size to suggest. */
 START_TEST(cut_bodies_are_what_is_left_of_them) {
     pair p = make_pair(0.5f);
@@ -564,6 +592,7 @@ int main(void) {
     tcase_add_loop_test(tests, a_sliver_does_not_matter, 0, 3);
     tcase_add_loop_test(tests, the_grid_suggests_by_its_engine, 0, 2);
     tcase_add_test(tests, bodies_at_rest_cost_nothing);
+    tcase_add_test(tests, a_grid_suggests_for_positions_as_they_are);
     tcase_add_loop_test(tests, cut_bodies_are_what_is_left_of_them, 0, 2);
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
