@@ -4,9 +4,9 @@
 
 #include "base/error.hpp"
 #include "base/llu.hpp"
+#include "exact/predicates.hpp"
 #include "io/buckets.hpp"
 #include "io/determinant.hpp"
-#include "io/volume_sign.hpp"
 
 #include <algorithm>
 #include <array>
@@ -151,12 +151,24 @@ void count_components(const MeshData& data, vox_io_report& report) {
     }
 }
 
+// The exact sign of the volume of a tetrahedron with these corners, over the whole range of finite doubles.
+// The error bound of orientation() holds for coordinates below 2^128.
+int volume_sign(const double* const (&p)[4]) {
+    bool bounded = true;
+    for (const double* corner : p)
+        for (int k = 0; k < 3; ++k) bounded = bounded && std::fabs(corner[k]) < 0x1p128;
+    const auto at = [&](int i) { return Vec3d{p[i][0], p[i][1], p[i][2]}; };
+    std::uint64_t exact_tests = 0;
+    return bounded ? orientation(at(0), at(1), at(2), at(3), exact_tests)
+                   : exact_orientation(at(0), at(1), at(2), at(3));
+}
+
 void measure_tets(const MeshData& data, vox_io_report& report) {
     for (std::size_t t = 0; t < data.tets.size(); t += 4) {
         const double* p[4];
         for (std::size_t i = 0; i < 4; ++i)
             p[i] = &data.positions[3 * static_cast<std::size_t>(data.tets[t + i])];
-        const int sign = volume_sign(p[0], p[1], p[2], p[3]);
+        const int sign = volume_sign(p);
         report.inverted_tets += sign < 0;
         report.degenerate_tets += sign == 0;
         if (sign == 0) continue;
