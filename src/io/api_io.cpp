@@ -215,25 +215,9 @@ vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report
 const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->warnings.c_str() : nullptr; }
 
 const char* vox_io_format_string(vox_io_format format) {
-    switch (format) {
-    case VOX_IO_FORMAT_AUTO:
-        return "no file";
-    case VOX_IO_FORMAT_GMSH:
-        return "Gmsh .msh";
-    case VOX_IO_FORMAT_TETGEN:
-        return "TetGen .node/.ele";
-    case VOX_IO_FORMAT_MEDIT:
-        return "Medit .mesh";
-    case VOX_IO_FORMAT_VEGA:
-        return "Vega .veg";
-    case VOX_IO_FORMAT_VTK:
-        return "VTK legacy .vtk";
-    case VOX_IO_FORMAT_VTU:
-        return "VTK XML .vtu";
-    case VOX_IO_FORMAT_SURFACE:
-        return "surface";
-    case VOX_IO_FORMAT_FORCE_32_BITS:
-        break;
-    }
-    return "unknown format";
+    static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
+                                            "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
+                                            "VTK XML .vtu", "surface"};
+    const auto index = static_cast<std::uint32_t>(format);
+    return index < std::size(names) ? names[index] : "unknown format";
 }

@@ -59,12 +59,10 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
     Output out(std::move(sink));
     const PointData point_data(desc.point_data, desc.point_data_count);
     const bool binary = desc.binary != 0;
-    if (desc.format == VOX_IO_WRITE_MSH_22)
-        write_msh22(mesh.data, point_data, binary, out);
-    else if (desc.format == VOX_IO_WRITE_MSH_41)
-        write_msh41(mesh.data, point_data, binary, out);
-    else
+    if (desc.format == VOX_IO_WRITE_VTU)
         write_vtu(mesh.data, point_data, binary, out);
+    else
+        write_msh(mesh.data, desc.format, point_data, binary, out);
     out.flush();
 }
 

@@ -21,7 +21,8 @@ class MshWriter {
 public:
     MshWriter(const MeshData& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
 
-    void write(bool version_41, PointData point_data) {
+    void write(vox_io_write_format version, PointData point_data) {
+        const bool version_41 = version == VOX_IO_WRITE_MSH_41;
         out_ << "$MeshFormat\n" << (version_41 ? "4.1" : "2.2") << (binary_ ? " 1 8\n" : " 0 8\n");
         if (binary_) out_.binary<std::uint32_t>(1) << '\n';
         out_ << "$EndMeshFormat\n";
@@ -132,8 +133,7 @@ private:
         out_ << "$Entities\n";
         row(none, none, std::uint64_t{surface}, std::uint64_t{volume});
         for (const bool present : {surface, volume})
-            if (present)
-                row(std::uint32_t{1}, box[0], box[1], box[2], box[3], box[4], box[5], none, none);
+            if (present) row(std::uint32_t{1}, box[0], box[1], box[2], box[3], box[4], box[5], none, none);
         end_section("$EndEntities\n");
     }
 
@@ -163,12 +163,9 @@ private:
 
 } // namespace
 
-void write_msh22(const MeshData& mesh, PointData point_data, bool binary, Output& out) {
-    MshWriter(mesh, binary, out).write(false, point_data);
-}
-
-void write_msh41(const MeshData& mesh, PointData point_data, bool binary, Output& out) {
-    MshWriter(mesh, binary, out).write(true, point_data);
+void write_msh(const MeshData& mesh, vox_io_write_format version, PointData point_data, bool binary,
+               Output& out) {
+    MshWriter(mesh, binary, out).write(version, point_data);
 }
 
 } // namespace vox::io
