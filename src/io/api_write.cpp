@@ -24,7 +24,6 @@ vox_io_write_desc default_write_desc() {
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
     const vox_io_write_desc desc =
         in ? read_struct(in, default_write_desc(), "vox_io_write_desc") : default_write_desc();
-    const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
     if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
         refuse(
             format("vox_io_write_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
@@ -130,11 +129,10 @@ vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* des
     return border([&] {
         require(mesh, "mesh");
         require(sink, "sink");
-        if (!sink->write) throw Error(VOX_ERROR_INVALID_ARGUMENT, "sink->write is null");
+        if (!sink->write) refuse("sink->write is null");
         const vox_io_write_desc settings = checked(desc, *mesh);
         if (settings.format == VOX_IO_WRITE_AUTO)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        "vox_io_write_desc.format is AUTO, which needs a file name");
+            refuse("vox_io_write_desc.format is AUTO, which needs a file name");
         write(*mesh, settings, [&](std::string_view bytes) {
             if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
                 throw Error(VOX_ERROR_FILE, "the sink reports a failure");

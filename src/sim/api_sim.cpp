@@ -117,9 +117,8 @@ vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const doub
         require(acceleration, "acceleration");
         for (int axis = 0; axis < 3; ++axis)
             if (!(std::abs(acceleration[axis]) <= 1e15))
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
-                                   acceleration[axis], axis));
+                refuse(format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
+                              acceleration[axis], axis));
         target.acceleration = sim::Vec3(acceleration[0], acceleration[1], acceleration[2]);
     });
 }
