@@ -5,7 +5,6 @@
 #include "io/mesh.hpp"
 #include "io/solids/bodies.hpp"
 #include "io/solids/cubes.hpp"
-#include "io/solids/lattice_ball.hpp"
 #include "io/solids/quality.hpp"
 #include "io/solids/tetrahedralize.hpp"
 

@@ -1,3 +1,4 @@
+// Bodies by isosurface stuffing, from functions of space that are positive inside.
 #include "io/solids/bodies.hpp"
 
 #include "base/error.hpp"
