@@ -13,7 +13,6 @@ namespace {
 
 vox_io_load_desc default_load_desc() {
     vox_io_load_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.format = VOX_IO_FORMAT_AUTO;
     desc.mesh_index = VOX_IO_ALL_MESHES;
     return desc;

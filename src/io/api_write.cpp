@@ -15,15 +15,9 @@
 namespace vox::io {
 namespace {
 
-vox_io_write_desc default_write_desc() {
-    vox_io_write_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
-}
-
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
-    const vox_io_write_desc desc =
-        in ? read_struct(in, default_write_desc(), "vox_io_write_desc") : default_write_desc();
+    vox_io_write_desc desc{};
+    if (in) desc = read_struct(in, desc, "vox_io_write_desc");
     if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
         refuse(
             format("vox_io_write_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
@@ -106,7 +100,7 @@ using namespace vox;
 using namespace vox::io;
 
 vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, default_write_desc(), "vox_io_write_desc"); });
+    return border([&] { init_struct(desc, struct_size, vox_io_write_desc{}, "vox_io_write_desc"); });
 }
 
 vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc) {

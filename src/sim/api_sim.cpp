@@ -11,7 +11,6 @@ namespace {
 
 vox_sim_desc sim_defaults() {
     vox_sim_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.substeps = 10;
     desc.detect_every = 1;
     desc.gravity[2] = -9.81;
@@ -25,7 +24,6 @@ vox_sim_desc sim_defaults() {
 
 vox_sim_body_desc body_defaults() {
     vox_sim_body_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.density = 1000;
     desc.youngs_modulus = 1e6;
     desc.bulk_modulus = 1e6;

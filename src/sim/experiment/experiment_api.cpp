@@ -19,7 +19,6 @@ constexpr std::uint32_t max_frames = 1000;
 
 vox_experiment_desc experiment_defaults() {
     vox_experiment_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.frames = 10;
     desc.axis[0] = 1;
     desc.contact_share = 0.01;
