@@ -35,9 +35,11 @@ format(const char* pattern, ...) {
     return text;
 }
 
+[[noreturn]] inline void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
+
 // Throws INVALID_ARGUMENT, with the name of the parameter, when `pointer` is null.
 inline void require(const void* pointer, const char* name) {
-    if (!pointer) throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is null", name));
+    if (!pointer) refuse(format("%s is null", name));
 }
 
 } // namespace vox

@@ -13,7 +13,6 @@ namespace {
 
 vox_io_load_desc default_load_desc() {
     vox_io_load_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.format = VOX_IO_FORMAT_AUTO;
     desc.mesh_index = VOX_IO_ALL_MESHES;
     return desc;
@@ -23,11 +22,8 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return default_load_desc();
     const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
     if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_SURFACE)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("vox_io_load_desc.format is %d, which is not a format",
-                                                       static_cast<int>(desc.format)));
-    if (desc.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
+        refuse(format("vox_io_load_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
+    if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
     return desc;
 }
 
@@ -61,9 +57,8 @@ MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_ind
     case VOX_IO_FORMAT_SURFACE:
         if (is_off(file)) {
             if (mesh_index != VOX_IO_ALL_MESHES && mesh_index != 0)
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("%s: mesh %u was asked for, but the file holds 1", given.name.c_str(),
-                                   mesh_index));
+                refuse(format("%s: mesh %u was asked for, but the file holds 1", given.name.c_str(),
+                              mesh_index));
             return read_off(file);
         }
         return read_surface(given, extension_of(given.name), mesh_index);
@@ -99,27 +94,24 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
 }
 
 File file_of(const vox_io_source& source, std::size_t index) {
-    if (!source.data && source.size > 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("sources[%zu].data is null", index));
+    if (!source.data && source.size > 0) refuse(format("sources[%zu].data is null", index));
     const char* data = source.data ? static_cast<const char*>(source.data) : "";
     return {source.name ? source.name : format("source %zu", index), {data, source.size}};
 }
 
 MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load_desc& desc) {
-    if (count != 1 && count != 2)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("source_count is %zu, not 1 or 2", count));
+    if (count != 1 && count != 2) refuse(format("source_count is %zu, not 1 or 2", count));
     require(sources, "sources");
     const File first = file_of(sources[0], 0);
     refuse_other_content(first);
     if (count == 1) {
         const vox_io_format which = format_of(first, desc.format);
         if (which == VOX_IO_FORMAT_TETGEN)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
+            refuse(format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
         return read_one(first, which, desc.mesh_index);
     }
     if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, "source_count is 2, which only TetGen meshes need");
+        refuse("source_count is 2, which only TetGen meshes need");
     const File second = file_of(sources[1], 1);
     refuse_other_content(second);
     const bool swapped = extension_of(first.name) == "ele" || extension_of(second.name) == "node";
@@ -215,25 +207,9 @@ vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report
 const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->warnings.c_str() : nullptr; }
 
 const char* vox_io_format_string(vox_io_format format) {
-    switch (format) {
-    case VOX_IO_FORMAT_AUTO:
-        return "no file";
-    case VOX_IO_FORMAT_GMSH:
-        return "Gmsh .msh";
-    case VOX_IO_FORMAT_TETGEN:
-        return "TetGen .node/.ele";
-    case VOX_IO_FORMAT_MEDIT:
-        return "Medit .mesh";
-    case VOX_IO_FORMAT_VEGA:
-        return "Vega .veg";
-    case VOX_IO_FORMAT_VTK:
-        return "VTK legacy .vtk";
-    case VOX_IO_FORMAT_VTU:
-        return "VTK XML .vtu";
-    case VOX_IO_FORMAT_SURFACE:
-        return "surface";
-    case VOX_IO_FORMAT_FORCE_32_BITS:
-        break;
-    }
-    return "unknown format";
+    static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
+                                            "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
+                                            "VTK XML .vtu", "surface"};
+    const auto index = static_cast<std::uint32_t>(format);
+    return index < std::size(names) ? names[index] : "unknown format";
 }

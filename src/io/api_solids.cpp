@@ -5,7 +5,6 @@
 #include "io/mesh.hpp"
 #include "io/solids/bodies.hpp"
 #include "io/solids/cubes.hpp"
-#include "io/solids/lattice_ball.hpp"
 #include "io/solids/quality.hpp"
 #include "io/solids/tetrahedralize.hpp"
 
@@ -26,8 +25,7 @@ vox_io_tetrahedralize_desc default_tetrahedralize_desc() {
 
 void require_length(double length, const char* name) {
     if (!std::isfinite(length) || length <= 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s is %g, expected a finite number above 0", name, length));
+        refuse(format("%s is %g, expected a finite number above 0", name, length));
 }
 
 // Checks the lengths of a body, so that their squares, cubes and quotients are finite and normal, and makes
@@ -41,8 +39,7 @@ vox_result make_body(vox_io_mesh** out_mesh, std::initializer_list<std::pair<dou
         for (const auto& [length, name] : lengths) {
             require_length(length, name);
             if (length > 1e100 || length < 1e-100)
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("%s is %g, expected 1e-100 to 1e100", name, length));
+                refuse(format("%s is %g, expected 1e-100 to 1e100", name, length));
         }
         *out_mesh = make_mesh(make());
     });
@@ -62,26 +59,19 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
         vox_io_tetrahedralize_desc wanted = default_tetrahedralize_desc();
         if (desc) wanted = read_struct(desc, wanted, "desc");
         if (wanted.kind != VOX_IO_SOLID_STUFFED && wanted.kind != VOX_IO_SOLID_CUBES)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.kind is %d, expected a vox_io_solid_kind",
-                                                           static_cast<int>(wanted.kind)));
+            refuse(format("desc.kind is %d, expected a vox_io_solid_kind", static_cast<int>(wanted.kind)));
         if (!std::isfinite(wanted.cell) || wanted.cell < 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
+            refuse(format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
         if (!std::isfinite(wanted.max_distance) || wanted.max_distance < 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("desc.max_distance is %g, expected a finite number above 0, or 0",
-                               wanted.max_distance));
+            refuse(format("desc.max_distance is %g, expected a finite number above 0, or 0",
+                          wanted.max_distance));
         if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.max_tets is %llu, expected 1 to %u",
-                                                           llu(wanted.max_tets), VOX_MAX_TETS));
-        if (wanted.reserved != 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("desc.reserved is %u, expected 0", wanted.reserved));
+            refuse(format("desc.max_tets is %llu, expected 1 to %u", llu(wanted.max_tets), VOX_MAX_TETS));
+        if (wanted.reserved != 0) refuse(format("desc.reserved is %u, expected 0", wanted.reserved));
         const vox_io_mesh_view view = view_of(surface->data);
         if (view.triangle_count == 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("the surface has no triangles (%llu vertices, %llu tets)",
-                               llu(view.vertex_count), llu(view.tet_count)));
+            refuse(format("the surface has no triangles (%llu vertices, %llu tets)", llu(view.vertex_count),
+                          llu(view.tet_count)));
         *out_mesh = make_mesh(tetrahedralize(view, wanted));
     });
 }
@@ -101,8 +91,7 @@ vox_result vox_io_make_lattice_ball(std::uint64_t tet_count, double radius, vox_
     return border([&] {
         require(out_mesh, "out_mesh");
         if (tet_count == 0 || tet_count > VOX_MAX_TETS / 4)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("tet_count is %llu, expected 1 to %u", llu(tet_count), VOX_MAX_TETS / 4));
+            refuse(format("tet_count is %llu, expected 1 to %u", llu(tet_count), VOX_MAX_TETS / 4));
         require_length(radius, "radius");
         *out_mesh = make_mesh(make_lattice_ball(tet_count, radius));
     });
@@ -115,8 +104,7 @@ vox_result vox_io_make_ball(double radius, double cell, vox_io_mesh** out_mesh) 
 vox_result vox_io_make_torus(double radius, double tube_radius, double cell, vox_io_mesh** out_mesh) {
     return make_body(out_mesh, {{radius, "radius"}, {tube_radius, "tube_radius"}}, cell, [&] {
         if (tube_radius >= radius)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("tube_radius is %g, expected less than radius, %g", tube_radius, radius));
+            refuse(format("tube_radius is %g, expected less than radius, %g", tube_radius, radius));
         return make_torus(radius, tube_radius, cell);
     });
 }

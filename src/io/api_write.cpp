@@ -15,16 +15,9 @@
 namespace vox::io {
 namespace {
 
-vox_io_write_desc default_write_desc() {
-    vox_io_write_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
-}
-
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
-    const vox_io_write_desc desc =
-        in ? read_struct(in, default_write_desc(), "vox_io_write_desc") : default_write_desc();
-    const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
+    vox_io_write_desc desc{};
+    if (in) desc = read_struct(in, desc, "vox_io_write_desc");
     if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
         refuse(
             format("vox_io_write_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
@@ -59,12 +52,10 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
     Output out(std::move(sink));
     const PointData point_data(desc.point_data, desc.point_data_count);
     const bool binary = desc.binary != 0;
-    if (desc.format == VOX_IO_WRITE_MSH_22)
-        write_msh22(mesh.data, point_data, binary, out);
-    else if (desc.format == VOX_IO_WRITE_MSH_41)
-        write_msh41(mesh.data, point_data, binary, out);
-    else
+    if (desc.format == VOX_IO_WRITE_VTU)
         write_vtu(mesh.data, point_data, binary, out);
+    else
+        write_msh(mesh.data, desc.format, point_data, binary, out);
     out.flush();
 }
 
@@ -109,7 +100,7 @@ using namespace vox;
 using namespace vox::io;
 
 vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, default_write_desc(), "vox_io_write_desc"); });
+    return border([&] { init_struct(desc, struct_size, vox_io_write_desc{}, "vox_io_write_desc"); });
 }
 
 vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc) {
@@ -132,11 +123,10 @@ vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* des
     return border([&] {
         require(mesh, "mesh");
         require(sink, "sink");
-        if (!sink->write) throw Error(VOX_ERROR_INVALID_ARGUMENT, "sink->write is null");
+        if (!sink->write) refuse("sink->write is null");
         const vox_io_write_desc settings = checked(desc, *mesh);
         if (settings.format == VOX_IO_WRITE_AUTO)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        "vox_io_write_desc.format is AUTO, which needs a file name");
+            refuse("vox_io_write_desc.format is AUTO, which needs a file name");
         write(*mesh, settings, [&](std::string_view bytes) {
             if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
                 throw Error(VOX_ERROR_FILE, "the sink reports a failure");

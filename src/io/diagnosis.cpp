@@ -1,12 +1,13 @@
 // Facets, edges and tets are sorted into buckets of equal lowest vertex by counting, and compared within a
 // bucket. This takes linear time, and 32 bytes a tet during the call.
-#include "io/diagnosis.hpp"
+#include "io/mesh.hpp"
 
 #include "base/error.hpp"
 #include "base/llu.hpp"
+#include "base/sampling.hpp"
+#include "exact/predicates.hpp"
 #include "io/buckets.hpp"
 #include "io/determinant.hpp"
-#include "io/volume_sign.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,12 +85,6 @@ void count_edges(const MeshData& data, vox_io_report& report) {
         });
 }
 
-std::uint64_t mixed(std::uint64_t x) { // the finaliser of SplitMix64 (Steele, Lea, Flood 2014)
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return x ^ (x >> 31);
-}
-
 void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     constexpr Index empty = 0xffffffffu;
     std::vector<Index> table(std::bit_ceil(report.vertices * 2 + 1), empty);
@@ -97,8 +92,10 @@ void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
     for (std::uint64_t v = 0; v < report.vertices; ++v) {
         const double* p = &data.positions[3 * v];
         std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) // adding 0.0 turns -0 into 0
-            hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<std::uint64_t>(p[k] + 0.0));
+        for (int k = 0; k < 3; ++k) {
+            hash += std::bit_cast<std::uint64_t>(p[k] + 0.0); // adding 0.0 turns -0 into 0
+            hash = next_random(hash);
+        }
         for (std::uint64_t slot = hash & mask;; slot = (slot + 1) & mask) {
             if (table[slot] == empty) {
                 table[slot] = static_cast<Index>(v);
@@ -151,12 +148,24 @@ void count_components(const MeshData& data, vox_io_report& report) {
     }
 }
 
+// The exact sign of the volume of a tetrahedron with these corners, over the whole range of finite doubles.
+// The error bound of orientation() holds for coordinates below 2^128.
+int volume_sign(const double* const (&p)[4]) {
+    bool bounded = true;
+    for (const double* corner : p)
+        for (int k = 0; k < 3; ++k) bounded = bounded && std::fabs(corner[k]) < 0x1p128;
+    const auto at = [&](int i) { return Vec3d{p[i][0], p[i][1], p[i][2]}; };
+    std::uint64_t exact_tests = 0;
+    return bounded ? orientation(at(0), at(1), at(2), at(3), exact_tests)
+                   : exact_orientation(at(0), at(1), at(2), at(3));
+}
+
 void measure_tets(const MeshData& data, vox_io_report& report) {
     for (std::size_t t = 0; t < data.tets.size(); t += 4) {
         const double* p[4];
         for (std::size_t i = 0; i < 4; ++i)
             p[i] = &data.positions[3 * static_cast<std::size_t>(data.tets[t + i])];
-        const int sign = volume_sign(p[0], p[1], p[2], p[3]);
+        const int sign = volume_sign(p);
         report.inverted_tets += sign < 0;
         report.degenerate_tets += sign == 0;
         if (sign == 0) continue;

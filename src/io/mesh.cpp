@@ -1,7 +1,5 @@
 #include "io/mesh.hpp"
 
-#include "io/diagnosis.hpp"
-
 #include <memory>
 #include <utility>
 

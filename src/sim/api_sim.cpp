@@ -11,7 +11,6 @@ namespace {
 
 vox_sim_desc sim_defaults() {
     vox_sim_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.substeps = 10;
     desc.detect_every = 1;
     desc.gravity[2] = -9.81;
@@ -25,7 +24,6 @@ vox_sim_desc sim_defaults() {
 
 vox_sim_body_desc body_defaults() {
     vox_sim_body_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.density = 1000;
     desc.youngs_modulus = 1e6;
     desc.bulk_modulus = 1e6;
@@ -117,9 +115,8 @@ vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const doub
         require(acceleration, "acceleration");
         for (int axis = 0; axis < 3; ++axis)
             if (!(std::abs(acceleration[axis]) <= 1e15))
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
-                                   acceleration[axis], axis));
+                refuse(format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
+                              acceleration[axis], axis));
         target.acceleration = sim::Vec3(acceleration[0], acceleration[1], acceleration[2]);
     });
 }

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double farthest = 1e15; // largest coordinate; the sixth power of it is finite
 
-[[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
-
 void check_vectors(const double* values, std::uint64_t count, const char* name) {
     for (std::uint64_t i = 0; i < 3 * count; ++i) {
         if (!std::isfinite(values[i]))

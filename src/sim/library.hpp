@@ -19,4 +19,11 @@ struct GridDeleter {
 };
 using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
 
+// `desc` may be null.
+inline GridHandle create_grid(const vox_grid_desc* desc) {
+    vox_grid* grid = nullptr;
+    check(vox_grid_create(desc, &grid));
+    return GridHandle(grid);
+}
+
 } // namespace vox::sim

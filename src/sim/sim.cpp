@@ -15,8 +15,6 @@ namespace {
 
 constexpr double shortest_time_step = 1e-12; // with 10000 substeps, their squares are still normal numbers
 
-[[noreturn]] void refuse(const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); }
-
 Vec3 check_vector(const double values[3], const char* name) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(values[axis]) <= 1e15))
@@ -57,12 +55,10 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
     if (!(desc.contact_slop <= 1e60))
         refuse(format("sim contact_slop is %g, expected a number up to 1e60", desc.contact_slop));
     if (desc.reserved != 0) refuse(format("sim reserved is %u, expected 0", desc.reserved));
-    vox_grid* grid = nullptr;
-    check(vox_grid_create(desc.grid, &grid));
-    grid_.reset(grid);
+    grid_ = create_grid(desc.grid);
     vox_penetration_view penetrations;
-    check(vox_grid_penetrations(grid,
-                                &penetrations)); // fails for a grid without them, which the response needs
+    // Fails for a grid without penetrations, which the response needs.
+    check(vox_grid_penetrations(grid(), &penetrations));
 }
 
 // ---- step -----------------------------------------------------------------------------------------

@@ -92,8 +92,8 @@ public:
     MeshData read() {
         data_.format = VOX_IO_FORMAT_SURFACE;
         if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= scene_.mNumMeshes)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s: mesh %u was asked for, but the file holds %u",
-                                                           name_.c_str(), mesh_index_, scene_.mNumMeshes));
+            refuse(format("%s: mesh %u was asked for, but the file holds %u", name_.c_str(), mesh_index_,
+                          scene_.mNumMeshes));
         if (scene_.mRootNode) add_node(*scene_.mRootNode);
         if (data_.triangles.empty())
             throw Error(VOX_ERROR_FORMAT, format("%s: expected triangles, found none", name_.c_str()));

@@ -173,33 +173,26 @@ private:
             const auto count = in_.count("number of nodes", binary_ ? 28 : 7, max_count);
             in_.line_end();
             data_.positions.reserve(3 * count);
-            for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(0) : text_node();
+            for (std::uint64_t i = 0; i < count; ++i) read_node(0);
         } else {
             read_node_blocks();
         }
         numbers_.finish(in_);
     }
 
-    void text_node() {
-        in_.skip_space();
-        numbers_.add(in_.integer<std::int64_t>("a node number"));
-        text_position();
+    void read_node(std::size_t extra) {
+        begin_line();
+        numbers_.add(binary_ ? in_.binary<std::int32_t>(swap_, "a node number")
+                             : in_.integer<std::int64_t>("a node number"));
+        read_position(extra);
     }
 
-    void text_position() {
-        for (int k = 0; k < 3; ++k) data_.positions.push_back(in_.real("a coordinate"));
-        if (parametric_)
-            in_.skip_line();
-        else
-            in_.line_end();
-    }
-
-    void binary_node(std::size_t extra) {
-        numbers_.add(in_.binary<std::int32_t>(swap_, "a node number"));
-        binary_position(extra);
-    }
-
-    void binary_position(std::size_t extra) {
+    // The rest of a line, or in a binary file 24 bytes and `extra` ones that are not needed.
+    void read_position(std::size_t extra) {
+        if (!binary_) {
+            for (int k = 0; k < 3; ++k) data_.positions.push_back(in_.real("a coordinate"));
+            return parametric_ ? in_.skip_line() : in_.line_end();
+        }
         const std::size_t start = in_.offset();
         const char* bytes = in_.take(24 + extra, "a position");
         for (std::size_t k = 0; k < 3; ++k) {
@@ -218,19 +211,11 @@ private:
         const std::uint64_t total = total_count("number of nodes", binary_ ? 28 : 8);
         data_.positions.reserve(3 * total);
         for (std::uint64_t b = 0; b < blocks; ++b) {
-            int dimension;
-            if (binary_) {
-                const auto first = in_.binary<std::int32_t>(swap_, "an entity");
-                const auto second = in_.binary<std::int32_t>(swap_, "an entity");
-                dimension = version_ == 40 ? second : first;
-                parametric_ = in_.binary<std::int32_t>(swap_, "parametric (0 or 1)") != 0;
-            } else {
-                in_.skip_space();
-                const auto first = in_.integer<std::int32_t>("an entity");
-                const auto second = in_.integer<std::int32_t>("an entity");
-                dimension = version_ == 40 ? second : first;
-                parametric_ = in_.integer<std::int32_t>("parametric (0 or 1)") != 0;
-            }
+            begin_line();
+            const auto first = read_number<std::int32_t>("an entity");
+            const auto second = read_number<std::int32_t>("an entity");
+            const int dimension = version_ == 40 ? second : first;
+            parametric_ = read_number<std::int32_t>("parametric (0 or 1)") != 0;
             if (dimension < 0 || dimension > 3)
                 in_.fail(format("expected an entity of dimension 0 to 3, found %d", dimension));
             const std::uint64_t count = in_block("nodes in this block", binary_ ? 28 : 8);
@@ -239,17 +224,16 @@ private:
                                 llu(count), data_.positions.size() / 3));
             const std::size_t extra = parametric_ ? 8 * static_cast<std::size_t>(dimension) : 0;
             if (version_ == 40) {
-                for (std::uint64_t i = 0; i < count; ++i) binary_ ? binary_node(extra) : text_node();
+                for (std::uint64_t i = 0; i < count; ++i) read_node(extra);
             } else {
                 for (std::uint64_t i = 0; i < count; ++i) {
-                    if (!binary_) in_.skip_space();
-                    numbers_.add(binary_ ? in_.binary<std::int64_t>(swap_, "a node number")
-                                         : in_.integer<std::int64_t>("a node number"));
+                    begin_line();
+                    numbers_.add(read_number<std::int64_t>("a node number"));
                     if (!binary_) in_.line_end();
                 }
                 for (std::uint64_t i = 0; i < count; ++i) {
-                    if (!binary_) in_.skip_space();
-                    binary_ ? binary_position(extra) : text_position();
+                    begin_line();
+                    read_position(extra);
                 }
             }
         }
@@ -385,14 +369,22 @@ private:
 
     // ---- shared ----
 
+    void begin_line() {
+        if (!binary_) in_.skip_space();
+    }
+    template <class Integer>
+    Integer read_number(const char* what) {
+        return binary_ ? in_.binary<Integer>(swap_, what) : in_.integer<Integer>(what);
+    }
+
     // A section of versions 4.x begins with the number of blocks and the total number of nodes or elements.
     // Version 4.1 adds their lowest and highest number, which are not needed.
     std::uint64_t block_count() {
-        if (!binary_) in_.skip_space();
-        return binary_ ? binary_count("number of blocks", 20) : in_.count("number of blocks", 4, max_count);
+        begin_line();
+        return read_count("number of blocks", binary_ ? 20 : 4);
     }
     std::uint64_t total_count(const char* what, std::size_t bytes) {
-        const std::uint64_t total = binary_ ? binary_count(what, bytes) : in_.count(what, bytes, max_count);
+        const std::uint64_t total = read_count(what, bytes);
         if (binary_ && version_ == 41) in_.take(16, "lowest and highest number");
         if (!binary_ && version_ == 41) {
             in_.integer<std::uint64_t>("the lowest number");
@@ -402,12 +394,12 @@ private:
         return total;
     }
     std::uint64_t in_block(const char* what, std::size_t bytes) {
-        if (binary_) return binary_count(what, bytes);
-        const std::uint64_t count = in_.count(what, bytes, max_count);
-        in_.line_end();
+        const std::uint64_t count = read_count(what, bytes);
+        if (!binary_) in_.line_end();
         return count;
     }
-    std::uint64_t binary_count(const char* what, std::size_t bytes) {
+    std::uint64_t read_count(const char* what, std::size_t bytes) {
+        if (!binary_) return in_.count(what, bytes, max_count);
         const std::size_t start = in_.offset();
         const auto count = in_.binary<std::uint64_t>(swap_, what);
         in_.check_count(what, count, bytes, max_count, start);

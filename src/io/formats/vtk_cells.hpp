@@ -55,10 +55,9 @@ enum class VtkNumber : std::uint8_t { none, i8, u8, i16, u16, i32, u32, i64, u64
 VtkNumber vtk_number(std::string_view name);
 std::size_t size_of(VtkNumber number);
 
-// Appends stored numbers to `out`, integers as their 64-bit pattern.
+// Appends stored numbers to `out`, of doubles or of std::uint64_t, which holds integers as their bit pattern.
+template <class Out>
 void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
-                        std::vector<double>& out);
-void append_vtk_numbers(VtkNumber type, const char* bytes, std::uint64_t count, bool swap,
-                        std::vector<std::uint64_t>& out);
+                        std::vector<Out>& out);
 
 } // namespace vox::io

@@ -16,180 +16,156 @@ struct Kind {
     std::uint64_t count() const { return corners.size() / nodes; }
 };
 
-void write_header(const char* version, bool binary, Output& out) {
-    out << "$MeshFormat\n" << version << (binary ? " 1 8\n" : " 0 8\n");
-    if (binary) out.binary<std::int32_t>(1) << '\n';
-    out << "$EndMeshFormat\n";
-}
+// Writes the sections of a file. Numbers are bytes, or text in rows with a blank between two numbers.
+class MshWriter {
+public:
+    MshWriter(const MeshData& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
 
-void write_position(const double* p, bool binary, Output& out) {
-    if (binary)
-        out.binary(p[0]).binary(p[1]).binary(p[2]);
-    else
-        out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-}
+    void write(vox_io_write_format version, PointData point_data) {
+        const bool version_41 = version == VOX_IO_WRITE_MSH_41;
+        out_ << "$MeshFormat\n" << (version_41 ? "4.1" : "2.2") << (binary_ ? " 1 8\n" : " 0 8\n");
+        if (binary_) out_.binary<std::uint32_t>(1) << '\n';
+        out_ << "$EndMeshFormat\n";
+        if (version_41)
+            write_blocks();
+        else
+            write_lists();
+        for (const vox_io_point_data& array : point_data) write_point_data(array);
+    }
 
-// $NodeData is the same in both versions. Integers are int32.
-void write_point_data(const MeshData& mesh, PointData point_data, bool binary, Output& out) {
-    const std::uint64_t vertices = mesh.positions.size() / 3;
-    for (const vox_io_point_data& array : point_data) {
-        out << "$NodeData\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n"
-            << array.components << '\n'
-            << vertices << '\n';
-        for (std::uint64_t v = 0; v < vertices; ++v) {
-            if (binary)
-                out.binary(static_cast<std::int32_t>(v + 1));
-            else
-                out << v + 1;
-            for (std::uint64_t c = 0; c < array.components; ++c) {
-                const double value = array.values[v * array.components + c];
-                if (binary)
-                    out.binary(value);
-                else
-                    out << ' ' << value;
+private:
+    template <class Number>
+    void put(Number number) {
+        if (binary_) {
+            out_.binary(number);
+            return;
+        }
+        if (!row_is_empty_) out_ << ' ';
+        out_ << number;
+        row_is_empty_ = false;
+    }
+    void end_row() {
+        if (!binary_) out_ << '\n';
+        row_is_empty_ = true;
+    }
+    template <class... Number>
+    void row(Number... numbers) {
+        (put(numbers), ...);
+        end_row();
+    }
+
+    void end_section(const char* mark) { out_ << (binary_ ? "\n" : "") << mark; }
+
+    // ---- version 2.2; integers have 32 bits ----
+
+    void write_lists() {
+        if (elements_ > std::numeric_limits<std::int32_t>::max())
+            throw Error(VOX_ERROR_LIMIT,
+                        format("%llu elements are more than .msh 2.2 can number", llu(elements_)));
+        out_ << "$Nodes\n" << vertices_ << '\n';
+        const double* p = mesh_.positions.data();
+        for (std::uint32_t v = 0; v < vertices_; ++v, p += 3) row(v + 1, p[0], p[1], p[2]);
+        end_section("$EndNodes\n");
+
+        out_ << "$Elements\n" << elements_ << '\n';
+        const std::uint32_t tags = 2;
+        std::uint32_t number = 1;
+        for (const Kind& kind : kinds_) {
+            if (kind.count() == 0) continue;
+            if (binary_) row(kind.type, static_cast<std::uint32_t>(kind.count()), tags);
+            for (std::size_t i = 0; i < kind.corners.size(); i += kind.nodes) {
+                put(number++);
+                if (!binary_) {
+                    put(kind.type);
+                    put(tags);
+                }
+                put(std::uint32_t{1});
+                put(std::uint32_t{1});
+                for (std::uint32_t c = 0; c < kind.nodes; ++c) put(kind.corners[i + c] + 1);
+                end_row();
             }
-            if (!binary) out << '\n';
         }
-        out << (binary ? "\n$EndNodeData\n" : "$EndNodeData\n");
+        end_section("$EndElements\n");
     }
-}
 
-// Writes $Entities of version 4.1: at most one surface and one volume, both with the box of all vertices, and
-// without physical groups and boundaries.
-void write_entities(const MeshData& mesh, bool surface, bool volume, bool binary, Output& out) {
-    double box[6] = {};
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const std::size_t k = i % 3;
-        box[k] = i < 3 ? mesh.positions[i] : std::min(box[k], mesh.positions[i]);
-        box[3 + k] = i < 3 ? mesh.positions[i] : std::max(box[3 + k], mesh.positions[i]);
-    }
-    out << "$Entities\n";
-    if (binary)
-        out.binary<std::uint64_t>(0)
-            .binary<std::uint64_t>(0)
-            .binary<std::uint64_t>(surface)
-            .binary<std::uint64_t>(volume);
-    else
-        out << "0 0 " << (surface ? "1 " : "0 ") << (volume ? "1\n" : "0\n");
-    for (const bool present : {surface, volume}) {
-        if (!present) continue;
-        if (binary)
-            out.binary<std::int32_t>(1);
-        else
-            out << '1';
-        for (const double x : box) {
-            if (binary)
-                out.binary(x);
-            else
-                out << ' ' << x;
+    // ---- version 4.1; counts and the numbers of nodes and elements have 64 bits ----
+
+    void write_blocks() {
+        constexpr std::uint32_t entity = 1, parametric = 0;
+        constexpr std::uint64_t one = 1;
+        const bool volume = kinds_[1].count() > 0, surface = kinds_[0].count() > 0 || !volume;
+        write_entities(surface, volume);
+
+        out_ << "$Nodes\n"; // in one block
+        row(one, vertices_, one, vertices_);
+        row(std::uint32_t{volume ? 3u : 2u}, entity, parametric, vertices_);
+        for (std::uint64_t v = 0; v < vertices_; ++v) row(v + 1);
+        const double* p = mesh_.positions.data();
+        for (std::uint64_t v = 0; v < vertices_; ++v, p += 3) row(p[0], p[1], p[2]);
+        end_section("$EndNodes\n");
+
+        out_ << "$Elements\n";
+        const std::uint64_t blocks = (kinds_[0].count() > 0) + (kinds_[1].count() > 0);
+        row(blocks, elements_, one, elements_);
+        std::uint64_t number = 1;
+        for (const Kind& kind : kinds_) {
+            if (kind.count() == 0) continue;
+            row(kind.dimension, entity, kind.type, kind.count());
+            for (std::size_t i = 0; i < kind.corners.size(); i += kind.nodes) {
+                put(number++);
+                for (std::uint32_t c = 0; c < kind.nodes; ++c) put(std::uint64_t{kind.corners[i + c]} + 1);
+                end_row();
+            }
         }
-        if (binary)
-            out.binary<std::uint64_t>(0).binary<std::uint64_t>(0);
-        else
-            out << " 0 0\n";
+        end_section("$EndElements\n");
     }
-    out << (binary ? "\n$EndEntities\n" : "$EndEntities\n");
-}
+
+    // At most one surface and one volume, both with the box of all vertices, and without physical groups and
+    // boundaries.
+    void write_entities(bool surface, bool volume) {
+        constexpr std::uint64_t none = 0;
+        double box[6] = {};
+        for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+            const std::size_t k = i % 3;
+            box[k] = i < 3 ? mesh_.positions[i] : std::min(box[k], mesh_.positions[i]);
+            box[3 + k] = i < 3 ? mesh_.positions[i] : std::max(box[3 + k], mesh_.positions[i]);
+        }
+        out_ << "$Entities\n";
+        row(none, none, std::uint64_t{surface}, std::uint64_t{volume});
+        for (const bool present : {surface, volume})
+            if (present) row(std::uint32_t{1}, box[0], box[1], box[2], box[3], box[4], box[5], none, none);
+        end_section("$EndEntities\n");
+    }
+
+    // ---- both versions ----
+
+    void write_point_data(const vox_io_point_data& array) {
+        out_ << "$NodeData\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n"
+             << array.components << '\n'
+             << vertices_ << '\n';
+        const double* value = array.values;
+        for (std::uint32_t v = 0; v < vertices_; ++v) {
+            put(v + 1);
+            for (std::uint32_t c = 0; c < array.components; ++c) put(*value++);
+            end_row();
+        }
+        end_section("$EndNodeData\n");
+    }
+
+    const MeshData& mesh_;
+    const bool binary_;
+    Output& out_;
+    bool row_is_empty_ = true;
+    const std::uint64_t vertices_ = mesh_.positions.size() / 3;
+    const Kind kinds_[2] = {{mesh_.triangles, 3, 2, 2}, {mesh_.tets, 4, 4, 3}};
+    const std::uint64_t elements_ = kinds_[0].count() + kinds_[1].count();
+};
 
 } // namespace
 
-void write_msh22(const MeshData& mesh, PointData point_data, bool binary, Output& out) {
-    const std::uint64_t vertices = mesh.positions.size() / 3;
-    const Kind kinds[] = {{mesh.triangles, 3, 2, 2}, {mesh.tets, 4, 4, 3}};
-    const std::uint64_t elements = kinds[0].count() + kinds[1].count();
-    if (elements > std::numeric_limits<std::int32_t>::max())
-        throw Error(VOX_ERROR_LIMIT,
-                    format("%llu elements are more than .msh 2.2 can number", llu(elements)));
-    write_header("2.2", binary, out);
-    out << "$Nodes\n" << vertices << '\n';
-    for (std::uint64_t v = 0; v < vertices; ++v) {
-        if (binary)
-            out.binary(static_cast<std::int32_t>(v + 1));
-        else
-            out << v + 1 << ' ';
-        write_position(&mesh.positions[3 * v], binary, out);
-    }
-    out << (binary ? "\n$EndNodes\n" : "$EndNodes\n") << "$Elements\n" << elements << '\n';
-    std::uint32_t number = 1;
-    for (const Kind& kind : kinds) {
-        if (kind.count() == 0) continue;
-        if (binary)
-            out.binary(kind.type).binary(static_cast<std::uint32_t>(kind.count())).binary<std::uint32_t>(2);
-        for (std::size_t i = 0; i < kind.corners.size(); i += kind.nodes) {
-            if (binary)
-                out.binary(number++).binary<std::uint32_t>(1).binary<std::uint32_t>(1);
-            else
-                out << number++ << ' ' << kind.type << " 2 1 1";
-            for (std::uint32_t c = 0; c < kind.nodes; ++c) {
-                if (binary)
-                    out.binary(kind.corners[i + c] + 1);
-                else
-                    out << ' ' << kind.corners[i + c] + 1;
-            }
-            if (!binary) out << '\n';
-        }
-    }
-    out << (binary ? "\n$EndElements\n" : "$EndElements\n");
-    write_point_data(mesh, point_data, binary, out);
-}
-
-void write_msh41(const MeshData& mesh, PointData point_data, bool binary, Output& out) {
-    const std::uint64_t vertices = mesh.positions.size() / 3;
-    const Kind kinds[] = {{mesh.triangles, 3, 2, 2}, {mesh.tets, 4, 4, 3}};
-    const std::uint64_t elements = kinds[0].count() + kinds[1].count();
-    const std::uint64_t blocks = (kinds[0].count() > 0) + (kinds[1].count() > 0);
-    const std::int32_t node_dimension = kinds[1].count() > 0 ? 3 : 2;
-    write_header("4.1", binary, out);
-
-    write_entities(mesh, node_dimension == 2 || kinds[0].count() > 0, node_dimension == 3, binary, out);
-
-    // There is one block of nodes. It begins with its entity, `parametric` and the number of nodes.
-    out << "$Nodes\n";
-    if (binary) {
-        out.binary<std::uint64_t>(1).binary(vertices).binary<std::uint64_t>(1).binary(vertices);
-        out.binary(node_dimension).binary<std::int32_t>(1).binary<std::int32_t>(0).binary(vertices);
-    } else {
-        out << "1 " << vertices << " 1 " << vertices << '\n';
-        out << static_cast<std::uint32_t>(node_dimension) << " 1 0 " << vertices << '\n';
-    }
-    for (std::uint64_t v = 0; v < vertices; ++v) {
-        if (binary)
-            out.binary(v + 1);
-        else
-            out << v + 1 << '\n';
-    }
-    for (std::uint64_t v = 0; v < vertices; ++v) write_position(&mesh.positions[3 * v], binary, out);
-    out << (binary ? "\n$EndNodes\n" : "$EndNodes\n");
-
-    out << "$Elements\n";
-    if (binary)
-        out.binary(blocks).binary(elements).binary<std::uint64_t>(1).binary(elements);
-    else
-        out << blocks << ' ' << elements << " 1 " << elements << '\n';
-    std::uint64_t number = 1;
-    for (const Kind& kind : kinds) {
-        if (kind.count() == 0) continue;
-        if (binary)
-            out.binary(kind.dimension).binary<std::uint32_t>(1).binary(kind.type).binary(kind.count());
-        else
-            out << kind.dimension << " 1 " << kind.type << ' ' << kind.count() << '\n';
-        for (std::size_t i = 0; i < kind.corners.size(); i += kind.nodes) {
-            if (binary)
-                out.binary(number++);
-            else
-                out << number++;
-            for (std::uint32_t c = 0; c < kind.nodes; ++c) {
-                const std::uint64_t node = std::uint64_t{kind.corners[i + c]} + 1;
-                if (binary)
-                    out.binary(node);
-                else
-                    out << ' ' << node;
-            }
-            if (!binary) out << '\n';
-        }
-    }
-    out << (binary ? "\n$EndElements\n" : "$EndElements\n");
-    write_point_data(mesh, point_data, binary, out);
+void write_msh(const MeshData& mesh, vox_io_write_format version, PointData point_data, bool binary,
+               Output& out) {
+    MshWriter(mesh, binary, out).write(version, point_data);
 }
 
 } // namespace vox::io

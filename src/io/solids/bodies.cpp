@@ -1,3 +1,4 @@
+// Bodies by isosurface stuffing, from functions of space that are positive inside.
 #include "io/solids/bodies.hpp"
 
 #include "base/error.hpp"
@@ -40,8 +41,7 @@ MeshData make(const Point& half, double cell, Depth&& depth) {
                            return out;
                        }};
     MeshData mesh = stuff(body, 0, VOX_MAX_TETS, Progress());
-    if (mesh.tets.empty())
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("no tet fits into the body with a cell of %g", cell));
+    if (mesh.tets.empty()) refuse(format("no tet fits into the body with a cell of %g", cell));
     return mesh;
 }
 

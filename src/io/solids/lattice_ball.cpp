@@ -4,7 +4,7 @@
 // shape follows Spillmann, Wagner, Teschner, "Robust tetrahedral meshing of triangle soups", VMV 2006.
 //
 // The result is the same on every platform, since it uses only + - * / and square roots, in a fixed order.
-#include "io/solids/lattice_ball.hpp"
+#include "io/solids/bodies.hpp"
 
 #include "io/determinant.hpp"
 #include "io/solids/five_tets.hpp"

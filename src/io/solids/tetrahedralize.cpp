@@ -90,8 +90,7 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
     for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.max[k] - box.min[k]);
     double cell = desc.cell > 0 ? desc.cell : longest / 50;
     if (!std::isfinite(longest) || !(cell / 2 >= std::numeric_limits<double>::min()))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("no cells of %g fit a surface that is %g long", cell, longest));
+        refuse(format("no cells of %g fit a surface that is %g long", cell, longest));
     const bool to_distance = desc.max_distance > 0 && desc.kind == VOX_IO_SOLID_STUFFED;
     for (std::uint32_t halvings = 0;; ++halvings, cell /= 2) {
         // The number of rounds is not known, so each counts as half of what is left.
@@ -101,9 +100,8 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
         // Halving the cells makes at least four times as many tets at the boundary.
         const bool last = 2 * longest / cell > max_cells || 4 * (mesh.tets.size() / 4) > desc.max_tets;
         if (mesh.tets.empty() && (!to_distance || last))
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("no tet fits into the surface with a cell of %g (its longest side is %g)",
-                               cell, longest));
+            refuse(format("no tet fits into the surface with a cell of %g (its longest side is %g)", cell,
+                          longest));
         const double reached =
             to_distance && !mesh.tets.empty() ? measure_quality(view_of(mesh), &surface).hausdorff : 0;
         if (!mesh.tets.empty() && (!to_distance || reached <= desc.max_distance)) {

@@ -15,17 +15,12 @@ using namespace vox::sim;
 
 namespace {
 
-struct SimDeleter {
-    void operator()(vox_sim* sim) const noexcept { vox_sim_destroy(sim); }
-};
-
 vox_sim_body_desc read_body(const vox_sim_body_desc* body, const char* name) {
     const vox_sim_body_desc desc = read_struct(body, vox_default_sim_body_desc(), name);
     if (desc.vertex_count == 0 || desc.tet_count == 0 || !desc.positions || !desc.tets)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s has %" PRIu64 " vertices%s and %" PRIu64 " tets%s, expected some of both",
-                           name, desc.vertex_count, desc.positions ? "" : " (null)", desc.tet_count,
-                           desc.tets ? "" : " (null)"));
+        refuse(format("%s has %" PRIu64 " vertices%s and %" PRIu64 " tets%s, expected some of both", name,
+                      desc.vertex_count, desc.positions ? "" : " (null)", desc.tet_count,
+                      desc.tets ? "" : " (null)"));
     if (desc.vertex_count > VOX_MAX_VERTICES || desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT,
                     format("%s has %" PRIu64 " vertices and %" PRIu64 " tets, the limits are %u, %u", name,
@@ -116,7 +111,7 @@ std::vector<vox_experiment::Frame> vox_experiment::record(const vox_experiment_d
     const vox_sim_desc settings = sim_settings(desc.sim);
     vox_sim* created = nullptr;
     check(vox_sim_create(&settings, &created));
-    const std::unique_ptr<vox_sim, SimDeleter> sim(created);
+    const std::unique_ptr<vox_sim, decltype(&vox_sim_destroy)> sim(created, &vox_sim_destroy);
     vox_sim_body_view views[2] = {};
     for (int i = 0; i < 2; ++i) {
         bodies[i].positions = i == 0 ? shapes_[0].positions.data() : b.positions.data();
@@ -186,9 +181,7 @@ void vox_experiment::make_grid(const vox_grid_desc* given) {
     if (given) desc = read_struct(given, vox_default_grid_desc(), "desc.grid");
     desc.struct_size = sizeof desc;
     desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // only detection is measured
-    vox_grid* created = nullptr;
-    check(vox_grid_create(&desc, &created));
-    grid_.reset(created);
+    grid_ = create_grid(&desc);
     for (int body = 0; body < 2; ++body) {
         const vox_mesh_desc mesh = mesh_desc(body, frames_.front());
         check(vox_mesh_insert(grid_.get(), &mesh, &meshes_[body]));
@@ -211,9 +204,6 @@ vox_suggestion vox_experiment::suggest(const vox_suggest_desc* desc) const {
 }
 
 vox_experiment_sample vox_experiment::measure(double cell_size, std::vector<std::uint64_t>& frame_ns) {
-    if (!(cell_size > 0) || !std::isfinite(cell_size))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("cell_size is %.9g, expected a finite number above 0", cell_size));
     check(vox_grid_set_cell_size(grid_.get(), cell_size));
     step(frames_.back()); // not timed; allocates memory for this cell size, with another frame than the next
 

@@ -1,5 +1,6 @@
 // The C border of the experiment, with the order and the statistics of its samples.
 #include "base/border.hpp"
+#include "base/sampling.hpp"
 #include "base/structs.hpp"
 #include "sim/experiment/experiment.hpp"
 #include "sim/experiment/fit.hpp"
@@ -18,7 +19,6 @@ constexpr std::uint32_t max_frames = 1000;
 
 vox_experiment_desc experiment_defaults() {
     vox_experiment_desc desc{};
-    desc.struct_size = sizeof desc;
     desc.frames = 10;
     desc.axis[0] = 1;
     desc.contact_share = 0.01;
@@ -28,8 +28,7 @@ vox_experiment_desc experiment_defaults() {
 }
 
 void check_number(bool good, double value, const char* name, const char* expected) {
-    if (!good || !std::isfinite(value))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %.9g, expected %s", name, value, expected));
+    if (!good || !std::isfinite(value)) refuse(format("%s is %.9g, expected %s", name, value, expected));
 }
 
 void check_positive(double value, const char* name) {
@@ -39,29 +38,16 @@ void check_positive(double value, const char* name) {
 void check_experiment_desc(const vox_experiment_desc& desc) {
     require(desc.a, "desc.a");
     if (desc.frames == 0 || desc.frames > max_frames)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.frames is %u, expected 1 to %u", desc.frames, max_frames));
+        refuse(format("desc.frames is %u, expected 1 to %u", desc.frames, max_frames));
     const double length = std::hypot(desc.axis[0], desc.axis[1], desc.axis[2]);
     if (!(length > 0) || !std::isfinite(length))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.axis is (%.9g, %.9g, %.9g), expected a direction", desc.axis[0],
-                           desc.axis[1], desc.axis[2]));
+        refuse(format("desc.axis is (%.9g, %.9g, %.9g), expected a direction", desc.axis[0], desc.axis[1],
+                      desc.axis[2]));
     check_number(desc.contact_share > 0 && desc.contact_share < 1, desc.contact_share, "desc.contact_share",
                  "a number between 0 and 1");
     check_positive(desc.time_step, "desc.time_step");
-    if (desc.turn > 1)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.turn is %u, expected 0 or 1", desc.turn));
-    if (desc.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc.reserved is %u, expected 0", desc.reserved));
-}
-
-// The SplitMix64 generator: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA
-// 2014.
-std::uint64_t next_random(std::uint64_t& state) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    if (desc.turn > 1) refuse(format("desc.turn is %u, expected 0 or 1", desc.turn));
+    if (desc.reserved != 0) refuse(format("desc.reserved is %u, expected 0", desc.reserved));
 }
 
 double median(std::vector<std::uint64_t>& values) {
@@ -76,10 +62,9 @@ vox_time_fit read_fit(const vox_time_fit* in) {
     if (fit.degree < 2 || fit.degree > max_fit_degree || !(fit.range_min > 0) ||
         !(fit.range_max > fit.range_min) || !std::isfinite(fit.range_max) ||
         !(fit.cell_size >= fit.range_min && fit.cell_size <= fit.range_max))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("fit was not filled by vox_fit_times: degree %u, range %.9g to %.9g, cell size "
-                           "%.9g",
-                           fit.degree, fit.range_min, fit.range_max, fit.cell_size));
+        refuse(format("fit was not filled by vox_fit_times: degree %u, range %.9g to %.9g, cell size "
+                      "%.9g",
+                      fit.degree, fit.range_min, fit.range_max, fit.cell_size));
     return fit;
 }
 
@@ -133,7 +118,7 @@ vox_result vox_experiment_order(std::uint64_t count, std::uint64_t seed, std::ui
                                 std::uint64_t* out_order) {
     return border([&] {
         require(out_order, "out_order");
-        if (count == 0) throw Error(VOX_ERROR_INVALID_ARGUMENT, "count is 0, expected at least 1");
+        if (count == 0) refuse("count is 0, expected at least 1");
         std::iota(out_order, out_order + count, std::uint64_t{0});
         std::uint64_t state = seed;
         state = next_random(state) + round;
@@ -148,9 +133,8 @@ vox_result vox_experiment_time(const std::uint64_t* frame_ns, std::uint64_t roun
         require(frame_ns, "frame_ns");
         require(out_ns, "out_ns");
         if (rounds == 0 || frames == 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%" PRIu64 " rounds of %" PRIu64 " frames, expected at least one of both",
-                               rounds, frames));
+            refuse(format("%" PRIu64 " rounds of %" PRIu64 " frames, expected at least one of both", rounds,
+                          frames));
         std::vector<std::uint64_t> of_frame;
         double sum = 0;
         for (std::uint64_t frame = 0; frame < frames; ++frame) {
@@ -174,12 +158,8 @@ vox_result vox_fit_times(const double* cell_sizes, const double* times, std::uin
             check_positive(times[i], format("times[%" PRIu64 "]", i).c_str());
         }
         const std::span<const double> sizes(cell_sizes, count);
-        std::vector<double> distinct(sizes.begin(), sizes.end());
-        std::sort(distinct.begin(), distinct.end());
-        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-        if (distinct.size() < 5)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%zu different cell sizes, expected at least 5", distinct.size()));
+        const std::size_t distinct = count_distinct(sizes);
+        if (distinct < 5) refuse(format("%zu different cell sizes, expected at least 5", distinct));
         write_struct(out_fit, fit_times(sizes, {times, count}), "out_fit");
     });
 }
@@ -189,9 +169,8 @@ vox_result vox_fit_time_at(const vox_time_fit* fit, double cell_size, double* ou
         require(out_time, "out_time");
         const vox_time_fit read = read_fit(fit);
         if (!(cell_size >= read.range_min && cell_size <= read.range_max))
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("cell_size is %.9g, the fit holds from %.9g to %.9g", cell_size,
-                               read.range_min, read.range_max));
+            refuse(format("cell_size is %.9g, the fit holds from %.9g to %.9g", cell_size, read.range_min,
+                          read.range_max));
         *out_time = fitted_time(read, cell_size);
     });
 }
@@ -202,9 +181,7 @@ vox_result vox_fit_zone(const vox_time_fit* fit, double limit, double* out_min, 
         require(out_max, "out_max");
         const vox_time_fit read = read_fit(fit);
         if (!(limit >= read.time) || !std::isfinite(limit))
-            throw Error(
-                VOX_ERROR_INVALID_ARGUMENT,
-                format("limit is %.9g, expected at least the fit's least time, %.9g", limit, read.time));
+            refuse(format("limit is %.9g, expected at least the fit's least time, %.9g", limit, read.time));
         const FitZone zone = fit_zone(read, limit);
         *out_min = zone.min;
         *out_max = zone.max;

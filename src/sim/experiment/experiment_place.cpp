@@ -78,9 +78,7 @@ ContactShare::ContactShare(const Shape& a, const Shape& b)
     : b_(b), tet_count_((a.tets.size() + b.tets.size()) / 4) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags = 0; // contacts alone
-    vox_grid* grid = nullptr;
-    check(vox_grid_create(&desc, &grid));
-    grid_.reset(grid);
+    grid_ = create_grid(&desc);
     round_positions(a.positions, a_positions_);
     b_positions_.resize(b.positions.size());
     for (const Shape* shape : {&a, &b}) {
@@ -90,7 +88,7 @@ ContactShare::ContactShare(const Shape& a, const Shape& b)
         mesh.tets = shape->tets.data();
         mesh.tet_count = shape->tets.size() / 4;
         vox_mesh id = VOX_NULL_MESH;
-        check(vox_mesh_insert(grid, &mesh, &id));
+        check(vox_mesh_insert(grid_.get(), &mesh, &id));
     }
 }
 

@@ -52,12 +52,6 @@ Basis next_basis(std::span<const double> u, const Basis& last, const Basis& befo
     return next;
 }
 
-std::size_t count_distinct(std::span<const double> values) {
-    std::vector<double> sorted(values.begin(), values.end());
-    std::sort(sorted.begin(), sorted.end());
-    return std::size_t(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
-}
-
 double power_series(const double (&coefficients)[max_fit_degree + 1], std::size_t degree, double u) {
     double sum = coefficients[degree];
     for (std::size_t k = degree; k-- > 0;) sum = sum * u + coefficients[k];
@@ -160,6 +154,12 @@ double crossing(const vox_time_fit& fit, double limit, double inside, double end
 }
 
 } // namespace
+
+std::size_t count_distinct(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::size_t(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
+}
 
 double fitted_time(const vox_time_fit& fit, double cell_size) {
     return std::exp(power_series(fit.coefficients, fit.degree, place_of(fit, cell_size)));

@@ -14,6 +14,8 @@ struct FitZone {
     double min, max;
 };
 
+std::size_t count_distinct(std::span<const double> values);
+
 // For positive finite numbers, with at least five different cell sizes.
 vox_time_fit fit_times(std::span<const double> cell_sizes, std::span<const double> times);
 
