@@ -86,8 +86,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
 
 vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
                                       vox_suggestion* out) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         check_out_struct(out, "out");
         vox_suggest_desc settings = read_suggest_desc(desc);
         grid->describe(settings, desc != nullptr);
