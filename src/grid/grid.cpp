@@ -150,7 +150,7 @@ void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
 
 void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
     const Mesh& old = mesh(id);
-    meshes_.check_room(view, old);
+    meshes_.check_room(view, &old);
     Mesh made = old.with_topology(desc, view);
     fast::MeshState state(&memory_);
     prepare(made, state);

@@ -75,6 +75,8 @@ public:
     [[noreturn]] void refuse(const std::string& text) const;
 
 private:
+    const std::byte* number(std::size_t bytes); // the next one
+
     std::array<char, 4> name_{};
     std::span<const std::byte> payload_;
     std::uint64_t at_ = 0; // of the chunk in the snapshot

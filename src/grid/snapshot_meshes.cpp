@@ -226,9 +226,8 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     if (has_rest) load_points(in, mesh.vertex_count(), rest);
     in.end();
     or_refuse(in, id, [&] {
-        if (has_rest)
-            mesh.self_filter_.rest =
-                mesh.copy_finite({reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)}, mesh.vertex_count());
+        const Positions given{reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)};
+        if (has_rest) mesh.self_filter_.rest = mesh.copy_finite(given, mesh.vertex_count());
         check_filter(filter);
         mesh.set_filter(filter);
     });
