@@ -122,9 +122,7 @@ vox_result vox_cost_get_weights(vox_cost_weights* out) {
 }
 
 vox_result vox_cost_set_weights(const vox_cost_weights* weights) {
-    return border([&] {
-        use_weights(read_weights(weights));
-    });
+    return border([&] { use_weights(read_weights(weights)); });
 }
 
 vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size) {

@@ -10,11 +10,6 @@ using namespace vox;
 
 namespace {
 
-// Turns a failed call of the public interface into an Error.
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
-
 struct Destroy {
     void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
 };
@@ -47,7 +42,8 @@ vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* 
         const SnapshotReader in({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
         const vox_grid_desc settings = Snapshot::settings(in, machine);
         vox_grid* created = nullptr;
-        check(vox_grid_create(&settings, &created));
+        const vox_result result = vox_grid_create(&settings, &created);
+        if (result != VOX_OK) throw Error(result, vox_last_error());
         std::unique_ptr<vox_grid, Destroy> grid(created);
         Snapshot::load(in, *grid);
         *out_grid = grid.release();

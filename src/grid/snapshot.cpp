@@ -9,11 +9,7 @@
 
 namespace vox {
 
-namespace {
-
 constexpr std::uint32_t live_bit = 1u << 31; // of a slot's word; the generation is in the others
-
-} // namespace
 
 // ---- GRID: settings -------------------------------------------------------------------------------
 
