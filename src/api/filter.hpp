@@ -1,4 +1,4 @@
-// Filters at the C border.
+// What more than one file of the C border reads from a caller.
 #pragma once
 
 #include <vox/vox.h>
