@@ -86,8 +86,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
 
 vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
                                       vox_suggestion* out) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         check_out_struct(out, "out");
         vox_suggest_desc settings = read_suggest_desc(desc);
         grid->describe(settings, desc != nullptr);
@@ -123,9 +122,7 @@ vox_result vox_cost_get_weights(vox_cost_weights* out) {
 }
 
 vox_result vox_cost_set_weights(const vox_cost_weights* weights) {
-    return border([&] {
-        use_weights(read_weights(weights));
-    });
+    return border([&] { use_weights(read_weights(weights)); });
 }
 
 vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size) {

@@ -1,5 +1,6 @@
 // The C border of cutting and growing.
 
+#include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "grid/grid.hpp"
@@ -34,11 +35,19 @@ std::span<const Tet> read_corners(const std::uint32_t* corners, std::uint64_t co
     return {reinterpret_cast<const Tet*>(corners), static_cast<std::size_t>(count)};
 }
 
+// Calls function(mesh), which edits `count` tets or vertices of it.
+template <class Function>
+vox_result edit(vox_grid* grid, vox_mesh mesh, std::uint64_t count, Function&& function) {
+    return border(grid, "grid", [&] {
+        function(grid->mesh(mesh));
+        grid->was_edited(mesh, count);
+    });
+}
+
 } // namespace
 
 vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         (void)grid->mesh(mesh); // throws for an id that names no mesh
         const vox_mesh_desc settings = read_struct(desc, vox_default_mesh_desc(), "desc");
         grid->set_topology(mesh, settings, check_mesh(settings, "", NullPositions::allowed));
@@ -47,28 +56,22 @@ vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_d
 
 vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
                                      uint32_t enabled) {
-    return border([&] {
-        require(grid, "grid");
-        (void)grid->mesh(mesh);
-        if (enabled > 1)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("enabled is %u, expected 0 or 1", enabled));
-        grid->set_tets_enabled(mesh, read_numbers(tets, count, 1, "tets"), enabled != 0);
+    return edit(grid, mesh, count, [&](Mesh& edited) {
+        const bool is_on = read_enabled(enabled); // complains before read_numbers() does
+        edited.set_tets_enabled(read_numbers(tets, count, 1, "tets"), is_on);
     });
 }
 
 vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
                                  const uint32_t* corners) {
-    return border([&] {
-        require(grid, "grid");
-        (void)grid->mesh(mesh);
-        grid->replace_tets(mesh, read_numbers(tets, count, 1, "tets"), read_corners(corners, count));
+    return edit(grid, mesh, count, [&](Mesh& edited) {
+        edited.replace_tets(read_numbers(tets, count, 1, "tets"), read_corners(corners, count));
     });
 }
 
 vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
                                 uint32_t* out_first) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         (void)grid->mesh(mesh);
         require(out_first, "out_first");
         *out_first = grid->append_tets(mesh, read_corners(corners, count));
@@ -76,11 +79,8 @@ vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* c
 }
 
 vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count) {
-    return border([&] {
-        require(grid, "grid");
-        (void)grid->mesh(mesh);
-        grid->remove_tets(mesh, read_numbers(tets, count, 1, "tets"));
-    });
+    return edit(grid, mesh, count,
+                [&](Mesh& edited) { edited.remove_tets(read_numbers(tets, count, 1, "tets")); });
 }
 
 vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size) {
@@ -89,8 +89,7 @@ vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size)
 
 vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
                                     uint32_t* out_first) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         (void)grid->mesh(mesh);
         require(out_first, "out_first");
         const vox_vertices_desc vertices = read_struct(desc, vertices_defaults(), "desc");
@@ -103,9 +102,6 @@ vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_ver
 }
 
 vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count) {
-    return border([&] {
-        require(grid, "grid");
-        (void)grid->mesh(mesh);
-        grid->remove_vertices(mesh, read_numbers(vertices, count, 1, "vertices"));
-    });
+    return edit(grid, mesh, count,
+                [&](Mesh& edited) { edited.remove_vertices(read_numbers(vertices, count, 1, "vertices")); });
 }

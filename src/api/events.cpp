@@ -3,7 +3,6 @@
 #include "base/border.hpp"
 #include "grid/grid.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
@@ -25,30 +24,25 @@ template <class Item>
 vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_mesh> meshes, Item* items,
                       const char* name, std::uint64_t capacity, std::uint64_t* out_count,
                       std::span<const Item> (*all_of)(const vox_grid&)) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_count, "out_count");
+    return border(grid, "grid", out_count, "out_count", [&] {
         if (capacity > 0) require(items, name);
         for (const vox_mesh mesh : meshes) (void)grid->mesh(mesh); // throws for an id that names no mesh
         const std::span<const Item> all = all_of(*grid);
-        // No more can be copied than there are, whatever the capacity.
-        const std::span<Item> out(items,
-                                  static_cast<std::size_t>(std::min<std::uint64_t>(capacity, all.size())));
-        const vox_mesh first = *meshes.begin();
-        *out_count = meshes.size() == 1 ? grid->events().copy_of_mesh(all, first, out)
-                                        : grid->events().copy_of_pair(all, first, meshes.begin()[1], out);
+        std::uint64_t count = 0;
+        grid->events().for_contacts_of(meshes, [&](std::uint32_t index) {
+            if (count < capacity) items[count] = all[index];
+            ++count;
+        });
+        return count;
     });
 }
 
 } // namespace
 
 vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
-        const Events& events = grid->events();
-        const std::span<const vox_pair> pairs = events.pairs();
-        *out_view = {pairs.data(), sizeof(vox_pair), pairs.size(), grid->epoch(), events.pair_contacts()};
+    return border(grid, "grid", out_view, "out_view", [&]() -> vox_pair_view {
+        const std::span<const vox_pair> pairs = grid->events().pairs();
+        return {pairs.data(), sizeof(vox_pair), pairs.size(), grid->epoch(), grid->events().pair_contacts()};
     });
 }
 
@@ -63,40 +57,25 @@ vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mes
 }
 
 vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
-        vox_touch_view view = grid->events().touch_events();
-        view.epoch = grid->epoch();
-        *out_view = view;
-    });
+    return border(grid, "grid", out_view, "out_view",
+                  [&] { return grid->events().touch_events(grid->epoch()); });
 }
 
 vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
-        vox_contact_event_view view = grid->events().contact_events();
-        view.epoch = grid->epoch();
-        *out_view = view;
-    });
+    return border(grid, "grid", out_view, "out_view",
+                  [&] { return grid->events().contact_events(grid->epoch()); });
 }
 
 // ---- readings -------------------------------------------------------------------------------------
 
 vox_result vox_grid_prepare_readings(vox_grid* grid) {
-    return border([&] {
-        require(grid, "grid");
-        grid->prepare_readings();
-    });
+    return border(grid, "grid", [&] { grid->prepare_readings(); });
 }
 
 vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
+    return border(grid, "grid", out_view, "out_view", [&]() -> vox_reading_view {
         const std::span<const vox_reading> readings = grid->readings();
-        *out_view = {readings.data(), sizeof(vox_reading), readings.size(), grid->epoch()};
+        return {readings.data(), sizeof(vox_reading), readings.size(), grid->epoch()};
     });
 }
 

@@ -13,47 +13,33 @@ vox_filter vox::read_filter(const vox_filter* given) {
     return filter;
 }
 
-using namespace vox;
-
-namespace {
-
-bool read_enabled(std::uint32_t enabled) {
+bool vox::read_enabled(std::uint32_t enabled) {
     if (enabled > 1)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("enabled is %u, expected 0 or 1", enabled));
     return enabled != 0;
 }
 
-} // namespace
+using namespace vox;
 
 vox_result vox_filter_init(vox_filter* filter, uint32_t struct_size) {
     return border([&] { init_struct(filter, struct_size, filter_defaults(), "filter"); });
 }
 
 vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         require(filter, "filter");
         grid->set_filter(mesh, read_filter(filter));
     });
 }
 
 vox_result vox_mesh_filter(const vox_grid* grid, vox_mesh mesh, vox_filter* out_filter) {
-    return border([&] {
-        require(grid, "grid");
-        write_struct(out_filter, grid->mesh(mesh).filter(), "out_filter");
-    });
+    return border(grid, "grid", [&] { write_struct(out_filter, grid->mesh(mesh).filter(), "out_filter"); });
 }
 
 vox_result vox_mesh_set_enabled(vox_grid* grid, vox_mesh mesh, uint32_t enabled) {
-    return border([&] {
-        require(grid, "grid");
-        grid->set_enabled(mesh, read_enabled(enabled));
-    });
+    return border(grid, "grid", [&] { grid->set_enabled(mesh, read_enabled(enabled)); });
 }
 
 vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, uint32_t enabled) {
-    return border([&] {
-        require(grid, "grid");
-        grid->set_pair_enabled(mesh_a, mesh_b, read_enabled(enabled));
-    });
+    return border(grid, "grid", [&] { grid->set_pair_enabled(mesh_a, mesh_b, read_enabled(enabled)); });
 }

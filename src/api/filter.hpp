@@ -1,11 +1,16 @@
-// Filters at the C border.
+// What more than one file of the C border reads from a caller.
 #pragma once
 
 #include <vox/vox.h>
+
+#include <cstdint>
 
 namespace vox {
 
 // A caller's filter, completed and checked; null: the defaults. Throws Error(INVALID_ARGUMENT or LIMIT).
 vox_filter read_filter(const vox_filter* filter);
+
+// Throws Error(INVALID_ARGUMENT) for other numbers than 0 and 1.
+bool read_enabled(std::uint32_t enabled);
 
 } // namespace vox

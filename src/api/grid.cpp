@@ -108,39 +108,23 @@ void vox_grid_destroy(vox_grid* grid) {
 }
 
 vox_result vox_grid_clear(vox_grid* grid) {
-    return border([&] {
-        require(grid, "grid");
-        grid->clear();
-    });
+    return border(grid, "grid", [&] { grid->clear(); });
 }
 
 vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count) {
-    return border([&] {
-        require(grid, "grid");
-        grid->reserve(mesh_count, contact_count);
-    });
+    return border(grid, "grid", [&] { grid->reserve(mesh_count, contact_count); });
 }
 
 vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size) {
-    return border([&] {
-        require(grid, "grid");
-        grid->set_cell_size(cell_size);
-    });
+    return border(grid, "grid", [&] { grid->set_cell_size(cell_size); });
 }
 
 vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_cell_size, "out_cell_size");
-        *out_cell_size = grid->cell_size();
-    });
+    return border(grid, "grid", out_cell_size, "out_cell_size", [&] { return grid->cell_size(); });
 }
 
 vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count) {
-    return border([&] {
-        require(grid, "grid");
-        grid->set_worker_count(worker_count);
-    });
+    return border(grid, "grid", [&] { grid->set_worker_count(worker_count); });
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -150,8 +134,7 @@ vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size) {
 }
 
 vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         require(out_mesh, "out_mesh");
         const vox_mesh_desc settings = read_struct(desc, mesh_defaults(), "desc");
         const Body view = check_mesh(settings, "", NullPositions::allowed);
@@ -162,10 +145,7 @@ vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* 
 }
 
 vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh) {
-    return border([&] {
-        require(grid, "grid");
-        grid->remove(mesh);
-    });
+    return border(grid, "grid", [&] { grid->remove(mesh); });
 }
 
 uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh) {
@@ -173,17 +153,12 @@ uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh) {
 }
 
 vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_user_data, "out_user_data");
-        *out_user_data = grid->mesh(mesh).user_data();
-    });
+    return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->mesh(mesh).user_data(); });
 }
 
 vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions, vox_format format,
                                    uint64_t byte_stride) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         Mesh& target = grid->mesh(mesh);
         require(positions, "positions");
         check_format(format, "");
@@ -195,8 +170,7 @@ vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* po
 
 vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_positions,
                                   uint64_t* out_byte_stride) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         require(out_positions, "out_positions");
         require(out_byte_stride, "out_byte_stride");
         Mesh& target = grid->mesh(mesh);
@@ -206,8 +180,7 @@ vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_posi
 }
 
 vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         Mesh& target = grid->mesh(mesh);
         for (int i = 0; matrix && i < 12; ++i)
             if (!std::isfinite(matrix[i]))
@@ -218,63 +191,35 @@ vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double ma
 }
 
 vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh) {
-    return border([&] {
-        require(grid, "grid");
-        grid->mark_moved(mesh);
-    });
+    return border(grid, "grid", [&] { grid->mark_moved(mesh); });
 }
 
 // ---- step and results -----------------------------------------------------------------------------
 
 vox_result vox_grid_step(vox_grid* grid) {
-    return border([&] {
-        require(grid, "grid");
-        grid->step();
-    });
+    return border(grid, "grid", [&] { grid->step(); });
 }
 
 vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
-        *out_view = grid->contacts();
-    });
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->contacts(); });
 }
 
 vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_view, "out_view");
-        *out_view = grid->penetrations();
-    });
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->penetrations(); });
 }
 
 vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_epoch, "out_epoch");
-        *out_epoch = grid->epoch();
-    });
+    return border(grid, "grid", out_epoch, "out_epoch", [&] { return grid->epoch(); });
 }
 
 vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash) {
-    return border([&] {
-        require(grid, "grid");
-        require(out_hash, "out_hash");
-        *out_hash = grid->hash();
-    });
+    return border(grid, "grid", out_hash, "out_hash", [&] { return grid->hash(); });
 }
 
 vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters) {
-    return border([&] {
-        require(grid, "grid");
-        write_struct(out_counters, grid->counters(), "out_counters");
-    });
+    return border(grid, "grid", [&] { write_struct(out_counters, grid->counters(), "out_counters"); });
 }
 
 vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile) {
-    return border([&] {
-        require(grid, "grid");
-        write_struct(out_profile, grid->profile(), "out_profile");
-    });
+    return border(grid, "grid", [&] { write_struct(out_profile, grid->profile(), "out_profile"); });
 }

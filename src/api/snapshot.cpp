@@ -2,7 +2,6 @@
 
 #include "base/border.hpp"
 #include "base/structs.hpp"
-#include "grid/grid.hpp"
 #include "grid/snapshot.hpp"
 
 #include <memory>
@@ -11,11 +10,6 @@ using namespace vox;
 
 namespace {
 
-// Turns a failed call of the public interface into an Error.
-void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
-
 struct Destroy {
     void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
 };
@@ -23,17 +17,16 @@ struct Destroy {
 } // namespace
 
 vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size) {
-    return border([&] {
-        require(grid, "grid");
+    return border(grid, "grid", [&] {
         require(out_size, "out_size");
-        const std::uint64_t size = snapshot_size(*grid);
+        const std::uint64_t size = Snapshot::save(*grid, nullptr);
         if (bytes) {
             if (capacity < size)
                 throw Error(VOX_ERROR_INVALID_ARGUMENT,
                             format("capacity is %llu, the snapshot has %llu bytes",
                                    static_cast<unsigned long long>(capacity),
                                    static_cast<unsigned long long>(size)));
-            (void)save_snapshot(*grid, static_cast<std::byte*>(bytes));
+            (void)Snapshot::save(*grid, static_cast<std::byte*>(bytes));
         }
         *out_size = size;
     });
@@ -47,11 +40,12 @@ vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* 
         const vox_grid_desc machine = desc ? read_struct(desc, defaults, "desc") : defaults;
         check_grid_desc(machine);
         const SnapshotReader in({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
-        const vox_grid_desc settings = snapshot_settings(in, machine);
+        const vox_grid_desc settings = Snapshot::settings(in, machine);
         vox_grid* created = nullptr;
-        check(vox_grid_create(&settings, &created));
+        const vox_result result = vox_grid_create(&settings, &created);
+        if (result != VOX_OK) throw Error(result, vox_last_error());
         std::unique_ptr<vox_grid, Destroy> grid(created);
-        load_snapshot(in, *grid);
+        Snapshot::load(in, *grid);
         *out_grid = grid.release();
     });
 }

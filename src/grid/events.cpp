@@ -138,27 +138,25 @@ std::span<const vox_pair> Events::pairs() const noexcept {
                             : std::span<const vox_pair>();
 }
 
-const vox_pair* Events::find_pair(vox_mesh a, vox_mesh b) const noexcept {
+std::span<const vox_pair> Events::pairs_of(std::span<const vox_mesh> meshes) const noexcept {
+    if (meshes.size() == 1) return pairs();
     vox_pair wanted{};
-    wanted.mesh_a = std::min(a, b);
-    wanted.mesh_b = std::max(a, b);
-    const std::span<const vox_pair> all = pairs();
-    const auto place = std::lower_bound(all.begin(), all.end(), wanted, pair_before);
-    return place != all.end() && !pair_before(wanted, *place) ? &*place : nullptr;
+    std::tie(wanted.mesh_a, wanted.mesh_b) = std::minmax(meshes[0], meshes[1]);
+    return std::ranges::equal_range(pairs(), wanted, pair_before);
 }
 
-vox_touch_view Events::touch_events() const noexcept {
+vox_touch_view Events::touch_events(std::uint64_t epoch) const noexcept {
     const std::uint64_t count = touch_events_.size();
     return {.data = touch_events_.data(),
             .byte_stride = sizeof(vox_touch_event),
             .count = count,
-            .epoch = 0,
+            .epoch = epoch,
             .began = began_,
             .persisted = persisted_,
             .ended = count - began_ - persisted_};
 }
 
-vox_contact_event_view Events::contact_events() const {
+vox_contact_event_view Events::contact_events(std::uint64_t epoch) const {
     if (!of_contacts_)
         throw Error(VOX_ERROR_INVALID_STATE,
                     "the grid was created without VOX_GRID_CONTACT_EVENTS in its flags");
@@ -166,7 +164,7 @@ vox_contact_event_view Events::contact_events() const {
     return {.data = contact_events_.data(),
             .byte_stride = sizeof(vox_contact_event),
             .count = count,
-            .epoch = 0,
+            .epoch = epoch,
             .began = contacts_began_,
             .ended = count - contacts_began_};
 }

@@ -50,26 +50,16 @@ public:
     std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
         return {pair_contacts() + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
     }
-    // Items are one for each contact. Copies those of the contacts of a mesh, in the order of its pairs, or
-    // of a pair of meshes, as far as there is room; returns how many there are.
-    template <class Item>
-    std::uint64_t copy_of_mesh(std::span<const Item> items, vox_mesh mesh,
-                               std::span<Item> out) const noexcept {
-        std::uint64_t count = 0;
-        for (const vox_pair& pair : pairs())
-            if (pair.mesh_a == mesh || pair.mesh_b == mesh) copy_of(pair, items, out, count);
-        return count;
+    // Calls visit(index) for each contact of one mesh, in the order of its pairs, or between two meshes.
+    template <class Visit>
+    void for_contacts_of(std::span<const vox_mesh> meshes, Visit&& visit) const {
+        for (const vox_pair& pair : pairs_of(meshes))
+            if (pair.mesh_a == meshes[0] || pair.mesh_b == meshes[0])
+                for (const std::uint32_t index : contacts_of(pair)) visit(index);
     }
-    template <class Item>
-    std::uint64_t copy_of_pair(std::span<const Item> items, vox_mesh a, vox_mesh b,
-                               std::span<Item> out) const noexcept {
-        std::uint64_t count = 0;
-        if (const vox_pair* pair = find_pair(a, b)) copy_of(*pair, items, out, count);
-        return count;
-    }
-    // Views without an epoch.
-    vox_touch_view touch_events() const noexcept;
-    vox_contact_event_view contact_events() const; // throws Error(INVALID_STATE) without `of_contacts`
+    vox_touch_view touch_events(std::uint64_t epoch) const noexcept;
+    // Throws Error(INVALID_STATE) without `of_contacts`.
+    vox_contact_event_view contact_events(std::uint64_t epoch) const;
 
 private:
     friend class Snapshot;
@@ -83,16 +73,8 @@ private:
         auto operator<=>(const Inside&) const = default;
     };
 
-    template <class Item>
-    void copy_of(const vox_pair& pair, std::span<const Item> items, std::span<Item> out,
-                 std::uint64_t& count) const noexcept {
-        for (const std::uint32_t index : contacts_of(pair)) {
-            if (count < out.size()) out[static_cast<std::size_t>(count)] = items[index];
-            ++count;
-        }
-    }
-    // The pair of two meshes, in either order; null when they do not touch.
-    const vox_pair* find_pair(vox_mesh a, vox_mesh b) const noexcept;
+    // All pairs where one mesh is given; the pair of two meshes, in either order, if they touch.
+    std::span<const vox_pair> pairs_of(std::span<const vox_mesh> meshes) const noexcept;
 
     Touching& next() noexcept { return touching_[1 - current_]; }
     void compare(std::span<const vox_contact> contacts);

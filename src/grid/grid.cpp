@@ -150,23 +150,13 @@ void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
 
 void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
     const Mesh& old = mesh(id);
-    meshes_.check_room(view, old);
+    meshes_.check_room(view, &old);
     Mesh made = old.with_topology(desc, view);
     fast::MeshState state(&memory_);
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
-}
-
-void vox_grid::set_tets_enabled(vox_mesh id, std::span<const std::uint32_t> tets, bool enabled) {
-    mesh(id).set_tets_enabled(tets, enabled);
-    was_edited(id, tets.size());
-}
-
-void vox_grid::replace_tets(vox_mesh id, std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
-    mesh(id).replace_tets(tets, corners);
-    was_edited(id, tets.size());
 }
 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
@@ -178,22 +168,12 @@ std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     return first;
 }
 
-void vox_grid::remove_tets(vox_mesh id, std::span<const std::uint32_t> tets) {
-    mesh(id).remove_tets(tets);
-    was_edited(id, tets.size());
-}
-
 std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
     (void)mesh(id); // throws for an id that names no mesh
     meshes_.check_growth(desc.count, 0);
     const std::uint32_t first = meshes_.append_vertices(id, desc);
     was_edited(id, desc.count);
     return first;
-}
-
-void vox_grid::remove_vertices(vox_mesh id, std::span<const std::uint32_t> vertices) {
-    mesh(id).remove_vertices(vertices);
-    was_edited(id, vertices.size());
 }
 
 // ---- settings -------------------------------------------------------------------------------------

@@ -57,12 +57,10 @@ public:
     void set_enabled(vox_mesh mesh, bool enabled);
     void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
     void set_topology(vox_mesh mesh, const vox_mesh_desc& desc, const vox::Body& view);
-    void set_tets_enabled(vox_mesh mesh, std::span<const std::uint32_t> tets, bool enabled);
-    void replace_tets(vox_mesh mesh, std::span<const std::uint32_t> tets, std::span<const vox::Tet> corners);
     std::uint32_t append_tets(vox_mesh mesh, std::span<const vox::Tet> corners);
-    void remove_tets(vox_mesh mesh, std::span<const std::uint32_t> tets);
     std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
-    void remove_vertices(vox_mesh mesh, std::span<const std::uint32_t> vertices);
+    // To be called after any other edit of a mesh, with the number of tets or vertices that it named.
+    void was_edited(vox_mesh mesh, std::uint64_t count);
     bool is_valid(vox_mesh mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh) { return meshes_[mesh].mesh; }
     const vox::Mesh& mesh(vox_mesh mesh) const { return meshes_[mesh].mesh; }
@@ -92,7 +90,6 @@ private:
 
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state) const;
     void scene_changed() noexcept;
-    void was_edited(vox_mesh mesh, std::uint64_t count);
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
     void gather_bodies(vox_counters& counters);
     void drop_removed_vertices();

@@ -22,14 +22,9 @@ void MeshTable::reserve(std::uint32_t mesh_count) {
     reserve_exactly(free_slots_, mesh_count);
 }
 
-void MeshTable::check_room(const Body& mesh) const {
-    check_growth(mesh.vertex_count, mesh.tets.size());
-    if (free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
-}
-
-void MeshTable::check_room(const Body& mesh, const Mesh& old) const {
-    check_limit(vertex_count_ - old.vertex_count(), mesh.vertex_count, VOX_MAX_VERTICES, "vertices");
-    check_limit(tet_count_ - old.tet_count(), mesh.tets.size(), VOX_MAX_TETS, "tets");
+void MeshTable::check_room(const Body& mesh, const Mesh* old) const {
+    check_growth(mesh.vertex_count, mesh.tets.size(), old);
+    if (!old && free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
 }
 
 vox_mesh MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
@@ -83,9 +78,9 @@ void MeshTable::vacate(std::uint32_t index) noexcept {
     if (generation < VOX_MAX_GENERATIONS) free_slots_.push_back(index);
 }
 
-void MeshTable::check_growth(std::uint64_t vertices, std::uint64_t tets) const {
-    check_limit(vertex_count_, vertices, VOX_MAX_VERTICES, "vertices");
-    check_limit(tet_count_, tets, VOX_MAX_TETS, "tets");
+void MeshTable::check_growth(std::uint64_t vertices, std::uint64_t tets, const Mesh* old) const {
+    check_limit(vertex_count_ - (old ? old->vertex_count() : 0), vertices, VOX_MAX_VERTICES, "vertices");
+    check_limit(tet_count_ - (old ? old->tet_count() : 0), tets, VOX_MAX_TETS, "tets");
 }
 
 std::uint32_t MeshTable::append_tets(vox_mesh id, std::span<const Tet> corners) {

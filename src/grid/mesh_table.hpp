@@ -42,11 +42,10 @@ public:
     std::uint64_t vertex_count() const noexcept { return vertex_count_; }
     std::uint64_t tet_count() const noexcept { return tet_count_; }
 
-    // Throw Error(LIMIT) where there is no room for one more such mesh, for it in place of `old`, or for so
-    // many more vertices and tetrahedra.
-    void check_room(const Body& mesh) const;
-    void check_room(const Body& mesh, const Mesh& old) const;
-    void check_growth(std::uint64_t vertices, std::uint64_t tets) const;
+    // Throw Error(LIMIT) where there is no room for one more such mesh, or for so many more vertices and
+    // tetrahedra; with `old`, in its place.
+    void check_room(const Body& mesh, const Mesh* old = nullptr) const;
+    void check_growth(std::uint64_t vertices, std::uint64_t tets, const Mesh* old = nullptr) const;
 
     // After check_room(). Throws what the memory throws and leaves all unchanged then.
     vox_mesh insert(Mesh&& mesh, fast::MeshState&& state);

@@ -33,6 +33,8 @@ Vec3d scaled(const Vec3d& v) noexcept {
 // The unit vector along the cross product; zero where that is.
 Vec3d unit_normal(const Vec3d& u, const Vec3d& v) noexcept { return normalised(cross(scaled(u), scaled(v))); }
 
+vox_mesh id_of(const ReadingBody& b) noexcept { return b.body.mesh_id; }
+
 Solid solid_of(const ReadingBody& b) noexcept { return {b.topology, b.body.tets, b.body.positions}; }
 
 // The closest point to the vertex at p, with its triangle wound as vox_reading says.
@@ -79,24 +81,18 @@ std::span<const vox_reading> Readings::all() const {
 }
 
 std::span<ReadingBody> Readings::list_meshes(const Events& events) {
-    const auto before = [](const ReadingBody& x, const ReadingBody& y) {
-        return x.body.mesh_id < y.body.mesh_id;
-    };
-    const auto same = [](const ReadingBody& x, const ReadingBody& y) {
-        return x.body.mesh_id == y.body.mesh_id;
-    };
     bodies_.clear();
     bodies_.reserve(2 * events.pairs().size());
     for (const vox_pair& pair : events.pairs())
         for (const vox_mesh mesh : {pair.mesh_a, pair.mesh_b}) bodies_.emplace_back().body.mesh_id = mesh;
-    std::sort(bodies_.begin(), bodies_.end(), before);
-    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
+    std::ranges::sort(bodies_, {}, id_of);
+    const auto repeated = std::ranges::unique(bodies_, {}, id_of);
+    bodies_.erase(repeated.begin(), repeated.end());
     return bodies_;
 }
 
 const ReadingBody& Readings::body_of(vox_mesh mesh) const noexcept {
-    return *std::lower_bound(bodies_.begin(), bodies_.end(), mesh,
-                             [](const ReadingBody& body, vox_mesh id) { return body.body.mesh_id < id; });
+    return *std::ranges::lower_bound(bodies_, mesh, {}, id_of);
 }
 
 void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,

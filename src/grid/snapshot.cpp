@@ -1,6 +1,5 @@
 #include "grid/snapshot.hpp"
 
-#include "grid/snapshot_parts.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
@@ -10,11 +9,7 @@
 
 namespace vox {
 
-namespace {
-
 constexpr std::uint32_t live_bit = 1u << 31; // of a slot's word; the generation is in the others
-
-} // namespace
 
 // ---- GRID: settings -------------------------------------------------------------------------------
 
@@ -38,7 +33,7 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     out.end_chunk();
 }
 
-vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc) {
+vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_grid* grid) {
     const auto enumerator = [&](std::uint32_t last, const char* what) {
         const std::uint32_t value = in.u32();
         if (value > last) in.refuse(format("%s is %" PRIu32 ", expected 0 to %" PRIu32, what, value, last));
@@ -53,16 +48,20 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc) {
     desc.hash_table_size = in.u64();
     for (double& x : desc.world_min) x = in.f64();
     for (double& x : desc.world_max) x = in.f64();
-    desc.cell_size = in.f64();
-    if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
-        in.refuse(format("cell size is %g, expected a finite number >= 0", desc.cell_size));
+    const double cell_size = in.f64();
+    if (!(cell_size >= 0) || std::isinf(cell_size))
+        in.refuse(format("cell size is %g, expected a finite number >= 0", cell_size));
     const bool choose = in.flag("whether the cell size was chosen");
-    if (!choose && desc.cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
-    if (choose) desc.cell_size = 0;
+    if (!choose && cell_size == 0) in.refuse("cell size is 0, but not to be chosen");
+    desc.cell_size = choose ? 0 : cell_size;
     if (const std::uint32_t reserved = in.u32(); reserved != 0)
         in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
-    (void)in.u64(); // the epoch
+    const std::uint64_t epoch = in.u64();
     in.end();
+    if (grid) { // what a vox_grid_desc does not hold
+        grid->used_cell_size_ = cell_size;
+        grid->epoch_ = epoch;
+    }
     try {
         check_grid_desc(desc);
     } catch (const Error& error) {
@@ -71,14 +70,8 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc) {
     return desc;
 }
 
-// Loads what a vox_grid_desc does not hold; read_settings() has checked it.
 void Snapshot::load_settings(SnapshotChunk& in, Loading& to) {
-    for (int word = 0; word < 4; ++word) (void)in.u32();
-    for (int word = 0; word < 7; ++word) (void)in.u64();
-    to.grid.used_cell_size_ = in.f64();
-    (void)in.flag("");
-    (void)in.u32();
-    to.grid.epoch_ = in.u64();
+    (void)read_settings(in, vox_default_grid_desc(), &to.grid);
 }
 
 // ---- SLOT: mesh slots, their generations, and which of them is taken next -------------------------
@@ -136,8 +129,8 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_exceptions(const vox_grid& grid, SnapshotWriter& out) {
     out.begin_chunk("PAIR");
-    for_each_mesh(grid, [&](vox_mesh id) {
-        for (const vox_mesh other : grid.mesh(id).exceptions())
+    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+        for (const vox_mesh other : mesh.exceptions())
             if (id < other) {
                 out.u32(id);
                 out.u32(other);
@@ -228,7 +221,8 @@ void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
 
 // ---- the whole ------------------------------------------------------------------------------------
 
-void Snapshot::save(const vox_grid& grid, SnapshotWriter& out) {
+std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
+    SnapshotWriter out(bytes);
     save_settings(grid, out);
     save_slots(grid, out);
     save_meshes(grid, out);
@@ -236,16 +230,17 @@ void Snapshot::save(const vox_grid& grid, SnapshotWriter& out) {
     save_filters(grid, out);
     save_exceptions(grid, out);
     save_events(grid, out);
+    return out.finish();
 }
 
-vox_grid_desc Snapshot::settings(SnapshotReader& in, const vox_grid_desc& machine) {
+vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine) {
     SnapshotChunk chunk;
     if (!in.next(chunk)) throw Error(VOX_ERROR_FORMAT, "snapshot: it has no chunk");
     if (!chunk.is("GRID")) chunk.refuse("expected chunk GRID first");
-    return read_settings(chunk, machine);
+    return read_settings(chunk, machine, nullptr);
 }
 
-void Snapshot::load(SnapshotReader& in, vox_grid& grid) {
+void Snapshot::load(SnapshotReader in, vox_grid& grid) {
     Loading to{.grid = grid,
                .awaited = std::pmr::vector<vox_mesh>(&grid.memory_),
                .free_slots = std::pmr::vector<std::uint32_t>(&grid.memory_)};
@@ -279,23 +274,5 @@ void Snapshot::load(SnapshotReader& in, vox_grid& grid) {
                            to.awaited.size(), to.awaited[to.next]));
     grid.meshes_.free_slots_.assign(to.free_slots.begin(), to.free_slots.end()); // within the capacity
 }
-
-std::uint64_t snapshot_size(const vox_grid& grid) noexcept {
-    SnapshotWriter count;
-    Snapshot::save(grid, count);
-    return count.finish();
-}
-
-std::uint64_t save_snapshot(const vox_grid& grid, std::byte* out) noexcept {
-    SnapshotWriter writer(out);
-    Snapshot::save(grid, writer);
-    return writer.finish();
-}
-
-vox_grid_desc snapshot_settings(SnapshotReader in, const vox_grid_desc& machine) {
-    return Snapshot::settings(in, machine);
-}
-
-void load_snapshot(SnapshotReader in, vox_grid& grid) { Snapshot::load(in, grid); }
 
 } // namespace vox

@@ -1,25 +1,87 @@
-// A whole grid as bytes and back: docs/snapshot.md.
+// A whole grid as bytes and back: docs/snapshot.md. Each part is one chunk, with a function that writes it
+// and one that reads it.
 #pragma once
 
+#include "base/error.hpp"
+#include "grid/grid.hpp"
 #include "grid/snapshot_chunks.hpp"
 
-#include <vox/vox.h>
-
+#include <cinttypes>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
+#include <vector>
 
 namespace vox {
 
-// The number of bytes that save_snapshot() writes.
-std::uint64_t snapshot_size(const vox_grid& grid) noexcept;
-// Reads the grid's arrays and positions, allocates nothing. Returns the number of bytes written.
-std::uint64_t save_snapshot(const vox_grid& grid, std::byte* out) noexcept;
+// What loading knows beside the grid.
+struct Loading {
+    vox_grid& grid;
+    std::pmr::vector<vox_mesh> awaited; // meshes whose chunk has to come, ascending
+    std::size_t next = 0;               // index in `awaited`
+    std::pmr::vector<std::uint32_t> free_slots;
+    vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
+};
 
-// The settings in a snapshot, over a caller's for the machine it runs on (vox_grid_load), checked as a grid
-// needs them. Throws Error(FORMAT, UNSUPPORTED).
-vox_grid_desc snapshot_settings(SnapshotReader in, const vox_grid_desc& machine);
-// Fills a grid made from these settings. Throws Error(FORMAT, UNSUPPORTED, LIMIT, BUDGET) or what the memory
-// throws; the grid is then only fit to be destroyed.
-void load_snapshot(SnapshotReader in, vox_grid& grid);
+// Calls what a program would call; an argument that it refuses makes the snapshot invalid.
+template <class Function>
+void or_refuse(const SnapshotChunk& in, vox_mesh id, Function&& function) {
+    try {
+        function();
+    } catch (const Error& error) {
+        const vox_result result = error.result();
+        if (result == VOX_ERROR_LIMIT || result == VOX_ERROR_BUDGET) throw;
+        in.refuse(format("mesh %" PRIu32 ": %s", id, error.what()));
+    }
+}
+
+class Snapshot {
+public:
+    // Reads the grid's arrays and positions, allocates nothing. Returns the number of bytes written; null:
+    // only counts them.
+    static std::uint64_t save(const vox_grid& grid, std::byte* bytes) noexcept;
+    // The settings in a snapshot, over a caller's for the machine it runs on (vox_grid_load), checked as a
+    // grid needs them. Throws Error(FORMAT, UNSUPPORTED).
+    static vox_grid_desc settings(SnapshotReader in, const vox_grid_desc& machine);
+    // Fills a grid made from these settings. Throws Error(FORMAT, UNSUPPORTED, LIMIT, BUDGET) or what the
+    // memory throws; the grid is then only fit to be destroyed.
+    static void load(SnapshotReader in, vox_grid& grid);
+
+private:
+    static void save_settings(const vox_grid& grid, SnapshotWriter& out);
+    static vox_grid_desc read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_grid* grid);
+    static void load_settings(SnapshotChunk& in, Loading& to);
+    static void save_slots(const vox_grid& grid, SnapshotWriter& out);
+    static void load_slots(SnapshotChunk& in, Loading& to);
+    static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
+    static void load_mesh(SnapshotChunk& in, Loading& to);
+    static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
+    static void load_cuts(SnapshotChunk& in, Loading& to);
+    static void save_filters(const vox_grid& grid, SnapshotWriter& out);
+    static void load_filter(SnapshotChunk& in, Loading& to);
+    static void save_exceptions(const vox_grid& grid, SnapshotWriter& out);
+    static void load_exceptions(SnapshotChunk& in, Loading& to);
+    static void save_events(const vox_grid& grid, SnapshotWriter& out);
+    static void load_events(SnapshotChunk& in, Loading& to);
+
+    template <class Function>
+    static void for_each_mesh(const vox_grid& grid, Function&& function) {
+        grid.meshes_.for_each([&](vox_mesh id, const MeshSlot& slot) { function(id, slot.mesh); });
+    }
+    static vox_mesh mesh_that_was(SnapshotChunk& in, const vox_grid& grid);
+
+    // In the order in which they follow each other in a file.
+    struct Part {
+        const char* name;
+        bool repeats;  // may come any number of times, else once
+        bool required; // where it may come once
+        void (*load)(SnapshotChunk& in, Loading& to);
+    };
+    static constexpr Part parts[] = {
+        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
+        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
+        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
+        {"EVNT", false, true, load_events}};
+};
 
 } // namespace vox

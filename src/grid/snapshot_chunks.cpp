@@ -159,19 +159,15 @@ void SnapshotChunk::expect(std::uint64_t count, std::uint64_t element_bytes, con
                       element_bytes, left));
 }
 
-std::uint32_t SnapshotChunk::u32() {
-    expect(1, 4, "number");
-    const std::uint32_t value = u32_of(&payload_[next_]);
-    next_ += 4;
-    return value;
+const std::byte* SnapshotChunk::number(std::size_t bytes) {
+    expect(1, bytes, "number");
+    next_ += bytes;
+    return &payload_[next_ - bytes];
 }
 
-std::uint64_t SnapshotChunk::u64() {
-    expect(1, 8, "number");
-    const std::uint64_t value = u64_of(&payload_[next_]);
-    next_ += 8;
-    return value;
-}
+std::uint32_t SnapshotChunk::u32() { return u32_of(number(4)); }
+
+std::uint64_t SnapshotChunk::u64() { return u64_of(number(8)); }
 
 bool SnapshotChunk::flag(const char* what) {
     const std::uint32_t value = u32();

@@ -21,8 +21,7 @@ std::uint32_t crc32(std::span<const std::byte> bytes) noexcept;
 // Writes a snapshot into memory that is large enough, or only counts its bytes.
 class SnapshotWriter {
 public:
-    SnapshotWriter() : SnapshotWriter(nullptr) {} // counts
-    explicit SnapshotWriter(std::byte* out);
+    explicit SnapshotWriter(std::byte* out); // null: counts
 
     void begin_chunk(const char* name);
     void u32(std::uint32_t value) noexcept {
@@ -76,6 +75,8 @@ public:
     [[noreturn]] void refuse(const std::string& text) const;
 
 private:
+    const std::byte* number(std::size_t bytes); // the next one
+
     std::array<char, 4> name_{};
     std::span<const std::byte> payload_;
     std::uint64_t at_ = 0; // of the chunk in the snapshot

@@ -1,5 +1,5 @@
 // The parts of a snapshot that describe meshes.
-#include "grid/snapshot_parts.hpp"
+#include "grid/snapshot.hpp"
 
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -57,37 +57,34 @@ void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what,
 
 // ---- MESH: one mesh, in the order of ids ----------------------------------------------------------
 
-void Snapshot::save_mesh(const vox_grid& grid, vox_mesh id, SnapshotWriter& out) {
-    const Mesh& mesh = grid.mesh(id);
-    const Body body = mesh.body(id);
-    const Positions& positions = mesh.positions_; // as given, not transformed
-    const bool has_positions = positions.data != nullptr && body.vertex_count > 0;
-    std::uint32_t bits = 0;
-    if (body.self_collision) bits |= self_collision_bit;
-    if (!mesh.is_enabled()) bits |= disabled_bit;
-    if (mesh.has_transform_) bits |= transform_bit;
-    out.begin_chunk("MESH");
-    out.u32(id);
-    out.u32(bits);
-    out.u64(mesh.user_data());
-    out.u64(body.vertex_count);
-    out.u64(body.tets.size());
-    out.u32(has_positions);
-    out.u32(positions.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3);
-    if (mesh.has_transform_)
-        for (const double element : mesh.transform_) out.f64(element);
-    for (std::uint32_t t = 0; t < body.tets.size(); ++t)
-        for (const std::uint32_t vertex : mesh.given(t).v) out.u32(vertex);
-    for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
-        if (positions.doubles)
-            save_point(positions.exact(v), out);
-        else
-            save_point(positions.floats(v), out);
-    out.end_chunk();
-}
-
 void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id) { save_mesh(grid, id, out); });
+    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+        const Body body = mesh.body(id);
+        const Positions& positions = mesh.positions_; // as given, not transformed
+        const bool has_positions = positions.data != nullptr && body.vertex_count > 0;
+        std::uint32_t bits = 0;
+        if (body.self_collision) bits |= self_collision_bit;
+        if (!mesh.is_enabled()) bits |= disabled_bit;
+        if (mesh.has_transform_) bits |= transform_bit;
+        out.begin_chunk("MESH");
+        out.u32(id);
+        out.u32(bits);
+        out.u64(mesh.user_data());
+        out.u64(body.vertex_count);
+        out.u64(body.tets.size());
+        out.u32(has_positions);
+        out.u32(positions.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3);
+        if (mesh.has_transform_)
+            for (const double element : mesh.transform_) out.f64(element);
+        for (std::uint32_t t = 0; t < body.tets.size(); ++t)
+            for (const std::uint32_t vertex : mesh.given(t).v) out.u32(vertex);
+        for (std::uint32_t v = 0; has_positions && v < body.vertex_count; ++v)
+            if (positions.doubles)
+                save_point(positions.exact(v), out);
+            else
+                save_point(positions.floats(v), out);
+        out.end_chunk();
+    });
 }
 
 void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
@@ -157,8 +154,7 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
 // ---- CUTS: which tets are off or removed, and which vertices are removed -------------------------
 
 void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id) {
-        const Mesh& mesh = grid.mesh(id);
+    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
         if (mesh.off_.count() == 0 && mesh.removed_vertices_.count() == 0) return;
         out.begin_chunk("CUTS");
         out.u32(id);
@@ -191,8 +187,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 // ---- FILT: what a mesh does not collide with, where that is not the default ----------------------
 
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id) {
-        const Mesh& mesh = grid.mesh(id);
+    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
         const std::pmr::vector<Vec3f>& rest = mesh.self_filter_.rest;
         const vox_filter filter = mesh.filter(), usual = filter_defaults();
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
@@ -231,7 +226,8 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     if (has_rest) load_points(in, mesh.vertex_count(), rest);
     in.end();
     or_refuse(in, id, [&] {
-        if (has_rest) mesh.set_rest({reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)});
+        const Positions given{reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)};
+        if (has_rest) mesh.self_filter_.rest = mesh.copy_finite(given, mesh.vertex_count());
         check_filter(filter);
         mesh.set_filter(filter);
     });

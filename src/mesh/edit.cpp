@@ -19,19 +19,26 @@ namespace {
 
 Tet hidden(const Tet& tet) { return {{tet.v[0], tet.v[0], tet.v[0], tet.v[0]}}; }
 
+// Checks a list of tets or vertices, of which the mesh has `count`.
+void check_items(std::span<const std::uint32_t> items, std::size_t count, const Bits& removed,
+                 const char* name) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (items[i] >= count)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("%s[%zu] is %" PRIu32 ", the mesh has %zu %s", name, i, items[i], count,
+                               name));
+        if (removed[items[i]])
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("%s[%zu] is %" PRIu32 ", which was removed", name, i, items[i]));
+    }
+}
+
 } // namespace
 
 // ---- tetrahedra -----------------------------------------------------------------------------------
 
 void Mesh::check_tets(std::span<const std::uint32_t> tets) const {
-    for (std::size_t i = 0; i < tets.size(); ++i) {
-        if (tets[i] >= tets_.size())
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("tets[%zu] is %" PRIu32 ", the mesh has %zu tets", i, tets[i], tets_.size()));
-        if (removed_[tets[i]])
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("tets[%zu] is %" PRIu32 ", which was removed", i, tets[i]));
-    }
+    check_items(tets, tets_.size(), removed_, "tets");
 }
 
 void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
@@ -170,12 +177,11 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     std::pmr::vector<Vec3f> rest(memory());
     const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
-        const Positions poses{
-            .data = static_cast<const std::byte*>(desc.rest_positions),
-            .byte_stride = check_stride(desc.rest_position_byte_stride, position_format, added, "rest_"),
-            .doubles = positions_.doubles};
-        check_finite({.vertex_count = added, .positions = poses});
-        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(poses[i]);
+        rest = copy_finite(
+            {.data = static_cast<const std::byte*>(desc.rest_positions),
+             .byte_stride = check_stride(desc.rest_position_byte_stride, position_format, added, "rest_"),
+             .doubles = positions_.doubles},
+            added);
     } else if (has_rest && desc.copies_of) {
         for (std::uint32_t i = 0; i < added; ++i) rest.push_back(self_filter_.rest[desc.copies_of[i]]);
     } else if (has_rest) {
@@ -188,8 +194,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
         if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
-        check_finite({.vertex_count = added, .positions = poses});
-        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(poses[i]);
+        rest = copy_finite(poses, added);
     }
     reserve_growing(self_filter_.rest, self_filter_.rest.size() + rest.size());
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
@@ -210,15 +215,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
 }
 
 void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (vertices[i] >= vertex_count_)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("vertices[%zu] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
-                               vertices[i], vertex_count_));
-        if (removed_vertices_[vertices[i]])
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("vertices[%zu] is %" PRIu32 ", which was removed", i, vertices[i]));
-    }
+    check_items(vertices, vertex_count_, removed_vertices_, "vertices");
     if (vertices.empty()) return;
     list_tets_of();
     for (const std::uint32_t v : vertices)
@@ -269,23 +266,14 @@ void Mesh::invalidate_tiles() noexcept {
     has_tiles_ = false;
 }
 
-void Mesh::invalidate_topology() noexcept {
-    topology_ = Topology(memory());
-    has_topology_ = false;
-}
-
-void Mesh::invalidate_rings() noexcept {
-    self_filter_.rings = Rings(memory());
-    has_rings_ = filter_.self_rings == 0;
-}
-
 void Mesh::invalidate_prepared() noexcept {
     tets_of_ = IndexLists(memory());
-    has_tets_of_ = false;
+    topology_ = Topology(memory());
+    self_filter_.rings = Rings(memory());
+    has_tets_of_ = has_topology_ = false;
+    has_rings_ = filter_.self_rings == 0;
     sample_.reset();
     invalidate_tiles();
-    invalidate_topology();
-    invalidate_rings();
 }
 
 void Mesh::apply(std::span<const TetChange> changes) noexcept {
@@ -300,30 +288,14 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
             apply_changes(changes, tets_of_);
         else
             list_tets_of();
-    } catch (...) {
-        return invalidate_prepared();
-    }
-    if (has_tiles_) {
-        try {
-            if (!repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) invalidate_tiles();
-        } catch (...) {
-            invalidate_tiles();
-        }
-    }
-    if (has_topology_) {
-        try {
+        if (has_tiles_ && !repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) invalidate_tiles();
+        if (has_topology_) {
             check_tet_count(tets_.size());
             repair_topology(tets_, tets_of_, changes, topology_);
-        } catch (...) {
-            invalidate_topology();
         }
-    }
-    if (has_rings) {
-        try {
-            self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
-        } catch (...) {
-            invalidate_rings();
-        }
+        if (has_rings) self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
+    } catch (...) { // out of memory, as a rule
+        invalidate_prepared();
     }
 }
 

@@ -54,14 +54,16 @@ void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<c
     facets.resize(3 * around.size());
     std::size_t count = 0;
     for (const std::uint32_t t : around) {
+        // With two lower corners, every facet has one of them.
+        const std::uint32_t* v = tets[t].v;
+        if ((v[0] < vertex) + (v[1] < vertex) + (v[2] < vertex) + (v[3] < vertex) > 1) continue;
         const std::array<std::uint64_t, 4> c = sorted_corners(tets[t]);
         const auto facet = [&](std::size_t middle, std::size_t high, std::size_t opposite) {
             return TetFacet{c[middle] >> 2 << 32 | c[high] >> 2, static_cast<std::uint32_t>(c[opposite] >> 2),
                             4 * t + static_cast<std::uint32_t>(c[opposite] & 3)};
         };
-        const bool lowest = c[0] >> 2 == vertex, second = c[1] >> 2 == vertex;
+        const bool lowest = c[0] >> 2 == vertex; // else it is the second
         facets[count] = facet(lowest ? 1 : 2, lowest ? 2 : 3, lowest ? 3 : 0);
-        if (!lowest && !second) continue;
         if (lowest) {
             facets[count + 1] = facet(1, 3, 2);
             facets[count + 2] = facet(2, 3, 1);

@@ -17,10 +17,12 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
       filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)
-        set_rest({.data = static_cast<const std::byte*>(desc.rest_positions),
-                  .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
-                                              vertex_count_, "rest_"),
-                  .doubles = desc.position_format == VOX_FORMAT_DOUBLE3});
+        self_filter_.rest =
+            copy_finite({.data = static_cast<const std::byte*>(desc.rest_positions),
+                         .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
+                                                     vertex_count_, "rest_"),
+                         .doubles = desc.position_format == VOX_FORMAT_DOUBLE3},
+                        vertex_count_);
     set_filter(filter);
 }
 
@@ -104,7 +106,7 @@ void Mesh::set_filter(const vox_filter& filter) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
-        rest = copy_finite(body(VOX_NULL_MESH).positions); // as they collide
+        rest = copy_finite(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
     }
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
@@ -123,13 +125,11 @@ void Mesh::set_filter(const vox_filter& filter) {
     filter_ = filter;
 }
 
-void Mesh::set_rest(const Positions& positions) { self_filter_.rest = copy_finite(positions); }
-
-std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions) const {
-    check_finite({.vertex_count = vertex_count_, .positions = positions});
-    std::pmr::vector<Vec3f> copy(self_filter_.rest.get_allocator());
-    copy.reserve(vertex_count_);
-    for (std::uint32_t v = 0; v < vertex_count_; ++v) copy.push_back(positions[v]);
+std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions, std::uint32_t count) const {
+    check_finite({.vertex_count = count, .positions = positions});
+    std::pmr::vector<Vec3f> copy(memory());
+    copy.reserve(count);
+    for (std::uint32_t v = 0; v < count; ++v) copy.push_back(positions[v]);
     return copy;
 }
 

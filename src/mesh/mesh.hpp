@@ -112,9 +112,8 @@ public:
 private:
     friend class Snapshot;
 
-    void set_rest(const Positions& positions);
     // For a rest pose. Throws Error(NON_FINITE or LIMIT).
-    std::pmr::vector<Vec3f> copy_finite(const Positions& positions) const;
+    std::pmr::vector<Vec3f> copy_finite(const Positions& positions, std::uint32_t count) const;
 
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }
@@ -127,8 +126,6 @@ private:
     void apply(std::span<const TetChange> changes) noexcept;
     void apply_vertices(std::uint32_t count_before) noexcept;
     void invalidate_tiles() noexcept;
-    void invalidate_topology() noexcept;
-    void invalidate_rings() noexcept;
     void invalidate_prepared() noexcept;
 
     std::pmr::vector<Tet> tets_;  // as the stages see them: those that are off name one vertex four times

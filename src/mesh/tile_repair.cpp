@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint64_t bit(std::uint32_t i) { return std::uint64_t{1} << i; }
 
-class Repair {
+class TileRepair {
 public:
-    Repair(TiledMesh& mesh, const Body& body, const IndexLists& tets_of)
+    TileRepair(TiledMesh& mesh, const Body& body, const IndexLists& tets_of)
         : tiles_(mesh.tiles), boundary_(mesh.boundary), places_(mesh.places), body_(body), tets_of_(tets_of) {
     }
 
@@ -60,7 +60,7 @@ private:
     }
 
     void take_out(std::uint32_t tet) noexcept {
-        const std::uint32_t t = places_.of_tet[tet] / tile_size, place = places_.of_tet[tet] % tile_size;
+        const std::uint32_t t = places_.tile_of(tet), place = places_.of_tet[tet] % tile_size;
         Tile& tile = tiles_.tiles[t];
         std::uint8_t* corners = corners_of(t);
         std::uint64_t* own = keeps_own_ ? tiles_.own.data() + tile.first_vertex : nullptr;
@@ -131,7 +131,7 @@ private:
         for (const std::uint32_t v : corners.v) {
             const std::span<const std::uint32_t> around = tets_of_[v];
             for (std::size_t i = 0; i < std::min(around.size(), most_tets); ++i)
-                if (places_.of_tet[around[i]] != TilePlaces::none) look_at(places_.of_tet[around[i]] / tile_size);
+                if (places_.of_tet[around[i]] != TilePlaces::none) look_at(places_.tile_of(around[i]));
         }
         if (best != TilePlaces::none) return best;
         // A few tets that lie apart share a tile.
@@ -200,11 +200,7 @@ private:
         *last = vertex;
         if (keeps_own_) tiles_.own[tile.first_vertex + tile.vertex_count] = 0;
         tile.holds_last_vertex |= vertex == body_.vertex_count - 1;
-        const std::pmr::vector<std::uint32_t>&blocks = tiles_.block_first, &supers = tiles_.super_first;
-        const auto block = static_cast<std::uint32_t>(std::upper_bound(blocks.begin(), blocks.end(), vertex) -
-                                                      blocks.begin() - 1);
-        const auto super =
-            static_cast<std::size_t>(std::upper_bound(supers.begin(), supers.end(), t) - supers.begin() - 1);
+        const std::uint32_t block = tiles_.block_of(vertex), super = tiles_.super_tile_of(t);
         const std::span<const std::uint32_t> listed = tiles_.blocks[super];
         const auto place = std::lower_bound(listed.begin(), listed.end(), block);
         if (place == listed.end() || *place != block)
@@ -278,7 +274,7 @@ bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> change
     // The share of the tets that may change before tiles are made anew, which takes about as long as their
     // repair did by then.
     if (mesh.places.changes + changes.size() > body.tets.size() / 4 + tile_size) return false;
-    Repair(mesh, body, tets_of).run(changes);
+    TileRepair(mesh, body, tets_of).run(changes);
     return true;
 }
 

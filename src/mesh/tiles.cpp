@@ -120,7 +120,7 @@ private:
     std::uint32_t stamp_ = 0;
 };
 
-// Cuts the vertices into blocks: at sixteen, and before where the numbering jumps (from the end of a row of a
+// Cuts the vertices into blocks: at eight, and earlier where the numbering jumps (from the end of a row of a
 // lattice to the start of the next, say), so that the box of a block is no larger than it must be.
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     out.block_first.assign(1, 0);

@@ -52,15 +52,17 @@ struct Tiles {
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
-    std::uint32_t super_tile_of(std::uint32_t tile) const noexcept {
-        return static_cast<std::uint32_t>(std::upper_bound(super_first.begin(), super_first.end(), tile) -
-                                          super_first.begin() - 1);
-    }
+    std::uint32_t block_of(std::uint32_t vertex) const noexcept { return interval(block_first, vertex); }
+    std::uint32_t super_tile_of(std::uint32_t tile) const noexcept { return interval(super_first, tile); }
 
 private:
     // How many intervals a list of ends makes; 0 before make_tiles().
     static std::uint32_t intervals(const std::pmr::vector<std::uint32_t>& ends) noexcept {
         return ends.empty() ? 0 : static_cast<std::uint32_t>(ends.size() - 1);
+    }
+    // The interval that a number is in.
+    static std::uint32_t interval(const std::pmr::vector<std::uint32_t>& ends, std::uint32_t of) noexcept {
+        return static_cast<std::uint32_t>(std::upper_bound(ends.begin(), ends.end(), of) - ends.begin() - 1);
     }
 };
 
