@@ -28,9 +28,8 @@ struct Tracked {
     }
 
     float measure(std::uint32_t super) {
-        return fast::orient_and_measure(tiles, surface, packed(mesh), false, tiles.super_first[super],
-                                        tiles.super_first[super + 1], tile_boxes.data(), known.data(),
-                                        bad.data());
+        return fast::orient(tiles, surface, packed(mesh), false, tiles.super_first[super],
+                            tiles.super_first[super + 1], tile_boxes.data(), known.data(), bad.data(), true);
     }
 
     void take_reference() {
@@ -47,8 +46,8 @@ struct Tracked {
     // Returns how many super-tiles are positive, after checking each of those.
     std::size_t track(const char* name) {
         Box all;
-        fast::stream_boxes(packed(mesh), cache.reference.data(), tiles.block_first, blocks.data(),
-                           moves.data(), all);
+        fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all, cache.reference.data(),
+                           moves.data());
         fast::track_orientation(tiles, cache, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
                      super_boxes.data(), positive.data());
         std::size_t count = 0;
