@@ -65,8 +65,8 @@ struct Step {
 
     std::uint32_t worker_count() const noexcept { return workers ? workers->count() : 1; }
 
-    // Calls function(item, worker) for each item of [0, items). `work` is that of all items together; a task of
-    // its own is given at least `least` of it.
+    // Calls function(item, worker) for each item of [0, items). `work` is that of all items together; a task
+    // of its own is given at least `least` of it.
     template <class Function>
     void for_each(std::size_t items, std::size_t work, std::size_t least, Function&& function) const {
         const auto range = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {

@@ -246,7 +246,8 @@ private:
                 if (!measure_ && body_.super_positive[s]) continue;
                 const float width =
                     orient(tiles, body_.boundary, body_.positions, body_.rounded, tiles.super_first[s],
-                           tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data(), measure_);
+                           tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data(),
+                           measure_);
                 if (measure_) cache.slack[s] = width - rounding;
             }
         };
