@@ -291,15 +291,15 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
         {"track", "tet", tets,
          [&s] {
              const auto supers = s.tiles.super_tile_count();
-             fast::stream_boxes(packed(s.a), packed(s.a), s.tiles.block_first, s.blocks.data(),
-                                s.moves.data(), s.box_a);
+             fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a, packed(s.a),
+                                s.moves.data());
              fast::track_orientation(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
                                      s.super_boxes.data(), s.positive.data());
          }},
         {"orient", "tet", tets,
          [&s] {
              fast::orient(s.tiles, s.surface, packed(s.a), false, 0, s.tiles.super_first.back(),
-                          s.tile_boxes.data(), s.known.data(), s.bad.data());
+                          s.tile_boxes.data(), s.known.data(), s.bad.data(), false);
          }},
     };
 }

@@ -3,7 +3,6 @@
 #include "base/border.hpp"
 #include "base/scratch.hpp"
 #include "base/structs.hpp"
-#include "cell_size/calibrate.hpp"
 #include "cell_size/paper_model.hpp"
 #include "cell_size/search.hpp"
 #include "cell_size/suggest.hpp"

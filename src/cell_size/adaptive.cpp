@@ -88,7 +88,11 @@ std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bo
         if (!sized_ && (before.count == 0 || scene_changed_)) {
             const double side = few_box_sides(bodies);
             // Where no tetrahedron has a size nothing can touch, and any cell will do.
-            use(side > 0 ? std::max(1.5 * side, floor_) : 1);
+            sizes_ = {};
+            sizes_.count = 1;
+            sizes_.level[0] = {side > 0 ? std::max(1.5 * side, floor_) : 1,
+                               std::numeric_limits<double>::infinity()};
+            moved_ = 0;
         }
         scene_changed_ = balanced_ = false;
     } else {
@@ -114,23 +118,13 @@ void AdaptiveCellSize::adapt() noexcept {
     const double part =
         std::clamp((balance_ - last_balance_) / slope_, -std::log(most_at_once), std::log(most_at_once));
     if (std::abs(part) < hysteresis) return;
-    scale(std::exp(part));
-    moved_ += part;
-    last_balance_ = balance_; // what the next step will count
-}
-
-void AdaptiveCellSize::use(double cell_size) noexcept {
-    sizes_ = {};
-    sizes_.count = 1;
-    sizes_.level[0] = {cell_size, std::numeric_limits<double>::infinity()};
-    moved_ = 0;
-}
-
-void AdaptiveCellSize::scale(double factor) noexcept {
+    const double factor = std::exp(part);
     for (std::uint32_t l = 0; l < sizes_.count; ++l) {
         sizes_.level[l].cell_size = std::max(sizes_.level[l].cell_size * factor, floor_);
         sizes_.level[l].longest_side *= factor;
     }
+    moved_ += part;
+    last_balance_ = balance_; // what the next step will count
 }
 
 bool AdaptiveCellSize::choose(std::span<const Body> bodies, vox_storage storage, double byte_limit,

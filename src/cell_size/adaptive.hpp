@@ -47,9 +47,6 @@ private:
     bool choose(std::span<const Body> bodies, vox_storage storage, double byte_limit,
                 std::pmr::memory_resource* memory);
 
-    void use(double cell_size) noexcept;
-    void scale(double factor) noexcept;
-
     Levels sizes_{};     // empty before the first choice
     double floor_ = 0;   // the smallest size that the byte limit allows
     double moved_ = 0;   // logarithm of how far the sizes have been scaled since the last choice

@@ -1,7 +1,6 @@
 #include "cell_size/branch_misses.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vox {
@@ -14,9 +13,6 @@ constexpr double smallest = 0.5;
 // for rounding, and one on either side for points that are in none of them.
 constexpr std::uint32_t row = 8;
 
-// The octave of a number and the 32nd of it are its bits above these.
-constexpr int rest_bits = 47;
-
 } // namespace
 
 double BranchMisses::cell_size(std::size_t i) const noexcept {
@@ -25,10 +21,7 @@ double BranchMisses::cell_size(std::size_t i) const noexcept {
 }
 
 std::size_t BranchMisses::first_above(double distance) noexcept {
-    const double ratio = distance / smallest;
-    if (!(ratio >= 1)) return 0;
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(ratio);
-    return static_cast<std::size_t>((bits >> rest_bits) - (std::uint64_t{1023} << (52 - rest_bits)) + 1);
+    return class_of_ratio(distance / smallest, bits_per_octave);
 }
 
 void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<const Point> points,

@@ -8,12 +8,20 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace vox {
+
+// The class of a number: 0 below 1; from there on each octave has 2^bits classes of equal width.
+inline std::size_t class_of_ratio(double ratio, int bits) noexcept {
+    if (!(ratio >= 1)) return 0;
+    const std::uint64_t upper = std::bit_cast<std::uint64_t>(ratio) >> (52 - bits); // octave and part of it
+    return static_cast<std::size_t>(upper - (std::uint64_t{1023} << bits) + 1);
+}
 
 class BranchMisses {
 public:
@@ -49,7 +57,9 @@ public:
     static double of_irregular(double mean) noexcept { return 1 - std::pow(1 + 2.5 * mean, -0.8); }
 
 private:
-    static constexpr std::size_t per_octave = 32, octaves = 3, sizes = per_octave * octaves + 1;
+    static constexpr int bits_per_octave = 5;
+    static constexpr std::size_t per_octave = 1 << bits_per_octave, octaves = 3,
+                                 sizes = per_octave * octaves + 1;
     // Evenly spaced within an octave.
     double cell_size(std::size_t i) const noexcept;
     // The index of the first size above a distance (in units of the scale); `sizes` or more where there is none.

@@ -1,12 +1,12 @@
 // Times are fitted as sums of counts times weights by least squares with weights that are not negative (C. L.
 // Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent, since there are only
 // six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the machine's speed.
-#include "cell_size/calibrate.hpp"
+#include "cell_size/weights.hpp"
 
 #include "base/clock.hpp"
+#include "base/sampling.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/reference_model.hpp"
-#include "cell_size/weights.hpp"
 #include "fast/engine.hpp"
 #include "mesh/cube_lattice.h"
 #include "reference/engine.hpp"
@@ -73,11 +73,8 @@ struct Block {
     Block(std::uint32_t n, float corner) : positions((n + 1) * (n + 1) * (n + 1)), tets(6 * n * n * n) {
         write_lattice_positions(n, n, n, &positions[0].x);
         write_lattice_tets(&kuhn_cut, n, n, n, tets[0].v);
-        std::uint32_t state = 1;
-        const auto jitter = [&] {
-            state = state * 1664525u + 1013904223u;
-            return static_cast<float>(state >> 16) * (0.2f / 65536) - 0.1f;
-        };
+        std::uint64_t random = 1;
+        const auto jitter = [&] { return static_cast<float>(next_below(random, 65536)) * (0.2f / 65536) - 0.1f; };
         for (Vec3f& p : positions) {
             const float x = jitter(), y = jitter(), z = jitter();
             p = {corner + p.x + x, p.y + y, p.z + z};
@@ -212,18 +209,16 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
 
 } // namespace
 
-vox_cost_weights measure_weights() {
-    vox_cost_weights weights = shipped_weights();
-    Scene scene(6, 1.5f);
-    measure_reference(scene, weights);
-    measure_fast(scene, weights);
-    weights.measured = 1;
-    return weights;
-}
-
 const vox_cost_weights& measured_weights() {
-    static const vox_cost_weights weights = measure_weights();
-    return weights;
+    static const vox_cost_weights measured = [] {
+        vox_cost_weights weights = shipped_weights();
+        Scene scene(6, 1.5f);
+        measure_reference(scene, weights);
+        measure_fast(scene, weights);
+        weights.measured = 1;
+        return weights;
+    }();
+    return measured;
 }
 
 } // namespace vox

@@ -1,9 +1,8 @@
-#include "cell_size/geometry.hpp"
+#include "cell_size/scene.hpp"
 
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
 #include "base/vectors.hpp"
-#include "cell_size/scene.hpp"
 #include "exact/predicates.hpp"
 #include "fast/last_positions.hpp"
 #include "fast/stream.hpp"

@@ -161,7 +161,7 @@ double PointsMet::at(double cell_size) const noexcept {
     const std::size_t c = class_of(ratio);
     if (c == 0) return sums_[0].sum[0];
     if (c >= sums_.size()) return sums_.back().at(cell_size);
-    constexpr std::uint64_t rest = std::uint64_t{1} << rest_bits;
+    constexpr std::uint64_t rest = std::uint64_t{1} << (52 - step_bits);
     const double part = static_cast<double>(std::bit_cast<std::uint64_t>(ratio) & (rest - 1)) / double{rest};
     const double below = sums_[c - 1].at(cell_size);
     return below + part * (sums_[c].at(cell_size) - below);
@@ -204,7 +204,6 @@ void Lookups::add(const Lookup& lookup, double weight) {
     if (lookup.jumps) c.jumped += weight;
     c.added += 1;
     c.cells.add(cells_met(w), weight);
-    c.rows.add(rows_met(w), weight);
     if (c.sample.size() < budget_.lookups) {
         c.sample.push_back(lookup);
         return;
@@ -324,37 +323,6 @@ void Lookups::count_crowds(const SizeClass& c, std::size_t wanted, double near, 
 }
 
 // ---- results --------------------------------------------------------------------------------------
-
-double Lookups::count() const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.count;
-    return sum;
-}
-double Lookups::cells(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.cells.at(cell_size);
-    return sum;
-}
-double Lookups::rows(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.rows.at(cell_size);
-    return sum;
-}
-double Lookups::read(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.passed.at(cell_size) + c.tested.at(cell_size);
-    return sum;
-}
-double Lookups::tested(double cell_size) const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.tested.at(cell_size);
-    return sum;
-}
-double Lookups::candidates() const noexcept {
-    double sum = 0;
-    for (const SizeClass& c : classes_) sum += c.tested.inside();
-    return sum;
-}
 
 double Lookups::occupied(double cell_size) const noexcept {
     const double place = std::clamp(std::log(cell_size / first_size_) / std::log(size_ratio_), 0.0,

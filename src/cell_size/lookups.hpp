@@ -1,4 +1,4 @@
-// How many cells, rows of cells and points a set of boxes meets in a lattice of cubic cells, as a function of
+// How many cells and points a set of boxes meets in a lattice of cubic cells, as a function of
 // the cell size.
 //
 // A box of sides w, w', w'' placed at random in a lattice of cell size d meets on average exactly
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -53,11 +52,10 @@ struct Moments {
     }
 };
 
-// Cells that a box of these sides meets, and rows of cells along x.
+// Cells that a box of these sides meets.
 inline Moments cells_met(const double (&w)[3]) noexcept {
     return {{1, w[0] + w[1] + w[2], w[0] * w[1] + w[1] * w[2] + w[2] * w[0], w[0] * w[1] * w[2]}};
 }
-inline Moments rows_met(const double (&w)[3]) noexcept { return {{1, w[1] + w[2], w[1] * w[2], 0}}; }
 
 // How many points lie in the cells that a box meets, from their distances to the box along the axes.
 class PointsMet {
@@ -85,16 +83,12 @@ public:
     double inside() const noexcept { return sums_[0].sum[0]; } // in the box, or nearer than scale / 256
 
 private:
-    static constexpr std::size_t octaves = 20, steps = 16, classes = octaves * steps + 1;
+    static constexpr int step_bits = 4;
+    static constexpr std::size_t octaves = 20, classes = (octaves << step_bits) + 1;
 
-    // The class of a distance, given as a multiple of the least. Octave and sixteenth are the upper bits of the
-    // number, so the classes of one octave are equally wide.
-    static constexpr int rest_bits = 48;
+    // The class of a distance, given as a multiple of the least.
     static std::size_t class_of(double ratio) noexcept {
-        if (!(ratio >= 1)) return 0;
-        const std::uint64_t c = (std::bit_cast<std::uint64_t>(ratio) >> rest_bits) -
-                                (std::uint64_t{1023} << (52 - rest_bits)) + 1;
-        return c < classes ? static_cast<std::size_t>(c) : classes;
+        return std::min(class_of_ratio(ratio, step_bits), classes);
     }
     void grow(std::size_t to);
 
@@ -121,7 +115,7 @@ struct SizeClass {
     double count = 0;         // of lookups, as are all sums here
     double jumped = 0;        // of lookups that jump
     std::uint64_t added = 0;  // calls of Lookups::add()
-    Moments cells, rows;      // met
+    Moments cells;            // met
     PointsMet passed, tested; // points read, passed over or tested
     BranchMisses changes;
     std::pmr::vector<Lookup> sample;
@@ -141,12 +135,18 @@ public:
     std::uint64_t points_looked_at() const noexcept { return points_looked_at_; }
 
     const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
-    double count() const noexcept;
-    double cells(double cell_size) const noexcept;
-    double rows(double cell_size) const noexcept;
-    double read(double cell_size) const noexcept;
-    double tested(double cell_size) const noexcept;
-    double candidates() const noexcept;               // tested points that are in the boxes themselves
+    double count() const noexcept {
+        return sum([](const SizeClass& c) { return c.count; });
+    }
+    double cells(double cell_size) const noexcept {
+        return sum([&](const SizeClass& c) { return c.cells.at(cell_size); });
+    }
+    double read(double cell_size) const noexcept {
+        return sum([&](const SizeClass& c) { return c.passed.at(cell_size) + c.tested.at(cell_size); });
+    }
+    double candidates() const noexcept { // tested points that are in the boxes themselves
+        return sum([](const SizeClass& c) { return c.tested.inside(); });
+    }
     double occupied(double cell_size) const noexcept; // estimated number of cells with a point in them
     // Longest sides of the smallest and the largest lookup, to within a factor of two; false where none has a
     // side.
@@ -155,6 +155,12 @@ public:
 private:
     static constexpr int exponents = 512;
 
+    template <class Value>
+    double sum(Value&& value) const noexcept {
+        double all = 0;
+        for (const SizeClass& c : classes_) all += value(c);
+        return all;
+    }
     SizeClass& class_of(double side, bool may_meet);
     template <class Around>
     std::size_t count_around(SizeClass& c, double lookups, Around&& around);

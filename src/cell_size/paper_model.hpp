@@ -9,7 +9,6 @@
 
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
-#include "cell_size/terms.hpp"
 
 #include <vox/vox.h>
 

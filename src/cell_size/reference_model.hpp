@@ -15,7 +15,6 @@
 #include "cell_size/lookups.hpp"
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
-#include "cell_size/terms.hpp"
 
 #include <vox/vox.h>
 

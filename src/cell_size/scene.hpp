@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/scene.hpp"
-#include "cell_size/geometry.hpp"
 #include "cell_size/lookups.hpp"
 #include "fast/engine.hpp"
 #include "mesh/mesh.hpp"
@@ -15,6 +14,14 @@
 #include <vector>
 
 namespace vox {
+
+// The counts and means of a scene that cost models and cell-size rules are written in.
+struct Geometry {
+    vox_geometry_stats stats;
+    // Mean over the bodies whose bounding box has a volume, of the side of the cube of equal volume. 0 where none
+    // has.
+    double mean_object_side;
+};
 
 struct CellSizeScene {
     explicit CellSizeScene(std::pmr::memory_resource* memory);
@@ -63,5 +70,15 @@ private:
     fast::StreamBuffers stream_;
     fast::BroadPhase broad_phase_;
 };
+
+// Measures the positions as they are now. Of a large scene whose meshes have samples (mesh/sample.hpp) these are
+// measured: counts of edges and facets are then the topology's, and the means estimates, good to a few per cent where
+// sizes are not widely spread. Other scenes are measured in full.
+//
+// The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without tetrahedra; every
+// vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges and facets of its own but
+// counts in the means over tetrahedra; one that is off does not count. Means of nothing are 0. Time, and bytes of
+// memory until it returns, in proportion to the tetrahedra. Throws Error(NON_FINITE) naming mesh_id and vertex.
+Geometry measure(const CellSizeScene& scene);
 
 } // namespace vox

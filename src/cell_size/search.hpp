@@ -4,7 +4,9 @@
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <memory_resource>
 #include <vector>
@@ -25,6 +27,32 @@ struct CellSizeRange {
     double min, max; // 0 < min <= max, finite
 };
 
+// A cost at one cell size, term by term: how often a piece of work is done, and what it costs each time.
+struct CostTerm {
+    const char* name; // at most 23 characters
+    double count;
+    double weight; // nanoseconds each
+};
+
+class CostTerms {
+public:
+    void add(const char* name, double count, double weight) noexcept {
+        terms_[count_++] = {name, count, weight};
+    }
+
+    double cost() const noexcept {
+        double sum = 0;
+        for (const CostTerm& term : *this) sum += term.count * term.weight;
+        return sum;
+    }
+    const CostTerm* begin() const noexcept { return terms_.data(); }
+    const CostTerm* end() const noexcept { return terms_.data() + count_; }
+
+private:
+    std::array<CostTerm, VOX_COST_TERM_CAPACITY> terms_{};
+    std::uint32_t count_ = 0;
+};
+
 struct CostMinimum {
     double cell_size;
     double cost; // infinite where the function is infinite everywhere
@@ -37,8 +65,8 @@ struct Fineness {
     double tolerance = 1e-8; // of an octave
 };
 
-// The least cost in the range, by an even scan and a golden-section search around its best place. Of a function with several minima, those that lie between two places of the
-// scan can be missed.
+// The least cost in the range, by an even scan and a golden-section search around its best place. Of a function with
+// several minima, those that lie between two places of the scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
 // The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that lie

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cell_size/scene.hpp"
-#include "cell_size/terms.hpp"
 
 #include <vox/vox.h>
 

@@ -298,11 +298,8 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
     list_regions(step, boxes, out);
     std::size_t blocks = 0, tiles = 0;
     for (const PairRegion& pair : out.regions) blocks += step.of[pair.a].tiles->block_count();
-    step.for_ranges(out.regions.size(), blocks, task_boxes,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t r = begin; r < end; ++r)
-                            shrink_to_blocks(step, boxes, out.regions[r]);
-                    });
+    step.for_each(out.regions.size(), blocks, task_boxes,
+                  [&](std::size_t r, std::uint32_t) { shrink_to_blocks(step, boxes, out.regions[r]); });
     std::erase_if(out.regions, [](const PairRegion& pair) { return is_empty(pair.region); });
     index_regions(step.bodies.size(), out);
 
@@ -313,21 +310,14 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
         add(out.reached[pair.b], pair.region);
         tiles += step.of[pair.b].tiles->tiles.size();
     }
-    step.for_ranges(step.block_pieces.size(), step.block_count, task_blocks,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t p = begin; p < end; ++p)
-                            find_block_sides(step, boxes, step.block_pieces[p], out);
-                    });
-    step.for_ranges(step.super_pieces.size(), step.tile_count, task_tiles,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t p = begin; p < end; ++p)
-                            make_reached_boxes(step, out, step.super_pieces[p], boxes);
-                    });
-    step.for_ranges(out.regions.size(), tiles, task_boxes,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t) {
-                        for (std::size_t r = begin; r < end; ++r)
-                            shrink_to_tiles(step, boxes, out.regions[r]);
-                    });
+    step.for_each(
+        step.block_pieces.size(), step.block_count, task_blocks,
+        [&](std::size_t p, std::uint32_t) { find_block_sides(step, boxes, step.block_pieces[p], out); });
+    step.for_each(
+        step.super_pieces.size(), step.tile_count, task_tiles,
+        [&](std::size_t p, std::uint32_t) { make_reached_boxes(step, out, step.super_pieces[p], boxes); });
+    step.for_each(out.regions.size(), tiles, task_boxes,
+                  [&](std::size_t r, std::uint32_t) { shrink_to_tiles(step, boxes, out.regions[r]); });
 }
 
 void make_super_tile_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {

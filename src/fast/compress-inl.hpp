@@ -13,26 +13,21 @@
 
 #ifndef VOX_FAST_COMPRESS_ONCE
 #define VOX_FAST_COMPRESS_ONCE
-#include <array>
 #include <cstdint>
 
 namespace vox::fast {
 
 // For each set of eight lanes: the lanes in it, in order, then the others.
-struct CompressTable {
-    std::uint8_t lane[256][8];
-};
-constexpr CompressTable make_compress_table() {
-    CompressTable table{};
-    for (unsigned mask = 0; mask < 256; ++mask) {
-        unsigned n = 0;
-        for (unsigned wanted = 2; wanted-- > 0;)
-            for (unsigned i = 0; i < 8; ++i)
-                if ((mask >> i & 1) == wanted) table.lane[mask][n++] = static_cast<std::uint8_t>(i);
+inline constexpr struct CompressTable {
+    std::uint8_t lane[256][8]{};
+
+    constexpr CompressTable() {
+        for (unsigned mask = 0; mask < 256; ++mask)
+            for (unsigned wanted = 2, n = 0; wanted-- > 0;)
+                for (unsigned i = 0; i < 8; ++i)
+                    if ((mask >> i & 1) == wanted) lane[mask][n++] = static_cast<std::uint8_t>(i);
     }
-    return table;
-}
-inline constexpr CompressTable compress_table = make_compress_table();
+} compress_table;
 
 } // namespace vox::fast
 #endif

@@ -74,15 +74,12 @@ void FastEngine::query(std::pmr::vector<Hit>& hits) {
     constexpr std::size_t task_tiles =
         32; // are worth a task: by bench_stages, ten microseconds where they find points
     fast::Decided decided{hits, degenerate_};
-    step_.for_ranges(step_.super_pieces.size(), step_.tile_count, task_tiles,
-                     [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-                         Worker& worker = workers_[w];
-                         for (std::size_t p = begin; p < end; ++p) {
-                             const fast::Piece& piece = step_.super_pieces[p];
-                             fast::ExactDecisions decide(step_.bodies, piece.body, worker.decided, decided);
-                             fast::query(step_, broad_phase_, windows_, piece, boxes_, worker, decide);
-                         }
-                     });
+    step_.for_each(
+        step_.super_pieces.size(), step_.tile_count, task_tiles, [&](std::size_t p, std::uint32_t worker) {
+            const fast::Piece& piece = step_.super_pieces[p];
+            fast::ExactDecisions decide(step_.bodies, piece.body, workers_[worker].decided, decided);
+            fast::query(step_, broad_phase_, windows_, piece, boxes_, workers_[worker], decide);
+        });
     workers_.level();
 }
 

@@ -65,13 +65,16 @@ struct Step {
 
     std::uint32_t worker_count() const noexcept { return workers ? workers->count() : 1; }
 
-    // Calls function(begin, end, worker) for ranges that make up [0, items). `work` is that of all items
-    // together; a task of its own is given at least `least` of it.
+    // Calls function(item, worker) for each item of [0, items). `work` is that of all items together; a task
+    // of its own is given at least `least` of it.
     template <class Function>
-    void for_ranges(std::size_t items, std::size_t work, std::size_t least, Function&& function) const {
+    void for_each(std::size_t items, std::size_t work, std::size_t least, Function&& function) const {
+        const auto range = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+            for (std::size_t i = begin; i < end; ++i) function(i, worker);
+        };
         if (items == 0) return;
-        if (worker_count() == 1 || work <= least) return function(std::size_t{0}, items, std::uint32_t{0});
-        workers->for_ranges(items, std::max<std::size_t>(items * least / work, 1), function);
+        if (worker_count() == 1 || work <= least) return range(0, items, 0);
+        workers->for_ranges(items, std::max<std::size_t>(items * least / work, 1), range);
     }
 };
 

@@ -20,6 +20,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "fast/tile-inl.hpp"
+
 #ifndef VOX_FAST_STREAM_ONCE
 #define VOX_FAST_STREAM_ONCE
 namespace vox::fast {
@@ -39,8 +41,6 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 // Whether all of `values` are finite: without the sign, their bits are below those of infinity.
 HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     const hn::CappedTag<std::uint32_t, 16> du;
@@ -53,14 +53,6 @@ HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
     bool finite = hn::GetLane(hn::MaxOfLanes(du, largest)) < 0x7f800000u;
     for (; i < count; ++i) finite &= values[i] - values[i] == 0; // false for infinities and NaN
     return finite;
-}
-
-// x, y, z of a position. The fourth lane is the x of the next position; for the last position it is unused.
-using Four = hn::FixedTag<float, 4>;
-
-HWY_INLINE hn::Vec<Four> LoadLast(const float* HWY_RESTRICT p) {
-    alignas(16) const float last[4] = {p[0], p[1], p[2], 0};
-    return hn::Load(Four(), last);
 }
 
 // Adds the positions load(i), i < count, to the box from `lo` to `hi`.
@@ -149,18 +141,18 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
         auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity), move_lo = lo, move_hi = hi;
         if (end == count) {
             --left;
-            lo = hi = LoadLast(p + 3 * left);
-            if constexpr (kMoves) move_lo = move_hi = hn::Sub(lo, LoadLast(q + 3 * left));
+            lo = hi = LoadLastVertex(p, left);
+            if constexpr (kMoves) move_lo = move_hi = hn::Sub(lo, LoadLastVertex(q, left));
         }
         BoxOf(
-            left, [&](std::uint32_t i) HWY_ATTR { return hn::LoadU(d, p + 3 * i); }, lo, hi);
+            left, [&](std::uint32_t i) HWY_ATTR { return LoadVertex(p, i); }, lo, hi);
         hn::Store(lo, d, boxes[b].lo);
         hn::Store(hi, d, boxes[b].hi);
         all_lo = hn::Min(all_lo, lo);
         all_hi = hn::Max(all_hi, hi);
         if constexpr (kMoves) {
             const auto move = [&](std::uint32_t i) HWY_ATTR {
-                return hn::Sub(hn::LoadU(d, p + 3 * i), hn::LoadU(d, q + 3 * i));
+                return hn::Sub(LoadVertex(p, i), LoadVertex(q, i));
             };
             BoxOf(left, move, move_lo, move_hi);
             hn::Store(move_lo, d, moves[b].lo);
@@ -172,15 +164,11 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
     return finite;
 }
 
-bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
-                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
-    return Stream<false>(positions, nullptr, first, blocks, boxes, nullptr, all);
-}
-
-bool StreamMoves(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
+bool StreamBoxes(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
                  const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
                  Box* HWY_RESTRICT moves, Box& all) {
-    return Stream<true>(positions, reference, first, blocks, boxes, moves, all);
+    return reference ? Stream<true>(positions, reference, first, blocks, boxes, moves, all)
+                     : Stream<false>(positions, nullptr, first, blocks, boxes, nullptr, all);
 }
 
 // nearest_float() of the coordinates of positions that are three packed doubles.
@@ -240,13 +228,9 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
     }
 }
 
-bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
-    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
-}
-
-bool stream_boxes(const float* positions, const float* reference, std::span<const std::uint32_t> first,
-                  Box* boxes, Box* moves, Box& all) {
-    return VOX_SIMD_DISPATCH(StreamMoves)(positions, reference, first.data(), first.size() - 1, boxes, moves,
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all,
+                  const float* reference, Box* moves) {
+    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, reference, first.data(), first.size() - 1, boxes, moves,
                                           all);
 }
 
@@ -297,10 +281,9 @@ bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& b
             std::memcpy(body.packed + std::size_t{v} * 3, &p, sizeof p);
         }
     Box* out = boxes.blocks.data() + body.first_block + piece.first;
-    const bool finite = body.has_moves
-                            ? stream_boxes(body.positions, body.orientation->reference.data(), first, out,
-                                           boxes.moves.data() + body.first_move + piece.first, box)
-                            : stream_boxes(body.positions, first, out, box);
+    const float* reference = body.has_moves ? body.orientation->reference.data() : nullptr;
+    Box* moves = body.has_moves ? boxes.moves.data() + body.first_move + piece.first : nullptr;
+    const bool finite = stream_boxes(body.positions, first, out, box, reference, moves);
     if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
     if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);
     return finite;
@@ -313,16 +296,12 @@ void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers) {
     std::atomic<bool> finite{true};
     buffers.piece_boxes.resize(step.block_pieces.size());
     buffers.piece_moved.resize(step.block_pieces.size());
-    step.for_ranges(
-        step.block_pieces.size(), step.block_count, piece_blocks,
-        [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t p = begin; p < end; ++p) {
-                bool moved = false;
-                if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
-                    finite.store(false, std::memory_order_relaxed);
-                buffers.piece_moved[p] = moved;
-            }
-        });
+    step.for_each(step.block_pieces.size(), step.block_count, piece_blocks, [&](std::size_t p, std::uint32_t) {
+        bool moved = false;
+        if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
+            finite.store(false, std::memory_order_relaxed);
+        buffers.piece_moved[p] = moved;
+    });
     if (!finite) {
         for (const Body& body : step.bodies) check_finite(body);
         throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");

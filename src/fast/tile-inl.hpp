@@ -107,33 +107,26 @@ HWY_INLINE void LoadTile(const Tiles& tiles, const float* positions, const Tile&
         LoadTile<kBox>(positions, vertices, padded, LoadVertex, s, box);
 }
 
-// A table of 64 floats, looked up by lane: indices below 64.
+// A table of 64 floats, or of 48, looked up by lane: by indices below that.
 #if HWY_TARGET == HWY_AVX3
-struct Table {
-    __m512 part[4];
-    explicit Table(const float* values) {
-        for (int i = 0; i < 4; ++i) part[i] = _mm512_load_ps(values + 16 * i);
-    }
-    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
-        const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
-        const __m512 high = _mm512_permutex2var_ps(part[2], index.raw, part[3]);
-        const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
-        return hn::Vec<Floats>{_mm512_mask_blend_ps(upper, low, high)};
-    }
-};
-
-// A table of 48 floats.
-struct SmallTable {
-    __m512 part[3];
-    explicit SmallTable(const float* values) {
-        for (int i = 0; i < 3; ++i) part[i] = _mm512_load_ps(values + 16 * i);
+template <int kParts>
+struct PartedTable {
+    __m512 part[kParts];
+    explicit PartedTable(const float* values) {
+        for (int i = 0; i < kParts; ++i) part[i] = _mm512_load_ps(values + 16 * i);
     }
     HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Words> index) const {
         const __m512 low = _mm512_permutex2var_ps(part[0], index.raw, part[1]);
         const __mmask16 upper = _mm512_test_epi32_mask(index.raw, _mm512_set1_epi32(32));
-        return hn::Vec<Floats>{_mm512_mask_permutexvar_ps(low, upper, index.raw, part[2])};
+        if constexpr (kParts == 3)
+            return hn::Vec<Floats>{_mm512_mask_permutexvar_ps(low, upper, index.raw, part[2])};
+        else
+            return hn::Vec<Floats>{
+                _mm512_mask_blend_ps(upper, low, _mm512_permutex2var_ps(part[2], index.raw, part[3]))};
     }
 };
+using Table = PartedTable<4>;
+using SmallTable = PartedTable<3>;
 
 // As Table, of words.
 struct WordTable {

@@ -212,10 +212,8 @@ bool looks_crowded(const Points& points, Range range, const WindowLattice& latti
     std::array<std::size_t, most_samples> cell;
     for (std::uint32_t i = 0; i < most_samples; ++i) {
         const std::size_t p = range.first + std::uint64_t{range.count} * i / most_samples;
-        cell[i] =
-            (std::size_t{lattice.cell(points.z[p], 2)} * lattice.cells[1] + lattice.cell(points.y[p], 1)) *
-                lattice.cells[0] +
-            lattice.cell(points.x[p], 0);
+        cell[i] = lattice.offset(
+            {{lattice.cell(points.x[p], 0), lattice.cell(points.y[p], 1), lattice.cell(points.z[p], 2), 0}});
     }
     std::sort(cell.begin(), cell.end());
     std::uint64_t pairs = 0, same = 0; // of samples in one cell; samples in the cell before i

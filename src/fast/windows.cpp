@@ -197,14 +197,13 @@ void make_windows(const Step& step, const BroadPhase& broad, double cell_size, S
         for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
             if (is_large(step.bodies[a]))
                 make_window(step, broad, cell_size, a, out.bins[g], out.workers[0], step.workers, boxes, out);
-    step.for_ranges(out.groups.size(), vertices, 2 * group_vertices,
-                    [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-                        for (std::size_t g = begin; g < end; ++g)
-                            for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
-                                if (!share || !is_large(step.bodies[a]))
-                                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker],
-                                                nullptr, boxes, out);
-                    });
+    step.for_each(
+        out.groups.size(), vertices, 2 * group_vertices, [&](std::size_t g, std::uint32_t worker) {
+            for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
+                if (!share || !is_large(step.bodies[a]))
+                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker], nullptr, boxes,
+                                out);
+        });
     out.workers.level();
 }
 

@@ -243,15 +243,12 @@ private:
         const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t s = begin; s < end; ++s) {
-                const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
-                if (measure_)
-                    cache.slack[s] =
-                        orient_and_measure(tiles, body_.boundary, body_.positions, body_.rounded, first, last,
-                                           body_.tile_boxes, body_.tile_known, out_.bad.data()) -
-                        rounding;
-                else if (!body_.super_positive[s])
-                    orient(tiles, body_.boundary, body_.positions, body_.rounded, first, last,
-                           body_.tile_boxes, body_.tile_known, out_.bad.data());
+                if (!measure_ && body_.super_positive[s]) continue;
+                const float width =
+                    orient(tiles, body_.boundary, body_.positions, body_.rounded, tiles.super_first[s],
+                           tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data(),
+                           measure_);
+                if (measure_) cache.slack[s] = width - rounding;
             }
         };
         constexpr std::size_t task_supers = 16; // are worth a task: by bench_stages, 20 microseconds

@@ -102,16 +102,11 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& boundary,
     return any_bad ? 0 : hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-void Orient(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions, bool rounded,
-            std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
-            std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
-    (void)OrientTiles<false>(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
-}
-
-float OrientAndMeasure(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions,
-                       bool rounded, std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
-                       std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad) {
-    return OrientTiles<true>(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
+float Orient(const Tiles& tiles, const Boundary& boundary, const float* HWY_RESTRICT positions, bool rounded,
+             std::uint32_t first, std::uint32_t last, Box* HWY_RESTRICT boxes,
+             std::uint8_t* HWY_RESTRICT known, std::uint64_t* HWY_RESTRICT bad, bool measure) {
+    return measure ? OrientTiles<true>(tiles, boundary, positions, rounded, first, last, boxes, known, bad)
+                   : OrientTiles<false>(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
 }
 
 } // namespace HWY_NAMESPACE
@@ -187,19 +182,16 @@ void track_orientation(Step& step, StepBoxes& boxes) {
         if (body.has_super_boxes) tiles += body.tiles->tiles.size();
     }
     if (tiles == 0) return;
-    step.for_ranges(
-        step.super_pieces.size(), tiles, task_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t p = begin; p < end; ++p) {
-                const Piece& piece = step.super_pieces[p];
-                const StepBody& body = step.of[piece.body];
-                if (!body.has_super_boxes) continue;
-                track_orientation(*body.tiles, *body.orientation, boxes.blocks.data() + body.first_block,
-                                  body.has_moves ? boxes.moves.data() + body.first_move : nullptr,
-                                  body.rounded ? slack_of_rounding(boxes.bodies[piece.body]) : 0, piece.first,
-                                  piece.last, boxes.super_tiles.data() + body.first_super,
-                                  boxes.super_positive.data() + body.first_super);
-            }
-        });
+    step.for_each(step.super_pieces.size(), tiles, task_tiles, [&](std::size_t p, std::uint32_t) {
+        const Piece& piece = step.super_pieces[p];
+        const StepBody& body = step.of[piece.body];
+        if (!body.has_super_boxes) return;
+        track_orientation(*body.tiles, *body.orientation, boxes.blocks.data() + body.first_block,
+                          body.has_moves ? boxes.moves.data() + body.first_move : nullptr,
+                          body.rounded ? slack_of_rounding(boxes.bodies[piece.body]) : 0, piece.first,
+                          piece.last, boxes.super_tiles.data() + body.first_super,
+                          boxes.super_positive.data() + body.first_super);
+    });
 }
 
 bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept {
@@ -221,16 +213,11 @@ bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint3
     return true;
 }
 
-void orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
-            std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad) {
-    VOX_SIMD_DISPATCH(Orient)(tiles, boundary, positions, rounded, first, last, boxes, known, bad);
-}
-
-float orient_and_measure(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
-                         std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
-                         std::uint64_t* bad) {
-    return VOX_SIMD_DISPATCH(OrientAndMeasure)(tiles, boundary, positions, rounded, first, last, boxes, known,
-                                               bad);
+float orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
+             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad,
+             bool measure) {
+    return VOX_SIMD_DISPATCH(Orient)(tiles, boundary, positions, rounded, first, last, boxes, known, bad,
+                                     measure);
 }
 
 } // namespace vox::fast

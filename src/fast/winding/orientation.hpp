@@ -52,14 +52,10 @@ void track_orientation(Step& step, StepBoxes& boxes);
 bool wants_reference(OrientationCache& cache, std::uint32_t doubtful, std::uint32_t super_tiles) noexcept;
 
 // Makes the boxes of the tiles [first, last) and, for each, the set of tets that the float filter
-// (narrow-inl.hpp) does not find positive.
-void orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
-            std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad);
-
-// The same, and returns a lower bound on the widths of the tets, of their rounded positions; 0 when a tet is
-// in a set.
-float orient_and_measure(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
-                         std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known,
-                         std::uint64_t* bad);
+// (narrow-inl.hpp) does not find positive. With `measure`, returns a lower bound on the widths of the tets,
+// of their rounded positions; 0 when a tet is in a set.
+float orient(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
+             std::uint32_t first, std::uint32_t last, Box* boxes, std::uint8_t* known, std::uint64_t* bad,
+             bool measure);
 
 } // namespace vox::fast

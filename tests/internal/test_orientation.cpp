@@ -11,50 +11,49 @@ using namespace stages;
 namespace {
 
 // A body, its tiles, and what is kept from step to step.
-struct Followed {
+struct Tracked {
     Mesh mesh;
     Tiles tiles = tiles_of(mesh);
     Boundary surface = Boundary(std::pmr::get_default_resource());
-    fast::OrientationCache turning = fast::OrientationCache(std::pmr::get_default_resource());
+    fast::OrientationCache cache = fast::OrientationCache(std::pmr::get_default_resource());
     std::vector<Box> blocks{tiles.block_count()}, moves{tiles.block_count()};
     std::vector<Box> super_boxes{tiles.super_tile_count()}, tile_boxes{tiles.tiles.size()};
-    std::vector<std::uint8_t> upright = std::vector<std::uint8_t>(tiles.super_tile_count());
+    std::vector<std::uint8_t> positive = std::vector<std::uint8_t>(tiles.super_tile_count());
     std::vector<std::uint8_t> known = std::vector<std::uint8_t>(tiles.tiles.size());
     std::vector<std::uint64_t> bad = std::vector<std::uint64_t>(tiles.tiles.size());
 
-    explicit Followed(Mesh from) : mesh(std::move(from)) {
+    explicit Tracked(Mesh from) : mesh(std::move(from)) {
         make_boundary(mesh.tets, vertex_count(mesh), view(mesh), tiles, surface);
         ck_assert(surface.is_closed);
     }
 
     float measure(std::uint32_t super) {
-        return fast::orient_and_measure(tiles, surface, packed(mesh), false, tiles.super_first[super],
-                                        tiles.super_first[super + 1], tile_boxes.data(), known.data(),
-                                        bad.data());
+        return fast::orient(tiles, surface, packed(mesh), false, tiles.super_first[super],
+                            tiles.super_first[super + 1], tile_boxes.data(), known.data(), bad.data(), true);
     }
 
     void take_reference() {
         Box all;
         fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all);
-        turning.reference.assign(packed(mesh), packed(mesh) + 3 * mesh.positions.size());
-        fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
-                     super_boxes.data(), upright.data());
-        turning.boxes.assign(super_boxes.begin(), super_boxes.end());
-        turning.slack.resize(tiles.super_tile_count());
-        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) turning.slack[s] = measure(s);
+        cache.reference.assign(packed(mesh), packed(mesh) + 3 * mesh.positions.size());
+        fast::track_orientation(tiles, cache, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
+                     super_boxes.data(), positive.data());
+        cache.boxes.assign(super_boxes.begin(), super_boxes.end());
+        cache.slack.resize(tiles.super_tile_count());
+        for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) cache.slack[s] = measure(s);
     }
 
-    // How many super-tiles are upright, each of them checked.
-    std::size_t follow(const char* name) {
+    // Returns how many super-tiles are positive, after checking each of those.
+    std::size_t track(const char* name) {
         Box all;
-        fast::stream_boxes(packed(mesh), turning.reference.data(), tiles.block_first, blocks.data(),
-                           moves.data(), all);
-        fast::track_orientation(tiles, turning, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
-                     super_boxes.data(), upright.data());
+        fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all, cache.reference.data(),
+                           moves.data());
+        fast::track_orientation(tiles, cache, blocks.data(), moves.data(), 0, 0, tiles.super_tile_count(),
+                     super_boxes.data(), positive.data());
         std::size_t count = 0;
         std::uint64_t exact_tests = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            count += upright[s];
+            count += positive[s];
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint32_t i = 0; i < tiles.tiles[t].tet_count; ++i) {
                     const Tet& tet = mesh.tets[tiles.tets[tiles.tiles[t].first_tet + i]];
@@ -65,8 +64,8 @@ struct Followed {
                                       "%s: a vertex is outside of the box of its super-tile", name);
                     }
                     const int sign = surface.mirrored[t] >> i & 1 ? -1 : 1;
-                    ck_assert_msg(!upright[s] || orientation(q[0], q[1], q[2], q[3], exact_tests) * sign > 0,
-                                  "%s: a tet that turned over is called upright", name);
+                    ck_assert_msg(!positive[s] || orientation(q[0], q[1], q[2], q[3], exact_tests) * sign > 0,
+                                  "%s: a tet that turned over is called positive", name);
                 }
         }
         return count;
@@ -107,7 +106,7 @@ START_TEST(widths_are_lower_bounds) {
             mesh.positions.push_back({x, y, z});
         }
         mesh.tets.push_back({{0, 1, 2, 3}});
-        Followed one(mesh);
+        Tracked one(mesh);
         Vec3d p[4];
         for (int v = 0; v < 4; ++v) p[v] = Vec3d(mesh.positions[std::size_t(v)]);
         const double exact = width(p);
@@ -128,7 +127,7 @@ START_TEST(widths_are_lower_bounds) {
 }
 END_TEST
 
-START_TEST(upright_tets_are_positive) {
+START_TEST(tets_called_positive_are) {
     Random r{2};
     for (int round = 0; round < 30; ++round) {
         Mesh mesh = block(8, 8, 8);
@@ -139,72 +138,72 @@ START_TEST(upright_tets_are_positive) {
                 if (r.below(2)) std::swap(tet.v[2], tet.v[1]);
         if (round % 5 == 4) move(mesh, 1e-2, 77, -5, 1e3);
         const double edge = round % 5 == 4 ? 1e-2 : 1;
-        Followed body(mesh);
+        Tracked body(mesh);
         body.take_reference();
         const Mesh before = body.mesh;
-        std::size_t seen_upright = 0, seen_doubtful = 0;
+        std::size_t seen_positive = 0, seen_doubtful = 0;
         for (int step = 0; step < 12; ++step) {
             const double amount = edge * std::pow(10, r.uniform(-4, 0));
             const float x = r.uniform(-9, 9), y = r.uniform(-9, 9), z = r.uniform(-9, 9);
             body.mesh = before;
             for (Vec3f& p : body.mesh.positions) p = {p.x + x, p.y + y, p.z + z}; // costs no slack
             jitter(body.mesh, amount, r);
-            const std::size_t upright = body.follow("a block");
-            seen_upright += upright;
-            seen_doubtful += body.upright.size() - upright;
-            if (amount < 0.01 * edge && edge == 1) ck_assert_uint_eq(upright, body.upright.size());
+            const std::size_t positive = body.track("a block");
+            seen_positive += positive;
+            seen_doubtful += body.positive.size() - positive;
+            if (amount < 0.01 * edge && edge == 1) ck_assert_uint_eq(positive, body.positive.size());
         }
-        ck_assert_uint_gt(seen_upright, 0);
+        ck_assert_uint_gt(seen_positive, 0);
         ck_assert_uint_gt(seen_doubtful, 0);
     }
 }
 END_TEST
 
 // Displacements straight at a facet, just short of it and just beyond.
-START_TEST(upright_to_the_last) {
+START_TEST(positive_to_the_last) {
     for (const float far : {0.0f, 64.0f, 4096.0f}) {
         Mesh mesh;
         mesh.positions = {{far, 0, 0}, {far + 1, 0, 0}, {far, 1, 0}, {far, 0, 1}};
         mesh.tets.push_back({{0, 1, 2, 3}});
-        Followed one(mesh);
+        Tracked one(mesh);
         one.take_reference();
         const double exact = 1 / std::sqrt(3.0);
-        ck_assert(one.turning.slack[0] > 0.999 * exact && one.turning.slack[0] <= exact);
+        ck_assert(one.cache.slack[0] > 0.999 * exact && one.cache.slack[0] <= exact);
         for (int i = 0; i <= 2000; ++i) {
             const float step = float(i) * 0.0005f;
             one.mesh = mesh;
             one.mesh.positions[3].z -= step;
-            const std::size_t upright = one.follow("a tet");
-            if (step < 0.998 * exact) ck_assert_uint_eq(upright, 1);
-            if (step > exact) ck_assert_uint_eq(upright, 0);
+            const std::size_t positive = one.track("a tet");
+            if (step < 0.998 * exact) ck_assert_uint_eq(positive, 1);
+            if (step > exact) ck_assert_uint_eq(positive, 0);
         }
     }
 }
 END_TEST
 
-START_TEST(a_body_too_fast_to_follow) {
-    fast::OrientationCache turning(std::pmr::get_default_resource());
+START_TEST(a_body_too_fast_to_track) {
+    fast::OrientationCache cache(std::pmr::get_default_resource());
     int references = 0, steps = 0;
     for (; steps < 400; ++steps) { // every tet doubtful in every step
-        if (!fast::wants_reference(turning, 100, 100)) continue;
+        if (!fast::wants_reference(cache, 100, 100)) continue;
         ++references;
-        turning.is_known = true;
+        cache.is_known = true;
     }
     ck_assert_int_gt(references, 5); // it may calm down
     ck_assert_int_lt(references, 20);
     references = 0;
-    turning = fast::OrientationCache(std::pmr::get_default_resource());
+    cache = fast::OrientationCache(std::pmr::get_default_resource());
     for (steps = 0; steps < 400; ++steps) { // a few more in each step
-        if (!fast::wants_reference(turning, turning.is_known ? turning.age * 2 : 100, 100)) continue;
+        if (!fast::wants_reference(cache, cache.is_known ? cache.age * 2 : 100, 100)) continue;
         ++references;
-        turning.is_known = true;
+        cache.is_known = true;
     }
     ck_assert_int_gt(references, 40);
 }
 END_TEST
 
 // The engine and what it keeps, step after step.
-START_TEST(engine_follows_deforming_bodies) {
+START_TEST(engine_tracks_deforming_bodies) {
     Random r{3};
     for (int round = 0; round < 6; ++round) { // the last two: doubles, the last one far away
         const double far = round == 5 ? 1e7 : 0;
@@ -252,9 +251,9 @@ END_TEST
 } // namespace
 
 int main() {
-    Suite* suite = suite_create("turning");
-    TCase* tests = add_case(suite, "turning");
-    tcase_add_each(tests, widths_are_lower_bounds, upright_tets_are_positive, upright_to_the_last,
-                   a_body_too_fast_to_follow, engine_follows_deforming_bodies);
+    Suite* suite = suite_create("orientation");
+    TCase* tests = add_case(suite, "orientation");
+    tcase_add_each(tests, widths_are_lower_bounds, tets_called_positive_are, positive_to_the_last,
+                   a_body_too_fast_to_track, engine_tracks_deforming_bodies);
     return run_suite(suite);
 }
