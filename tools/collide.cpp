@@ -95,9 +95,8 @@ void run(const Options& options) {
     std::vector<Body> bodies;
     bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
     if (!options.b.empty()) {
-        const Placement placement{options.scale,
-                                  {options.offset[0], options.offset[1], options.offset[2]},
-                                  options.keep_doubles};
+        const Placement placement{
+            options.scale, {options.offset[0], options.offset[1], options.offset[2]}, options.keep_doubles};
         bodies.push_back(load_body(options.b, placement, options.fill));
     }
     std::vector<vox_mesh> ids;

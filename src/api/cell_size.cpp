@@ -133,9 +133,10 @@ vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost
     return border([&] {
         check_out_struct(out, "out");
         if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");
-        write_struct(out,
-                     minimise_within([&](double cell_size) { return cost(cell_size, user); }, read_bounds(bounds)),
-                     "out");
+        write_struct(
+            out,
+            minimise_within([&](double cell_size) { return cost(cell_size, user); }, read_bounds(bounds)),
+            "out");
     });
 }
 

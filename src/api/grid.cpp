@@ -1,10 +1,10 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
+#include "grid/grid.hpp"
 #include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/memory.hpp"
 #include "base/structs.hpp"
-#include "grid/grid.hpp"
 #include "mesh/check.hpp"
 
 #include <cmath>

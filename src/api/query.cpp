@@ -70,10 +70,10 @@ vox_result vox_grid_query_points(const vox_grid* grid, const void* points, vox_f
             if (point_count > UINT32_MAX)
                 throw Error(VOX_ERROR_LIMIT, format("point_count is %llu, the limit is 2^32 - 1",
                                                     static_cast<unsigned long long>(point_count)));
-            const Positions positions{
-                .data = static_cast<const std::byte*>(points),
-                .byte_stride = check_stride(byte_stride, format_of_points, point_count, "point "),
-                .doubles = format_of_points == VOX_FORMAT_DOUBLE3};
+            const Positions positions{.data = static_cast<const std::byte*>(points),
+                                      .byte_stride =
+                                          check_stride(byte_stride, format_of_points, point_count, "point "),
+                                      .doubles = format_of_points == VOX_FORMAT_DOUBLE3};
             const Queries& queries = grid->queries();
             std::pmr::vector<Vec3d> asked(std::pmr::new_delete_resource());
             asked.reserve(static_cast<std::size_t>(point_count));

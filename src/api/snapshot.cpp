@@ -1,8 +1,8 @@
 // The C border of snapshots.
 
+#include "grid/snapshot.hpp"
 #include "base/border.hpp"
 #include "base/structs.hpp"
-#include "grid/snapshot.hpp"
 
 #include <memory>
 

@@ -36,7 +36,8 @@ vox_result border(const void* object, const char* name, Function&& function) noe
 
 // For a function of an object that sets *out, not null either, to what value() returns.
 template <class T, class Value>
-vox_result border(const void* object, const char* name, T* out, const char* out_name, Value&& value) noexcept {
+vox_result border(const void* object, const char* name, T* out, const char* out_name,
+                  Value&& value) noexcept {
     return border(object, name, [&] {
         require(out, out_name);
         *out = value();

@@ -15,8 +15,8 @@ namespace vox {
 
 namespace {
 
-// The size stays as it is where a new one would differ by less than this part. Next to nothing is lost by that, not
-// even where the vertices of a lattice make some sizes better than those beside them.
+// The size stays as it is where a new one would differ by less than this part. Next to nothing is lost by
+// that, not even where the vertices of a lattice make some sizes better than those beside them.
 constexpr double hysteresis = 0.03;
 // The sizes in use are kept where they cost at most this factor more than the best ones.
 constexpr double as_good = 1.02;
@@ -24,12 +24,12 @@ constexpr double as_good = 1.02;
 constexpr double most_at_once = 2;
 // The model is asked again when the size has been scaled by more than this factor since.
 constexpr double far_off = 1.5;
-// The budget of choosing, as a part of the time of the steps. Estimated from counters, which is up to a factor of two
-// off (a choice finds little in the caches), and in a short run exceeded by one choice, so less than the hundredth
-// that is promised.
+// The budget of choosing, as a part of the time of the steps. Estimated from counters, which is up to a
+// factor of two off (a choice finds little in the caches), and in a short run exceeded by one choice, so less
+// than the hundredth that is promised.
 constexpr double time_share = 0.003;
-// Nanoseconds of a choice: for each vertex, for each tetrahedron sampled, for each pair of a sampled lookup and a
-// point near it or a far one, and for each lookup whose lists are visited.
+// Nanoseconds of a choice: for each vertex, for each tetrahedron sampled, for each pair of a sampled lookup
+// and a point near it or a far one, and for each lookup whose lists are visited.
 constexpr double vertex_ns = 20, tet_ns = 50, pair_ns = 10, lists_ns = 20000;
 
 double choice_ns(double vertices, double tets, const SampleBudget& budget) {
@@ -108,7 +108,8 @@ std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bo
 bool AdaptiveCellSize::must_choose() const noexcept {
     if (sizes_.count == 0) return true;
     if (scene_changed_) return credit_ >= 0 || !sized_;
-    if (!sized_) return balanced_ && credit_ >= 0; // since then tetrahedra may have got a size, or memory is free
+    if (!sized_)
+        return balanced_ && credit_ >= 0; // since then tetrahedra may have got a size, or memory is free
     // The size has been adapted meanwhile, so a choice can wait until the steps since have paid for it.
     return balanced_ && credit_ >= price_ && std::abs(moved_) > std::log(far_off);
 }

@@ -1,14 +1,16 @@
-// The cell sizes of a grid that chooses them: by the cost model before the first step, then adapted as the bodies
-// change. Several sizes where the tetrahedra are so unlike that one for all of them would be expensive.
+// The cell sizes of a grid that chooses them: by the cost model before the first step, then adapted as the
+// bodies change. Several sizes where the tetrahedra are so unlike that one for all of them would be
+// expensive.
 //
-// Near the optimum a cell size d trades visits V(d) for reads R(d): at the best one c_visit V and c_read R have a fixed
-// ratio, that of the slopes of log V and log R. So log(R / V), which every step counts anyway, shows how far d is from
-// the best size. When the bodies grow by a factor, or overlap more deeply, d changes by the change of log(R / V) over
-// its slope, at no cost. Several sizes are scaled by the same factor, so their ratios stay.
+// Near the optimum a cell size d trades visits V(d) for reads R(d): at the best one c_visit V and c_read R
+// have a fixed ratio, that of the slopes of log V and log R. So log(R / V), which every step counts anyway,
+// shows how far d is from the best size. When the bodies grow by a factor, or overlap more deeply, d changes
+// by the change of log(R / V) over its slope, at no cost. Several sizes are scaled by the same factor, so
+// their ratios stay.
 //
-// The model is asked again, over a sample of the scene, after meshes were added, removed or cut, or when d has been
-// scaled far; for that, only when the steps since have paid for it. Choosing stays below a hundredth of the time of the
-// steps, estimated from counters, so that the same calls always give the same sizes.
+// The model is asked again, over a sample of the scene, after meshes were added, removed or cut, or when d
+// has been scaled far; for that, only when the steps since have paid for it. Choosing stays below a hundredth
+// of the time of the steps, estimated from counters, so that the same calls always give the same sizes.
 #pragma once
 
 #include "base/scene.hpp"
@@ -29,11 +31,11 @@ public:
     // The next step chooses as if it were the first.
     void restart() noexcept { *this = {}; }
 
-    // The cell sizes for a step with these bodies, at least one, valid until the next call. Dense storage has at most
-    // `byte_limit` bytes of cells (0: any number). Where memory for a choice is refused, it is made from a few
-    // tetrahedra. Throws NON_FINITE when a choice is due and a position is not finite.
-    std::span<const CellLevel> cell_sizes(std::span<const Body> bodies, vox_storage storage, double byte_limit,
-                                          std::pmr::memory_resource* memory);
+    // The cell sizes for a step with these bodies, at least one, valid until the next call. Dense storage has
+    // at most `byte_limit` bytes of cells (0: any number). Where memory for a choice is refused, it is made
+    // from a few tetrahedra. Throws NON_FINITE when a choice is due and a position is not finite.
+    std::span<const CellLevel> cell_sizes(std::span<const Body> bodies, vox_storage storage,
+                                          double byte_limit, std::pmr::memory_resource* memory);
 
     // Call after that step with what it counted.
     void observe(const vox_counters& counters) noexcept;

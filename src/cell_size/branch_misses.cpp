@@ -9,8 +9,8 @@ namespace {
 
 // The smallest cell size, as a part of the longest side of the smallest box.
 constexpr double smallest = 0.5;
-// Cells along an axis. The longest side is below four of the smallest cells, so a box meets at most five; one more
-// for rounding, and one on either side for points that are in none of them.
+// Cells along an axis. The longest side is below four of the smallest cells, so a box meets at most five; one
+// more for rounding, and one on either side for points that are in none of them.
 constexpr std::uint32_t row = 8;
 
 } // namespace
@@ -25,7 +25,7 @@ std::size_t BranchMisses::first_above(double distance) noexcept {
 }
 
 void BranchMisses::add(const double (&lo)[3], const double (&hi)[3], std::span<const Point> points,
-                      double known) {
+                       double known) {
     ++boxes_;
     // Points sorted by the first size whose cells they can be in (counting sort).
     std::array<std::uint16_t, sizes + 1> end{}, next{};

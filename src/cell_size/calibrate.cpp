@@ -1,6 +1,7 @@
 // Times are fitted as sums of counts times weights by least squares with weights that are not negative (C. L.
-// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent, since there are only
-// six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the machine's speed.
+// Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent, since there are
+// only six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the
+// machine's speed.
 #include "cell_size/weights.hpp"
 
 #include "base/clock.hpp"
@@ -30,9 +31,9 @@ struct Timing {
     std::array<double, unknowns> count;
 };
 
-// The weights that fit the timings best, relative to each. The scene is small and stays in the cache, which larger
-// ones do not, so weights are drawn towards the proportions of the shipped ones, which come from scenes of all
-// sizes, and stay within a factor of three of what those would be on a machine of this speed.
+// The weights that fit the timings best, relative to each. The scene is small and stays in the cache, which
+// larger ones do not, so weights are drawn towards the proportions of the shipped ones, which come from
+// scenes of all sizes, and stay within a factor of three of what those would be on a machine of this speed.
 std::array<double, unknowns> fit(const std::vector<Timing>& timings,
                                  const std::array<double, unknowns>& shipped) {
     // How much slower the machine is than the one the shipped weights are for.
@@ -74,7 +75,9 @@ struct Block {
         write_lattice_positions(n, n, n, &positions[0].x);
         write_lattice_tets(&kuhn_cut, n, n, n, tets[0].v);
         std::uint64_t random = 1;
-        const auto jitter = [&] { return static_cast<float>(next_below(random, 65536)) * (0.2f / 65536) - 0.1f; };
+        const auto jitter = [&] {
+            return static_cast<float>(next_below(random, 65536)) * (0.2f / 65536) - 0.1f;
+        };
         for (Vec3f& p : positions) {
             const float x = jitter(), y = jitter(), z = jitter();
             p = {corner + p.x + x, p.y + y, p.z + z};
@@ -84,9 +87,9 @@ struct Block {
 
 struct Scene {
     Scene(std::uint32_t n, float overlap)
-        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)}, meshes{TiledMesh(memory()),
-                                                                                 TiledMesh(memory())},
-          states{fast::MeshState(memory()), fast::MeshState(memory())} {
+        : blocks{Block(n, 0), Block(n, static_cast<float>(n) - overlap)},
+          meshes{TiledMesh(memory()), TiledMesh(memory())}, states{fast::MeshState(memory()),
+                                                                   fast::MeshState(memory())} {
         for (std::size_t b = 0; b < 2; ++b) {
             bodies[b].mesh_id = static_cast<std::uint32_t>(b);
             bodies[b].vertex_count = static_cast<std::uint32_t>(blocks[b].positions.size());
@@ -156,10 +159,9 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
                 {time, {fixed, work.visited, work.changed, work.read, work.fetched, work.tested}});
         }
     }
-    const std::array<double, unknowns> x =
-        fit(timings,
-            {1, weights.reference_visit_cell, weights.reference_changed_list, weights.reference_read_vertex,
-             weights.reference_fetch_vertex, weights.reference_test_box});
+    const std::array<double, unknowns> x = fit(
+        timings, {1, weights.reference_visit_cell, weights.reference_changed_list,
+                  weights.reference_read_vertex, weights.reference_fetch_vertex, weights.reference_test_box});
     weights.reference_classify_vertex *= x[0];
     weights.reference_prepare_tet *= x[0];
     weights.reference_test_tet *= x[0];

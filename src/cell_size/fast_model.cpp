@@ -10,8 +10,8 @@ namespace vox {
 
 namespace {
 
-// At most this multiple of the looks that are gone through for each cell size is kept, which is enough to know how
-// many looks there are of each size.
+// At most this multiple of the looks that are gone through for each cell size is kept, which is enough to
+// know how many looks there are of each size.
 constexpr std::size_t looks_to_keep = 16;
 
 void append(const fast::Points& from, std::size_t first, std::uint32_t count, fast::Points& to) {
@@ -26,13 +26,13 @@ void append(const fast::Points& from, std::size_t first, std::uint32_t count, fa
     to.count += count;
 }
 
-// Appends the vertices of a body that are binned: those of the last step's windows, or those near what the broad
-// phase found.
+// Appends the vertices of a body that are binned: those of the last step's windows, or those near what the
+// broad phase found.
 void append_near(const CellSizeScene& scene, std::uint32_t body, const Box& own, const Box& around,
                  fast::Points& points) {
     if (!scene.last_step) {
-        fast::collect_near(scene.step(), scene.boxes(), scene.broad_phase(), body, around, !is_empty(own), nullptr,
-                           points);
+        fast::collect_near(scene.step(), scene.boxes(), scene.broad_phase(), body, around, !is_empty(own),
+                           nullptr, points);
         return;
     }
     const fast::BodyWindow& found = scene.last_step->windows().of[body];
@@ -44,7 +44,8 @@ void append_near(const CellSizeScene& scene, std::uint32_t body, const Box& own,
 }
 
 // Appends the boxes of the tiles of a body that meet a region.
-void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region, std::pmr::vector<Box>& out) {
+void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region,
+                  std::pmr::vector<Box>& out) {
     const fast::StepBoxes& boxes = scene.boxes();
     const std::pmr::vector<fast::StepBody>& of = scene.step().of;
     const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();
@@ -83,7 +84,8 @@ FastModel::FastModel(const CellSizeScene& scene, const vox_cost_weights& weights
         if (points.count == 0) continue;
 
         const Box window = fast::bounds(points);
-        const fast::WindowLattice finest = fast::make_lattice(window, 0, fast::most_window_cells(points.count));
+        const fast::WindowLattice finest =
+            fast::make_lattice(window, 0, fast::most_window_cells(points.count));
         Pool& pool = pool_of(1 / double{finest.inverse});
         pool.windows += 1;
         pool.smallest_cell += 1 / double{finest.inverse};
@@ -141,22 +143,24 @@ FastModel::Pool& FastModel::pool_of(double smallest_cell) {
     return pools_.emplace_back(key, budget_, pools_.get_allocator().resource());
 }
 
-// Whole cells extend a box beyond each end along an axis, within the window: a point at distance e from the end is
-// in a cell that the box meets with probability 1 - e/d.
+// Whole cells extend a box beyond each end along an axis, within the window: a point at distance e from the
+// end is in a cell that the box meets with probability 1 - e/d.
 double FastModel::Pool::along(const Look& look, int axis, double inverse) noexcept {
     const double below = std::min(look.below[axis] * inverse, 1.0),
                  above = std::min(look.above[axis] * inverse, 1.0);
     return look.side[axis] * inverse + below * (1 - below / 2) + above * (1 - above / 2);
 }
 
-void FastModel::Pool::add(double cell_size, Alignment alignment, std::size_t most_looks, Counts& sum) const noexcept {
+void FastModel::Pool::add(double cell_size, Alignment alignment, std::size_t most_looks,
+                          Counts& sum) const noexcept {
     sum.vertices += points.count;
     sum.cells += cells.at(cell_size);
     sum.looks += lookups.count();
     sum.tested += lookups.candidates();
     if (looks.empty()) return;
     if (alignment == Alignment::average) sum.rows += mean_rows(cell_size, most_looks);
-    sum.read += lookups.read(cell_size) * (alignment == Alignment::actual ? add_actual(cell_size, most_looks, sum) : 1);
+    sum.read += lookups.read(cell_size) *
+                (alignment == Alignment::actual ? add_actual(cell_size, most_looks, sum) : 1);
 }
 
 double FastModel::Pool::mean_rows(double cell_size, std::size_t most_looks) const noexcept {

@@ -7,9 +7,9 @@
 //        + c_read R(d)  vertices in the cells of these rows: contiguous, hence cheap
 //        + c_test C     of them, those in the tile's box, tested against its tetrahedra
 //
-// The unit is the tile, not the tetrahedron, and the row, not the cell. So the highest power of 1/d is 2 instead
-// of 3, and the best cell is larger. Bodies that touch nothing, and those whose self-collision is excluded by
-// winding numbers, have no window and cost nothing here.
+// The unit is the tile, not the tetrahedron, and the row, not the cell. So the highest power of 1/d is 2
+// instead of 3, and the best cell is larger. Bodies that touch nothing, and those whose self-collision is
+// excluded by winding numbers, have no window and cost nothing here.
 #pragma once
 
 #include "cell_size/lookups.hpp"
@@ -30,9 +30,9 @@ public:
     // Of a scene that was prepared for this model. It is not needed afterwards, its memory is.
     FastModel(const CellSizeScene& scene, const vox_cost_weights& weights);
 
-    // A window's lattice begins at its corner. In small windows the counts depend on how the tiles happen to lie
-    // there: `actual` counts them so. `average` takes the mean over all alignments, which is smooth in the cell size
-    // and better to choose one by, since bodies move on.
+    // A window's lattice begins at its corner. In small windows the counts depend on how the tiles happen to
+    // lie there: `actual` counts them so. `average` takes the mean over all alignments, which is smooth in
+    // the cell size and better to choose one by, since bodies move on.
     enum class Alignment { actual, average };
 
     CostTerms terms(double cell_size, Alignment alignment) const;
@@ -49,7 +49,8 @@ public:
     };
     Counts counts(double cell_size, Alignment alignment) const;
 
-    // How many points near sampled tiles were looked at, and how many looks each call of counts() goes through.
+    // How many points near sampled tiles were looked at, and how many looks each call of counts() goes
+    // through.
     std::uint64_t points_looked_at() const noexcept;
     std::uint64_t looks_per_call() const noexcept;
 
@@ -66,7 +67,8 @@ private:
         void add(double cell_size, Alignment alignment, std::size_t most_looks, Counts& sum) const noexcept;
         static double along(const Look& look, int axis, double inverse) noexcept; // cells, on average
         double mean_rows(double cell_size, std::size_t most_looks) const noexcept;
-        // Adds rows and cells as they lie. Returns how much of the window they cover, relative to the average.
+        // Adds rows and cells as they lie. Returns how much of the window they cover, relative to the
+        // average.
         double add_actual(double cell_size, std::size_t most_looks, Counts& sum) const noexcept;
 
         int key;

@@ -20,11 +20,13 @@ namespace vox {
 
 namespace {
 
-// Differences of coordinates below 2^128 do not overflow in double, nor do products of up to six of them: areas
-// and volumes of the largest coordinates are finite, and those of the smallest floats are not flushed to zero.
+// Differences of coordinates below 2^128 do not overflow in double, nor do products of up to six of them:
+// areas and volumes of the largest coordinates are finite, and those of the smallest floats are not flushed
+// to zero.
 double area(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return length(cross(b - a, c - a)) / 2; }
 
-// The mean of items that each stand for `weight` items. Ten million of them lose at most 1e-9 of it to rounding.
+// The mean of items that each stand for `weight` items. Ten million of them lose at most 1e-9 of it to
+// rounding.
 struct Mean {
     double sum = 0, weight = 0;
 
@@ -62,12 +64,14 @@ void add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[
         return std::max(std::max(first, second), std::max(third, 0.0)) -
                std::min(std::min(first, second), std::min(third, 0.0));
     };
-    const double side = std::max(extent(a.x, b.x, c.x), std::max(extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)));
+    const double side =
+        std::max(extent(a.x, b.x, c.x), std::max(extent(a.y, b.y, c.y), extent(a.z, b.z, c.z)));
     means.box_side.add(side, weight);
     means.box_sides.emplace_back(side, weight);
     const Vec3d ab = p[2] - p[1], ac = p[3] - p[1], bc = p[3] - p[2];
-    const double longest = std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
-                                    std::max(dot(ac, ac), dot(bc, bc)));
+    const double longest =
+        std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
+                 std::max(dot(ac, ac), dot(bc, bc)));
     means.longest_edge.add(std::sqrt(longest), weight);
     const Vec3d base = cross(a, b);
     facets[0] = length(cross(ab, ac)) / 2;
@@ -83,8 +87,8 @@ void add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[
         means.degenerate += weight;
 }
 
-// By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights. The mean of the two middle values
-// where the weights below and above are equal.
+// By halving (C. A. R. Hoare, Algorithm 65: Find, CACM 4, 1961), with weights. The mean of the two middle
+// values where the weights below and above are equal.
 double median(std::span<std::pair<double, double>> values) {
     double half = 0;
     for (const auto& [value, weight] : values) half += weight / 2;
@@ -110,8 +114,8 @@ double median(std::span<std::pair<double, double>> values) {
 
 constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-// Calls visit(a, b) once for every edge, a < b, of tetrahedra that name no vertex twice: a counting sort by `a` makes
-// short lists, which are then sorted by `b`.
+// Calls visit(a, b) once for every edge, a < b, of tetrahedra that name no vertex twice: a counting sort by
+// `a` makes short lists, which are then sorted by `b`.
 template <class Visit>
 void for_each_edge(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
                    Visit&& visit) {
@@ -137,8 +141,8 @@ void for_each_edge(std::span<const Tet> tets, std::uint32_t vertex_count, std::p
     }
 }
 
-// Returns the box of the vertices that tetrahedra use. Those that are off name one vertex four times, and so have no
-// edges and facets.
+// Returns the box of the vertices that tetrahedra use. Those that are off name one vertex four times, and so
+// have no edges and facets.
 Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means) {
     const auto at = [&](std::uint64_t v) { return body.positions.exact(v); };
     Bounds bounds;
@@ -152,11 +156,12 @@ Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means
     }
     for_each_edge(body.tets, body.vertex_count, memory,
                   [&](std::uint32_t a, std::uint32_t b) { means.edge.add(length(at(b) - at(a)), 1); });
-    for_each_facet(body.tets, body.vertex_count, memory, [&](std::uint32_t v, std::span<const TetFacet> same) {
-        const double size = area(at(v), at(same[0].others >> 32), at(same[0].others & 0xffffffffu));
-        means.facet.add(size, 1);
-        if (same.size() == 1) means.boundary_facet.add(size, 1);
-    });
+    for_each_facet(
+        body.tets, body.vertex_count, memory, [&](std::uint32_t v, std::span<const TetFacet> same) {
+            const double size = area(at(v), at(same[0].others >> 32), at(same[0].others & 0xffffffffu));
+            means.facet.add(size, 1);
+            if (same.size() == 1) means.boundary_facet.add(size, 1);
+        });
     return bounds;
 }
 
@@ -172,8 +177,8 @@ void for_sample(const Items& items, std::uint64_t count, double wanted, double p
                    [&](std::uint64_t i) { visit(items[static_cast<std::size_t>(i)], weight); });
 }
 
-// Adds the part of a mesh's samples that it has of the scene's tetrahedra, edges and boundary facets (`stats`).
-// at(v) is the exact position of a vertex.
+// Adds the part of a mesh's samples that it has of the scene's tetrahedra, edges and boundary facets
+// (`stats`). at(v) is the exact position of a vertex.
 template <class At>
 void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_stats& stats, double samples,
                 double place, Means& means, At&& at) {
@@ -207,8 +212,8 @@ void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_s
                });
 }
 
-// The box of the vertices of a body without `unused` ones (bits; empty: all are used). `known` is the box of all
-// vertices, or null.
+// The box of the vertices of a body without `unused` ones (bits; empty: all are used). `known` is the box of
+// all vertices, or null.
 Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const Box* known) {
     Bounds bounds;
     if (body.vertex_count == 0) return bounds;
@@ -244,8 +249,9 @@ Geometry measure(const CellSizeScene& scene) {
         stats.tets += body.tets.size() - body.off_count;
     }
     const std::size_t samples = sampled_tets(stats.tets);
-    const bool sampled = !scene.meshes.empty() && stats.tets > 2 * samples &&
-                         std::ranges::all_of(scene.meshes, [](const Mesh* mesh) { return mesh->may_sample(); });
+    const bool sampled =
+        !scene.meshes.empty() && stats.tets > 2 * samples &&
+        std::ranges::all_of(scene.meshes, [](const Mesh* mesh) { return mesh->may_sample(); });
     if (sampled) {
         for (const Mesh* mesh : scene.meshes) {
             stats.edges += mesh->sample().edge_count;

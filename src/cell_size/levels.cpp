@@ -1,5 +1,5 @@
-// A level takes consecutive size classes. The best split is found by dynamic programming over where the last level
-// begins (R. Bellman, 1957), from what each class costs at each of some cell sizes.
+// A level takes consecutive size classes. The best split is found by dynamic programming over where the last
+// level begins (R. Bellman, 1957), from what each class costs at each of some cell sizes.
 #include "cell_size/levels.hpp"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     const std::size_t n = exponents.size();
     if (n == 0) return {};
 
-    // grid[k]: what a grid costs before anything is looked up in it, at the k-th cell size. sum[g * sizes + k]: what
-    // the classes with the first g exponents cost there.
+    // grid[k]: what a grid costs before anything is looked up in it, at the k-th cell size. sum[g * sizes +
+    // k]: what the classes with the first g exponents cost there.
     const double octaves = std::log2(range.max / range.min);
     const auto sizes = static_cast<std::size_t>(std::min(octaves * sizes_per_octave + 2, most_sizes));
     const auto size_at = [&](std::size_t k) {
@@ -58,7 +58,8 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
         const double d = size_at(k), occupied = cost.occupied(d);
         grid[k] = cost.of_grid(d);
         for (const SizeClass& c : cost.lookups().classes()) {
-            const auto g = std::lower_bound(exponents.begin(), exponents.end(), c.exponent) - exponents.begin();
+            const auto g =
+                std::lower_bound(exponents.begin(), exponents.end(), c.exponent) - exponents.begin();
             sum[static_cast<std::size_t>(g + 1) * sizes + k] += cost.of_class(c, d, occupied);
         }
         for (std::size_t g = 0; g < n; ++g) sum[(g + 1) * sizes + k] += sum[g * sizes + k];

@@ -1,5 +1,5 @@
-// Where tetrahedra are of very unlike sizes, no one cell size is near the best for all of them. A level is a grid for
-// some of the tetrahedra, with the cell size that is best for these.
+// Where tetrahedra are of very unlike sizes, no one cell size is near the best for all of them. A level is a
+// grid for some of the tetrahedra, with the cell size that is best for these.
 #pragma once
 
 #include "cell_size/reference_model.hpp"
@@ -20,8 +20,8 @@ struct Levels {
 };
 
 // The best way to distribute the size classes of the tetrahedra, in order of size, over up to
-// VOX_CELL_SIZE_LEVEL_CAPACITY levels with cell sizes in the range. Every vertex is in each of the grids. A further
-// level is only used where it pays.
+// VOX_CELL_SIZE_LEVEL_CAPACITY levels with cell sizes in the range. Every vertex is in each of the grids. A
+// further level is only used where it pays.
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range);
 
 // The level for the boxes of a class, by the smallest of them.

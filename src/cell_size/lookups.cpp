@@ -1,5 +1,5 @@
-// Lookups of a class are sampled before their number is known, by Algorithm R (J. S. Vitter, Random sampling with
-// a reservoir, ACM Trans. Math. Software 11, 1985).
+// Lookups of a class are sampled before their number is known, by Algorithm R (J. S. Vitter, Random sampling
+// with a reservoir, ACM Trans. Math. Software 11, 1985).
 #include "cell_size/lookups.hpp"
 
 #include "base/sampling.hpp"
@@ -60,8 +60,8 @@ void cells_around(const Lookup& l, double near, const fast::WindowLattice& latti
     }
 }
 
-// Calls count(id, distances, weight) for points around one lookup, of which each stands for `weight` points: near
-// ones from the cells, far ones from all points at a stride.
+// Calls count(id, distances, weight) for points around one lookup, of which each stands for `weight` points:
+// near ones from the cells, far ones from all points at a stride.
 template <class Count>
 void for_points_around(const Lookup& l, double near, const Binned& in, std::uint64_t& random, Count&& count) {
     const fast::WindowLattice& lattice = in.window.lattice;
@@ -130,17 +130,17 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
 } // namespace
 
 // Sample sizes are what keeps a suggestion below the time of a step (docs/cell-size.md, "What a suggestion
-// costs") with a regret within a few per cent of the thorough look: the tests hold the loss in the model's own
-// cost to 2 % (4 % with lists) for the reference engine and 3 % for the fast one.
+// costs") with a regret within a few per cent of the thorough look: the tests hold the loss in the model's
+// own cost to 2 % (4 % with lists) for the reference engine and 3 % for the fast one.
 SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept {
     const auto t = static_cast<std::size_t>(tets);
     if (model == VOX_COST_MODEL_FAST) { // whose lookups are fewer and more alike, and its cost flatter
         const std::size_t lookups = std::clamp<std::size_t>(t / 2048, 4, 32);
         return {0, lookups, 2 * lookups + 32, lookups + 8, 0, std::max<std::size_t>(lookups, 16)};
     }
-    // The lengths of lists take the surroundings of 128 boxes, 20 microseconds each, whatever the scene. At this
-    // many tetrahedra a step takes 6 to 15 ms (docs/regret.md). In smaller scenes how the lattice happens to lie
-    // matters more than the lengths of lists.
+    // The lengths of lists take the surroundings of 128 boxes, 20 microseconds each, whatever the scene. At
+    // this many tetrahedra a step takes 6 to 15 ms (docs/regret.md). In smaller scenes how the lattice
+    // happens to lie matters more than the lengths of lists.
     constexpr std::size_t many = 60000;
     return {std::clamp<std::size_t>(t / 8, 512, std::size_t{1} << 15),
             std::clamp<std::size_t>(t / 400, 64, 256),
@@ -212,12 +212,12 @@ void Lookups::add(const Lookup& lookup, double weight) {
     if (place < budget_.lookups) c.sample[static_cast<std::size_t>(place)] = lookup;
 }
 
-// Calls around(lookup, count) for some of the sampled lookups of a class, which calls count(id, distances, weight)
-// for points. Returns for how many.
+// Calls around(lookup, count) for some of the sampled lookups of a class, which calls count(id, distances,
+// weight) for points. Returns for how many.
 template <class Around>
 std::size_t Lookups::count_around(SizeClass& c, double lookups, Around&& around) {
-    // Half of the samples go to the classes by their number, half evenly: a few large boxes can cost as much as
-    // many small ones.
+    // Half of the samples go to the classes by their number, half evenly: a few large boxes can cost as much
+    // as many small ones.
     const double share = (c.count / lookups + 1 / static_cast<double>(classes_.size())) / 2;
     const auto size =
         std::min(c.sample.size(), static_cast<std::size_t>(static_cast<double>(budget_.lookups) * share) + 1);

@@ -2,11 +2,11 @@
 // the cell size.
 //
 // A box of sides w, w', w'' placed at random in a lattice of cell size d meets on average exactly
-// (w/d + 1)(w'/d + 1)(w''/d + 1) cells. A point beside it, at distances e, e', e'' from it along the axes, lies
-// in one of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), which is 0 as soon as one factor is not
-// positive. Both are polynomials in 1/d: four sums over all boxes give the cells at any d, and four sums for
-// each class of the largest e give the points. No size is averaged, so graded meshes, slivers and bodies of
-// unlike resolution need no special care.
+// (w/d + 1)(w'/d + 1)(w''/d + 1) cells. A point beside it, at distances e, e', e'' from it along the axes,
+// lies in one of these cells with probability (1 - e/d)(1 - e'/d)(1 - e''/d), which is 0 as soon as one
+// factor is not positive. Both are polynomials in 1/d: four sums over all boxes give the cells at any d, and
+// four sums for each class of the largest e give the points. No size is averaged, so graded meshes, slivers
+// and bodies of unlike resolution need no special care.
 #pragma once
 
 #include "cell_size/branch_misses.hpp"
@@ -60,8 +60,9 @@ inline Moments cells_met(const double (&w)[3]) noexcept {
 // How many points lie in the cells that a box meets, from their distances to the box along the axes.
 class PointsMet {
 public:
-    // `scale` is a length of the size of the boxes. Points are summed in classes of their largest distance, each
-    // a sixteenth of an octave wide, from scale / 256 on; those further away than 4096 * scale are left out.
+    // `scale` is a length of the size of the boxes. Points are summed in classes of their largest distance,
+    // each a sixteenth of an octave wide, from scale / 256 on; those further away than 4096 * scale are left
+    // out.
     PointsMet(double scale, std::pmr::memory_resource* memory)
         : inverse_least_(256 / scale), sums_(1, memory) {}
 
@@ -125,7 +126,8 @@ class Lookups {
 public:
     Lookups(const SampleBudget& budget, std::pmr::memory_resource* memory);
 
-    // Adds a lookup that stands for `weight` lookups like it; a sample of each class is kept. Sides are finite.
+    // Adds a lookup that stands for `weight` lookups like it; a sample of each class is kept. Sides are
+    // finite.
     void add(const Lookup& lookup, double weight = 1);
     // Call once, after the last add(): looks at the points around the samples. The ids of `points` are the
     // indices that lookups refer to; all points are finite. Estimating occupied() takes an extra pass.

@@ -44,8 +44,8 @@ PaperModel::PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices));
     if (!(s > 0) || !(area > 0))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%" PRIu64 " tets of no size: %s %g, %s %g", stats.tets,
-                                                       s_name, s, area_name, area));
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%" PRIu64 " tets of no size: %s %g, %s %g",
+                                                       stats.tets, s_name, s, area_name, area));
     s_ = s;
     k_ = (1 - p_nc_) * cost_ratio_ * 1.5 * std::sqrt(3.0) * (s * s / area);
     if (!(k_ >= 1e-290 && k_ <= 1e290))
@@ -56,8 +56,8 @@ PaperModel::PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc)
                    p_nc_, cost_ratio_, s_name, s, area_name, area, k_));
 }
 
-// dz/dx = 0 (Eq. 8) is 4 x^3 - x^2 = c with c = 3 p_nc / k. With x = 1/12 + w/6 it is 4 w^3 - 3 w = 1 + 216 c, and
-// 4 cosh^3 - 3 cosh is cosh of the triple angle, so there is one root with w >= 1.
+// dz/dx = 0 (Eq. 8) is 4 x^3 - x^2 = c with c = 3 p_nc / k. With x = 1/12 + w/6 it is 4 w^3 - 3 w = 1 + 216
+// c, and 4 cosh^3 - 3 cosh is cosh of the triple angle, so there is one root with w >= 1.
 double PaperModel::best_x() const noexcept {
     const double c = 3 * p_nc_ / k_;
     return 1.0 / 12 + std::cosh(std::acosh(1 + 216 * c) / 3) / 6;

@@ -1,5 +1,5 @@
-// The paper's cost function (Sect. 4), in the cell size as a multiple of the size s of a tetrahedron, x = delta
-// / s. Nothing in it has a unit, so scenes in millimetres and in kilometres give the same numbers.
+// The paper's cost function (Sect. 4), in the cell size as a multiple of the size s of a tetrahedron, x =
+// delta / s. Nothing in it has a unit, so scenes in millimetres and in kilometres give the same numbers.
 //
 //   v_o = (1/x + 2)^3                      objective voxels of a tetrahedron    (Eq. 4, without its floor)
 //   p_v = 3 (sqrt(3)/2) x^2 s^2 / A        particles in a voxel                 (Eqs. 5 to 7)

@@ -83,7 +83,8 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
                                 body.positions[v[3]]};
             // The engine gives a flat tetrahedron no box.
             if (determinant(p[1] - p[0], p[2] - p[0], p[3] - p[0]) == 0) return;
-            const Vec3d lo = min(min(p[0], p[1]), min(p[2], p[3])), hi = max(max(p[0], p[1]), max(p[2], p[3]));
+            const Vec3d lo = min(min(p[0], p[1]), min(p[2], p[3])),
+                        hi = max(max(p[0], p[1]), max(p[2], p[3]));
             std::copy_n(&lo.x, 3, lookup.lo);
             std::copy_n(&hi.x, 3, lookup.hi);
             lookup.jumps = is_apart(body, t, lookup);
@@ -142,7 +143,8 @@ double ReferenceModel::occupied(double cell_size) const noexcept {
     return std::min(lookups_.occupied(cell_size), vertices_);
 }
 
-// Beyond the sizes that were counted, the nearest of them is scaled as the share of an irregular mesh changes.
+// Beyond the sizes that were counted, the nearest of them is scaled as the share of an irregular mesh
+// changes.
 double ReferenceModel::changed_share(const SizeClass& c, double cell_size, double mean) noexcept {
     const double nearest = c.changes.nearest(cell_size);
     if (nearest == cell_size) return c.changes.share(cell_size);

@@ -3,7 +3,8 @@
 //   T(d) = c_classify n    vertices put into cells
 //        + c_prepare m     boxes of tetrahedra made
 //        + c_visit V(d)    cells that the boxes meet
-//        + c_list L(d)     of them, cells whose list is of another length than the one before (branch_misses.hpp)
+//        + c_list L(d)     of them, cells whose list is of another length than the one before
+//        (branch_misses.hpp)
 //        + c_read R(d)     vertices in these cells
 //        + c_fetch R'(d)   of them, those only passed over that the tetrahedron just before did not read
 //        + c_box B(d)      of them, those of other bodies, or all where the body collides with itself
@@ -37,8 +38,8 @@ public:
     std::optional<CellSizeRange> range() const noexcept;
 
     const Lookups& lookups() const noexcept { return lookups_; }
-    // The smallest cell size in the range whose cells fit dense storage and the bytes (0: any number of bytes); 0
-    // where all of the range does.
+    // The smallest cell size in the range whose cells fit dense storage and the bytes (0: any number of
+    // bytes); 0 where all of the range does.
     double least_cell_size(double byte_limit, const CellSizeRange& range) const noexcept;
 
     // How often each piece of work is done that depends on the cell size.
@@ -48,9 +49,9 @@ public:
     };
     Work work(double cell_size) const noexcept;
 
-    // The cost in parts, for a step with several grids. of_grid() is what a grid of this cell size costs before
-    // anything is looked up in it: its vertices and buckets. of_class() is what one class costs in a grid with that
-    // many occupied cells. shared() is what is done once, however many grids there are.
+    // The cost in parts, for a step with several grids. of_grid() is what a grid of this cell size costs
+    // before anything is looked up in it: its vertices and buckets. of_class() is what one class costs in a
+    // grid with that many occupied cells. shared() is what is done once, however many grids there are.
     double of_grid(double cell_size) const noexcept;
     double of_class(const SizeClass& c, double cell_size, double occupied) const noexcept;
     double shared() const noexcept;

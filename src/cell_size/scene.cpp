@@ -21,8 +21,8 @@ void CellSizeScene::prepare(vox_cost_model model) {
     geometry = measure(*this);
 }
 
-// A body that moves within its box and reaches no further than before is close enough to where it was. Positions
-// that are not packed count as moved.
+// A body that moves within its box and reaches no further than before is close enough to where it was.
+// Positions that are not packed count as moved.
 bool CellSizeScene::moved_since_last_step() const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const Body& body = bodies[b];
@@ -33,7 +33,8 @@ bool CellSizeScene::moved_since_last_step() const {
         if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
             check_finite(body);
         const Box& before = last_step->boxes().bodies[b];
-        if (!std::equal(box.lo, box.lo + 3, before.lo) || !std::equal(box.hi, box.hi + 3, before.hi)) return true;
+        if (!std::equal(box.lo, box.lo + 3, before.lo) || !std::equal(box.hi, box.hi + 3, before.hi))
+            return true;
     }
     return false;
 }

@@ -18,8 +18,8 @@ namespace vox {
 // The counts and means of a scene that cost models and cell-size rules are written in.
 struct Geometry {
     vox_geometry_stats stats;
-    // Mean over the bodies whose bounding box has a volume, of the side of the cube of equal volume. 0 where none
-    // has.
+    // Mean over the bodies whose bounding box has a volume, of the side of the cube of equal volume. 0 where
+    // none has.
     double mean_object_side;
 };
 
@@ -35,20 +35,21 @@ struct CellSizeScene {
     SampleBudget budget = thorough;
     // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
     std::pmr::vector<const Mesh*> meshes;
-    std::pmr::vector<const Tiles*> tiles;  // null where they were not made
-    std::pmr::vector<std::uint8_t> at_rest; // the body did not move
+    std::pmr::vector<const Tiles*> tiles;   // null where they were not made
+    std::pmr::vector<std::uint8_t> at_rest; // the body did not move before the last step
     std::pmr::vector<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
     const FastEngine* last_step = nullptr; // null unless it was a step of these bodies, wherever they are now
 
     // ---- set by prepare() ----
     Geometry geometry{};
 
-    // Gets the scene ready for a model: a grid's scene is only sampled, so that choosing takes less time than a
-    // step. Throws Error(NON_FINITE) naming mesh_id and vertex.
+    // Gets the scene ready for a model: a grid's scene is only sampled, so that choosing takes less time than
+    // a step. Throws Error(NON_FINITE) naming mesh_id and vertex.
     void prepare(vox_cost_model model);
 
-    // For the fast engine's model, which bodies are near each other: from the last step where all bodies are where
-    // they were then (`last_step` is null otherwise), else found by the same functions that the engine calls.
+    // For the fast engine's model, which bodies are near each other: from the last step where all bodies are
+    // where they were then (`last_step` is null otherwise), else found by the same functions that the engine
+    // calls.
     const fast::Step& step() const noexcept { return last_step ? last_step->last_step() : step_; }
     const fast::StepBoxes& boxes() const noexcept { return last_step ? last_step->boxes() : boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept {
@@ -71,14 +72,15 @@ private:
     fast::BroadPhase broad_phase_;
 };
 
-// Measures the positions as they are now. Of a large scene whose meshes have samples (mesh/sample.hpp) these are
-// measured: counts of edges and facets are then the topology's, and the means estimates, good to a few per cent where
-// sizes are not widely spread. Other scenes are measured in full.
+// Measures the positions as they are now. Of a large scene whose meshes have samples (mesh/sample.hpp) these
+// are measured: counts of edges and facets are then the topology's, and the means estimates, good to a few
+// per cent where sizes are not widely spread. Other scenes are measured in full.
 //
-// The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without tetrahedra; every
-// vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges and facets of its own but
-// counts in the means over tetrahedra; one that is off does not count. Means of nothing are 0. Time, and bytes of
-// memory until it returns, in proportion to the tetrahedra. Throws Error(NON_FINITE) naming mesh_id and vertex.
+// The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without
+// tetrahedra; every vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges
+// and facets of its own but counts in the means over tetrahedra; one that is off does not count. Means of
+// nothing are 0. Time, and bytes of memory until it returns, in proportion to the tetrahedra. Throws
+// Error(NON_FINITE) naming mesh_id and vertex.
 Geometry measure(const CellSizeScene& scene);
 
 } // namespace vox

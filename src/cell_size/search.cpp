@@ -1,6 +1,7 @@
-// Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953). Ends of the zone by
-// regula falsi (the Illinois variant: M. Dowell, P. Jarratt, BIT 11, 1971). Cubics with slopes from the neighbours
-// (E. Catmull, R. Rom, A class of local interpolating splines, 1974). Places are binary logarithms of cell sizes.
+// Golden-section search (J. Kiefer, Sequential minimax search for a maximum, Proc. AMS 4, 1953). Ends of the
+// zone by regula falsi (the Illinois variant: M. Dowell, P. Jarratt, BIT 11, 1971). Cubics with slopes from
+// the neighbours (E. Catmull, R. Rom, A class of local interpolating splines, 1974). Places are binary
+// logarithms of cell sizes.
 #include "cell_size/search.hpp"
 
 #include "base/error.hpp"
@@ -108,7 +109,8 @@ CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFu
         while (inside != last) {
             double outside = inside + step;
             if (step < 0 ? outside < last : outside > last) outside = last;
-            if (finite_cost(cost, outside) > limit) return size_at(crossing(cost, limit, inside, outside), range);
+            if (finite_cost(cost, outside) > limit)
+                return size_at(crossing(cost, limit, inside, outside), range);
             inside = outside;
         }
         return size_at(inside, range);

@@ -1,5 +1,5 @@
-// The cell size of least cost, and the sizes around it that are nearly as good, for any cost function: those of
-// the models of this library and those of its users (vox_cost_minimise).
+// The cell size of least cost, and the sizes around it that are nearly as good, for any cost function: those
+// of the models of this library and those of its users (vox_cost_minimise).
 #pragma once
 
 #include <vox/vox.h>
@@ -13,8 +13,8 @@
 
 namespace vox {
 
-// Cost at the cell size with this binary logarithm: costs are sums of powers of the size, so all searching is done in
-// the logarithm. A value that is not a finite number counts as infinite.
+// Cost at the cell size with this binary logarithm: costs are sums of powers of the size, so all searching is
+// done in the logarithm. A value that is not a finite number counts as infinite.
 using CostFunction = std::function<double(double log_size)>;
 
 // The same for a cost that takes a size, which must outlive the result.
@@ -65,12 +65,12 @@ struct Fineness {
     double tolerance = 1e-8; // of an octave
 };
 
-// The least cost in the range, by an even scan and a golden-section search around its best place. Of a function with
-// several minima, those that lie between two places of the scan can be missed.
+// The least cost in the range, by an even scan and a golden-section search around its best place. Of a
+// function with several minima, those that lie between two places of the scan can be missed.
 CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const Fineness& fineness = {});
 
-// The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that lie
-// between two places of the scan can be missed.
+// The interval around the minimum where the cost is at most `limit`, cut to the range. Rises of the cost that
+// lie between two places of the scan can be missed.
 CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
                           const CellSizeRange& range, const Fineness& fineness = {});
 
@@ -78,9 +78,9 @@ CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFu
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,
                 vox_cost_sample (&curve)[VOX_COST_CURVE_CAPACITY], std::uint32_t& count);
 
-// A cost function that is expensive to call, from its values at two sizes an octave: the logarithm of the cost is a
-// cubic in that of the cell size between them. For functions that are smooth in logarithms, as sums of powers
-// are.
+// A cost function that is expensive to call, from its values at two sizes an octave: the logarithm of the
+// cost is a cubic in that of the cell size between them. For functions that are smooth in logarithms, as sums
+// of powers are.
 class CostTable {
 public:
     // The function is called once for each size that is needed, from `range.min` on, and directly for sizes
@@ -102,8 +102,8 @@ private:
 
 vox_cost_bounds cost_bounds_defaults();
 
-// Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that is
-// nowhere finite or negative where it is least.
+// Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that
+// is nowhere finite or negative where it is least.
 vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
                                  const vox_cost_bounds& bounds);
 

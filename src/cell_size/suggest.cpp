@@ -107,7 +107,8 @@ void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CA
 
 // Everything that is written in the same way for all models. `cost` is below the least one nowhere.
 void write(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
-           const CostMinimum& best, const CellSizeRange& zone, const CostFunction& cost, const CostTerms& terms) {
+           const CostMinimum& best, const CellSizeRange& zone, const CostFunction& cost,
+           const CostTerms& terms) {
     result.model = desc.model;
     result.cell_size = best.cell_size;
     result.predicted_cost = best.cost;
@@ -157,7 +158,9 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
     const Fineness fineness{.scans_per_octave = scene.budget.listed > 0 ? 32.0 : 5.0, .tolerance = near};
     const CostMinimum best = minimise(of_size(model), *range, fineness);
     // Sizes between those of the search may cost a little less.
-    const CostFunction curve = [&](double log_size) { return std::max(model(std::exp2(log_size)), best.cost); };
+    const CostFunction curve = [&](double log_size) {
+        return std::max(model(std::exp2(log_size)), best.cost);
+    };
     write(result, desc, scene.geometry, best,
           zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
           model.terms(best.cell_size));
@@ -221,8 +224,8 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
     }
 }
 
-vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights,
-                            double cell_size) {
+vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
+                            const vox_cost_weights& weights, double cell_size) {
     scene.prepare(desc.model);
     const CostTerms terms = predicted_terms(desc, scene, weights, cell_size);
     vox_cost_prediction prediction{};

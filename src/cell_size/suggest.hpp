@@ -1,4 +1,5 @@
-// The cell size that minimises the cost model of an engine, or of the paper (Sect. 4), and the reasons for it.
+// The cell size that minimises the cost model of an engine, or of the paper (Sect. 4), and the reasons for
+// it.
 #pragma once
 
 #include "cell_size/scene.hpp"
@@ -15,12 +16,12 @@ void check_suggest_desc(const vox_suggest_desc& desc);
 
 // Both prepare the scene for desc.model and take a desc that passed the check.
 
-// Sets all fields but struct_size. Throws INVALID_ARGUMENT where the scene has no tetrahedra, none of any size, or
-// sizes beyond computation.
+// Sets all fields but struct_size. Throws INVALID_ARGUMENT where the scene has no tetrahedra, none of any
+// size, or sizes beyond computation.
 vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights);
 
 // What the model predicts at one cell size, as the bodies lie. Throws as suggest().
-vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights,
-                            double cell_size);
+vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
+                            const vox_cost_weights& weights, double cell_size);
 
 } // namespace vox

@@ -11,8 +11,8 @@ namespace vox {
 
 namespace {
 
-// What a list of another length costs beside an empty visit, and what it costs to fetch a vertex beside reading
-// it: fitted together with the weights of the reference engine.
+// What a list of another length costs beside an empty visit, and what it costs to fetch a vertex beside
+// reading it: fitted together with the weights of the reference engine.
 constexpr double list_over_visit = 6.7, fetch_over_read = 1.8;
 
 // With gcc 12, fitted to steps at many cell sizes: of the reference engine on a Zen 5 at 2.6 GHz, of the fast

@@ -12,12 +12,13 @@ vox_cost_weights shipped_weights() noexcept;
 vox_cost_weights weights_in_use() noexcept;
 void use_weights(const vox_cost_weights& weights) noexcept;
 
-// Weights as a program gives them to vox_cost_set_weights; null: those shipped. Throws INVALID_ARGUMENT naming
-// the field that is not a finite number above 0.
+// Weights as a program gives them to vox_cost_set_weights; null: those shipped. Throws INVALID_ARGUMENT
+// naming the field that is not a finite number above 0.
 vox_cost_weights read_weights(const vox_cost_weights* given);
 
-// Measured once in a process, on the machine at hand (calibrate.cpp): steps both engines over a small scene at a few
-// cell sizes and fits the weights to their times and counters. Takes about ten milliseconds; throws std::bad_alloc.
+// Measured once in a process, on the machine at hand (calibrate.cpp): steps both engines over a small scene
+// at a few cell sizes and fits the weights to their times and counters. Takes about ten milliseconds; throws
+// std::bad_alloc.
 const vox_cost_weights& measured_weights();
 
 } // namespace vox

@@ -310,12 +310,12 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
         add(out.reached[pair.b], pair.region);
         tiles += step.of[pair.b].tiles->tiles.size();
     }
-    step.for_each(
-        step.block_pieces.size(), step.block_count, task_blocks,
-        [&](std::size_t p, std::uint32_t) { find_block_sides(step, boxes, step.block_pieces[p], out); });
-    step.for_each(
-        step.super_pieces.size(), step.tile_count, task_tiles,
-        [&](std::size_t p, std::uint32_t) { make_reached_boxes(step, out, step.super_pieces[p], boxes); });
+    step.for_each(step.block_pieces.size(), step.block_count, task_blocks, [&](std::size_t p, std::uint32_t) {
+        find_block_sides(step, boxes, step.block_pieces[p], out);
+    });
+    step.for_each(step.super_pieces.size(), step.tile_count, task_tiles, [&](std::size_t p, std::uint32_t) {
+        make_reached_boxes(step, out, step.super_pieces[p], boxes);
+    });
     step.for_each(out.regions.size(), tiles, task_boxes,
                   [&](std::size_t r, std::uint32_t) { shrink_to_tiles(step, boxes, out.regions[r]); });
 }

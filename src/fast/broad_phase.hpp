@@ -1,6 +1,6 @@
 // The broad phase: from boxes of bodies and of blocks to regions in which vertices of one body may be in
-// tetrahedra of another. Plain functions over the arrays of a step; the cost model calls them as the engine
-// does.
+// tetrahedra of another. Plain functions over the arrays of a step, which the fast engine and its cost model
+// call; the reference engine's cost model calls find_pairs().
 #pragma once
 
 #include "base/boxes.hpp"
@@ -41,9 +41,9 @@ void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uin
 inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
-// Vertices of body a that are in a tet of body b are in `region`: where the boxes of the bodies overlap, in
-// the box around the blocks of a that meet that, and in the box around the tiles of b that meet what is left.
-// Empty where no tile of b does.
+// A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
+// the two bodies, the box around those blocks of a that meet these, and the box around those tiles of b that
+// meet what is left. Empty where no tile of b does.
 struct PairRegion {
     std::uint32_t a, b;
     Box region;
@@ -69,7 +69,8 @@ struct BroadPhase {
     }
     bool is_reached(std::uint32_t b) const noexcept { return first_of_b[b] != first_of_b[b + 1]; }
 
-    std::pmr::vector<Box> reached;              // of each body, around the regions in which others reach it
+    // Of each body, around the regions in which others reach it, as they were before tiles made them smaller.
+    std::pmr::vector<Box> reached;
     std::pmr::vector<std::uint8_t> block_sides; // sides_of() each block, seen from there
 
     // Buffers.

@@ -1,6 +1,5 @@
-// For each body A: the tiles of every body that overlaps it, culled by super-tile, then by tile; the vertices
-// of A that may be in them, binned once for all those bodies; the queries. The workers share each stage:
-// pieces of bodies, pairs of bodies or whole bodies at a time, each with results of its own.
+// The stages in order. The workers share each of them: they take pieces of bodies, pairs of bodies or whole
+// bodies at a time, each with results of its own.
 #include "fast/engine.hpp"
 
 #include "base/clock.hpp"

@@ -1,5 +1,5 @@
 // The fast engine: the same hits as the reference engine, found tile by tile. A step is six stages
-// (stages.hpp), each a plain function in a file of its own, over the arrays that live here.
+// (stages.hpp), plain functions over the arrays that live here; docs/engine.md explains them.
 #pragma once
 
 #include "base/per_worker.hpp"
@@ -22,12 +22,12 @@
 namespace vox {
 
 struct FastSettings {
-    double cell_size = 0;       // 0: chosen for each window of cells from the tiles that query it
+    double cell_size = 0;       // 0: chosen for each body from the tiles that query its windows
     bool winding = true;        // cull self-collision by winding numbers where it pays
     Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
     // Leave out what cannot have changed: pairs of bodies neither of which moved since the last step, whose
-    // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new or
-    // gone excepted, and not after a step that failed.
+    // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new
+    // or gone excepted, and not after a step that failed.
     bool carry = false;
 };
 

@@ -86,7 +86,8 @@ struct StepBoxes {
 
     std::pmr::vector<Box> bodies, blocks;
     std::pmr::vector<Box> moves; // around displacements of blocks from the reference of OrientationCache
-    // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of reach.
+    // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of
+    // reach.
     std::pmr::vector<Box> super_tiles;
     std::pmr::vector<Box> tiles;
     std::pmr::vector<std::uint8_t> super_positive; // whether all tets of the super-tile certainly are

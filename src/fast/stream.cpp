@@ -151,9 +151,8 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
         all_lo = hn::Min(all_lo, lo);
         all_hi = hn::Max(all_hi, hi);
         if constexpr (kMoves) {
-            const auto move = [&](std::uint32_t i) HWY_ATTR {
-                return hn::Sub(LoadVertex(p, i), LoadVertex(q, i));
-            };
+            const auto move = [&](std::uint32_t i)
+                                  HWY_ATTR { return hn::Sub(LoadVertex(p, i), LoadVertex(q, i)); };
             BoxOf(left, move, move_lo, move_hi);
             hn::Store(move_lo, d, moves[b].lo);
             hn::Store(move_hi, d, moves[b].hi);
@@ -296,12 +295,13 @@ void stream(Step& step, StepBoxes& boxes, StreamBuffers& buffers) {
     std::atomic<bool> finite{true};
     buffers.piece_boxes.resize(step.block_pieces.size());
     buffers.piece_moved.resize(step.block_pieces.size());
-    step.for_each(step.block_pieces.size(), step.block_count, piece_blocks, [&](std::size_t p, std::uint32_t) {
-        bool moved = false;
-        if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
-            finite.store(false, std::memory_order_relaxed);
-        buffers.piece_moved[p] = moved;
-    });
+    step.for_each(step.block_pieces.size(), step.block_count, piece_blocks,
+                  [&](std::size_t p, std::uint32_t) {
+                      bool moved = false;
+                      if (!stream_piece(step, step.block_pieces[p], boxes, buffers.piece_boxes[p], moved))
+                          finite.store(false, std::memory_order_relaxed);
+                      buffers.piece_moved[p] = moved;
+                  });
     if (!finite) {
         for (const Body& body : step.bodies) check_finite(body);
         throw Error(VOX_ERROR_INTERNAL, "positions changed during the step");

@@ -171,7 +171,9 @@ constexpr std::uint32_t few_points = 128;
 constexpr std::uint32_t most_samples = 256;
 
 // Whether the cells of the lattice are much larger than wanted.
-bool is_coarse(const WindowLattice& lattice, double cell_size) { return double{lattice.inverse} * cell_size < 0.5; }
+bool is_coarse(const WindowLattice& lattice, double cell_size) {
+    return double{lattice.inverse} * cell_size < 0.5;
+}
 
 // Covers the bulk of some points where a few far from it would make the cells large.
 WindowLattice bulk_lattice(const Points& points, Range range, const Box& box, double cell_size,
@@ -235,8 +237,8 @@ bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t po
 
 // Adds a window of some points, and returns whether it did. With `unless_crowded`, adds none that would be
 // crowded.
-bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box, bool unless_crowded,
-             std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
+bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box,
+             bool unless_crowded, std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
     const std::uint32_t n = range.count;
     const std::size_t cells = lattice.count();
     window = {&bins, lattice, box, bins.points.count, bins.cells, n};

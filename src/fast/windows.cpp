@@ -9,13 +9,14 @@ namespace vox::fast {
 
 namespace {
 
-// Edge length of a cell, in mean box sides of a tile. The optimum is flat from 0.4 to 0.9.
-constexpr double cells_per_tile = 0.6;
+// Edge length of a cell, in harmonic mean box sides of the tiles that query it. The optimum is flat from 0.4
+// to 0.9.
+constexpr double cell_in_tile_sides = 0.6;
 // A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
 constexpr double largest_factor = 16;
-// The same as cells_per_tile for the winding numbers of self-collision.
-constexpr double winding_cells_per_tile = 0.55;
+// The same as cell_in_tile_sides for the winding numbers of self-collision.
+constexpr double winding_cell_in_tile_sides = 0.55;
 // The winding numbers of a body with so many tets are worth sharing among the workers: by bench_stages, they
 // take 0.2 ms of one. Each such body is a task of the step, so their number is limited to stay below
 // VOX_MAX_TASKS.
@@ -81,7 +82,7 @@ bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBo
                               body.positions,
                               step.bodies[b].vertex_count,
                               boxes.bodies[b],
-                              winding_cells_per_tile * size.mean(),
+                              winding_cell_in_tile_sides * size.mean(),
                               boxes.super_tiles.data() + body.first_super,
                               boxes.super_positive.data() + body.first_super,
                               boxes.tiles.data() + body.first_tile,
@@ -146,7 +147,7 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     TileSize size;
     for (const PairRegion& pair : pairs) size.add(pair.tile_size);
     if (!is_empty(own)) sample_tiles(step_body, boxes, size);
-    const double automatic = cells_per_tile * size.mean();
+    const double automatic = cell_in_tile_sides * size.mean();
     const std::uint32_t before = bins.points.count;
     BodyWindow& window = out.of[a];
     window.cell_size = cell_size > 0 ? std::min(cell_size, largest_factor * automatic) : automatic;
@@ -197,13 +198,11 @@ void make_windows(const Step& step, const BroadPhase& broad, double cell_size, S
         for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
             if (is_large(step.bodies[a]))
                 make_window(step, broad, cell_size, a, out.bins[g], out.workers[0], step.workers, boxes, out);
-    step.for_each(
-        out.groups.size(), vertices, 2 * group_vertices, [&](std::size_t g, std::uint32_t worker) {
-            for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
-                if (!share || !is_large(step.bodies[a]))
-                    make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker], nullptr, boxes,
-                                out);
-        });
+    step.for_each(out.groups.size(), vertices, 2 * group_vertices, [&](std::size_t g, std::uint32_t worker) {
+        for (std::uint32_t a = out.groups[g].first; a < out.groups[g].last; ++a)
+            if (!share || !is_large(step.bodies[a]))
+                make_window(step, broad, cell_size, a, out.bins[g], out.workers[worker], nullptr, boxes, out);
+    });
     out.workers.level();
 }
 

@@ -39,8 +39,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
     check_workers(desc.tasks, desc.worker_count);
     constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
     if (desc.flags & ~known_flags)
-        refuse(
-            format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
+        refuse(format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
 }
 
 } // namespace vox
@@ -303,9 +302,8 @@ void vox_grid::drop_removed_vertices() {
     if (std::all_of(bodies_.begin(), bodies_.end(),
                     [](const Body& body) { return body.removed_vertices.empty(); }))
         return;
-    std::erase_if(hits_, [this](const Hit& hit) {
-        return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex);
-    });
+    std::erase_if(
+        hits_, [this](const Hit& hit) { return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex); });
 }
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {

@@ -28,8 +28,9 @@ void check_grid_desc(const vox_grid_desc& desc);
 
 } // namespace vox
 
-// Every public vox_grid_* and vox_mesh_* function is one member here. All of them throw; one that throws has
-// changed nothing (for step, see vox_grid_step).
+// What the public functions of a grid do; those of a mesh, of events, readings, queries and snapshots go on
+// from here to their own classes. Members that are not noexcept throw; one that throws has changed nothing
+// (for step, see vox_grid_step).
 struct vox_grid {
 public:
     // `desc` is checked; `held` bytes were allocated for this object.
@@ -43,9 +44,9 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     double cell_size() const noexcept { return used_cell_size_; }
 
-    // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and budget unless the
-    // caller chose these, and the share of tets that held no vertex in the last step as a p_nc left at its default.
-    // The first throws INVALID_STATE for a mesh without positions.
+    // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and
+    // budget unless the caller chose these, and 1 - contacts / tets of the last step as a p_nc left at its
+    // default. The first throws INVALID_STATE for a mesh without positions.
     void describe(vox::CellSizeScene& scene) const;
     void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
 

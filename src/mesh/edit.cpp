@@ -24,9 +24,8 @@ void check_items(std::span<const std::uint32_t> items, std::size_t count, const 
                  const char* name) {
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i] >= count)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("%s[%zu] is %" PRIu32 ", the mesh has %zu %s", name, i, items[i], count,
-                               name));
+            throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s[%zu] is %" PRIu32 ", the mesh has %zu %s",
+                                                           name, i, items[i], count, name));
         if (removed[items[i]])
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("%s[%zu] is %" PRIu32 ", which was removed", name, i, items[i]));

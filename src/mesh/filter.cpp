@@ -65,8 +65,8 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
 }
 
 // Breadth first; the queue is what is found.
-void Rings::search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex, std::uint32_t count,
-                   std::pmr::vector<std::uint32_t>& found) {
+void Rings::search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex,
+                   std::uint32_t count, std::pmr::vector<std::uint32_t>& found) {
     if (++searches == 0) { // after 2^32 of them
         std::fill(reached_from.begin(), reached_from.end(), 0u);
         searches = 1;
@@ -97,8 +97,8 @@ void Rings::add_vertices(std::size_t vertex_count) {
     reached_from.resize(vertex_count, 0);
 }
 
-// Where an edge came or went, its ends are among the changed vertices: others are near it if they are, or were,
-// near those.
+// Where an edge came or went, its ends are among the changed vertices: others are near it if they are, or
+// were, near those.
 void Rings::repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                    std::uint32_t count) {
     std::pmr::memory_resource* memory = near.memory();
@@ -129,10 +129,8 @@ bool SelfFilter::rests_close(std::uint32_t vertex, const Tet& tet) const noexcep
     const Vec3f& p = rest[vertex];
     const Vec3f corner[4] = {rest[tet.v[0]], rest[tet.v[1]], rest[tet.v[2]], rest[tet.v[3]]};
     for (int i = 0; i < 4; ++i) {
-        const Vec3d a = vec(corner[(i + 1) % 4]), b = vec(corner[(i + 2) % 4]),
-                    c = vec(corner[(i + 3) % 4]);
-        if (std::sqrt(closest_on_triangle(vec(p), a, b, c).squared_distance) < rest_distance)
-            return true;
+        const Vec3d a = vec(corner[(i + 1) % 4]), b = vec(corner[(i + 2) % 4]), c = vec(corner[(i + 3) % 4]);
+        if (std::sqrt(closest_on_triangle(vec(p), a, b, c).squared_distance) < rest_distance) return true;
     }
     std::uint64_t exact_tests = 0;
     return locate(p, corner[0], corner[1], corner[2], corner[3], exact_tests) == Containment::interior;

@@ -41,8 +41,8 @@ struct Rings {
     IndexLists near; // of each vertex, which is among them; ascending
 
 private:
-    void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex, std::uint32_t count,
-                std::pmr::vector<std::uint32_t>& found);
+    void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex,
+                std::uint32_t count, std::pmr::vector<std::uint32_t>& found);
 
     std::pmr::vector<std::uint32_t> reached_from; // of each vertex, the last search that met it
     std::uint32_t searches = 0;

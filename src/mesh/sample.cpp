@@ -21,8 +21,7 @@ MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::mem
         for (std::uint32_t f = 0; f < 4; ++f) {
             const std::uint32_t across = topology.across[t][f];
             // Where three or more tetrahedra meet, `across` names none of them.
-            const bool own =
-                across != Topology::nothing && (across & Topology::surface_bit) != 0;
+            const bool own = across != Topology::nothing && (across & Topology::surface_bit) != 0;
             shared |= std::uint32_t{!own} << f;
         }
         if (names_a_vertex_twice(body.tets[t])) shared = MeshSample::SampledTet::no_facets;

@@ -43,7 +43,8 @@ void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<
 
 // Calls function(tet, i) for each tetrahedron of which `key` is facet i.
 template <class Function>
-void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const IndexLists& tets_of, Function&& function) {
+void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const IndexLists& tets_of,
+                 Function&& function) {
     std::span<const std::uint32_t> around = tets_of[key.low];
     for (const std::uint32_t v : {key.middle, key.high})
         if (tets_of[v].size() < around.size()) around = tets_of[v];

@@ -57,7 +57,8 @@ private:
     }
 
     static int longest_side(const Item* items, std::uint32_t count) {
-        float lo[3] = {float_infinity, float_infinity, float_infinity}, hi[3] = {-float_infinity, -float_infinity, -float_infinity};
+        float lo[3] = {float_infinity, float_infinity, float_infinity},
+              hi[3] = {-float_infinity, -float_infinity, -float_infinity};
         for (std::uint32_t i = 0; i < count; ++i)
             for (int a = 0; a < 3; ++a) {
                 const float c = items[i].centroid[a];

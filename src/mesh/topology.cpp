@@ -76,8 +76,8 @@ private:
     // Drops the triangle of a facet that may have been on the surface; the last triangle takes its place.
     void drop_triangle(const FacetKey& key) {
         const std::span<const std::uint32_t> ring = topology_.ring_of(key.low);
-        const auto found = std::find_if(ring.begin(), ring.end(),
-                                        [&](std::uint32_t t) { return topology_.key(t) == key; });
+        const auto found =
+            std::find_if(ring.begin(), ring.end(), [&](std::uint32_t t) { return topology_.key(t) == key; });
         if (found == ring.end()) return;
         const std::uint32_t hole = *found;
         const auto last = static_cast<std::uint32_t>(topology_.triangles.size() - 1);

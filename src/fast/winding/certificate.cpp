@@ -244,10 +244,9 @@ private:
         const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t s = begin; s < end; ++s) {
                 if (!measure_ && body_.super_positive[s]) continue;
-                const float width =
-                    orient(tiles, body_.boundary, body_.positions, body_.rounded, tiles.super_first[s],
-                           tiles.super_first[s + 1], body_.tile_boxes, body_.tile_known, out_.bad.data(),
-                           measure_);
+                const float width = orient(tiles, body_.boundary, body_.positions, body_.rounded,
+                                           tiles.super_first[s], tiles.super_first[s + 1], body_.tile_boxes,
+                                           body_.tile_known, out_.bad.data(), measure_);
                 if (measure_) cache.slack[s] = width - rounding;
             }
         };

@@ -70,8 +70,8 @@ struct WindingBody {
     const float* positions; // packed
     std::uint32_t vertex_count;
     Box box;
-    double cell_size;                  // of the lattice
-    const Box* super_boxes;            // boxes that hold the super-tiles
+    double cell_size;                   // of the lattice
+    const Box* super_boxes;             // boxes that hold the super-tiles
     const std::uint8_t* super_positive; // whether all tets of a super-tile are known to be positive
     Box* tile_boxes;                    // boxes that are needed are made
     std::uint8_t* tile_known;

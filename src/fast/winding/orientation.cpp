@@ -93,7 +93,8 @@ HWY_INLINE float OrientTiles(const Tiles& tiles, const Boundary& boundary,
             const V width = Width(e1, e2, e3, n, longest, hn::Sub(hn::Abs(volume), bound));
             for (std::size_t byte = 0; byte < 8; ++byte)
                 bits[byte] = static_cast<std::uint8_t>(counted >> i >> 8 * byte);
-            least = hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, float_infinity)));
+            least =
+                hn::Min(least, hn::IfThenElse(hn::LoadMaskBits(d, bits), width, hn::Set(d, float_infinity)));
         }
         const std::uint64_t mirrored = boundary.mirrored.data()[t];
         bad[t] = ((not_positive & ~mirrored) | (not_negative & mirrored)) & counted;
