@@ -42,7 +42,8 @@ def differences(readme, code, profile, benchmark, picture):
         found.append("src/README.md lists no stages")
     if stages_of_code(code) != stages:
         found.append(f"src/fast/stages.hpp has {stages_of_code(code)}, src/README.md {stages}")
-    if stages_of_profile(profile) != stages:
+    # A field can only be added at the end of a struct, wherever the stage stands in a step.
+    if sorted(stages_of_profile(profile)) != sorted(stages):
         found.append(f"vox_profile has {stages_of_profile(profile)}, src/README.md {stages}")
     rows = rows_of_benchmark(benchmark)
     if not set(stages) <= set(rows):
