@@ -142,7 +142,8 @@ std::span<const vox_pair> Events::pairs_of(std::span<const vox_mesh> meshes) con
     if (meshes.size() == 1) return pairs();
     vox_pair wanted{};
     std::tie(wanted.mesh_a, wanted.mesh_b) = std::minmax(meshes[0], meshes[1]);
-    return std::ranges::equal_range(pairs(), wanted, pair_before);
+    const auto [first, last] = std::equal_range(pairs().begin(), pairs().end(), wanted, pair_before);
+    return {first, last};
 }
 
 vox_touch_view Events::touch_events(std::uint64_t epoch) const noexcept {
