@@ -86,8 +86,8 @@ std::span<ReadingBody> Readings::list_meshes(const Events& events) {
     for (const vox_pair& pair : events.pairs())
         for (const vox_mesh mesh : {pair.mesh_a, pair.mesh_b}) bodies_.emplace_back().body.mesh_id = mesh;
     std::ranges::sort(bodies_, {}, id_of);
-    const auto repeated = std::ranges::unique(bodies_, {}, id_of);
-    bodies_.erase(repeated.begin(), repeated.end());
+    const auto same = [](const ReadingBody& x, const ReadingBody& y) { return id_of(x) == id_of(y); };
+    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
     return bodies_;
 }
 
