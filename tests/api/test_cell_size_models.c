@@ -152,9 +152,7 @@ START_TEST(the_grid_suggests_by_its_engine) {
     found.struct_size = given.struct_size = sizeof found;
     vox_grid* grid = grid_of(&grid_desc);
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra");
-    for (int b = 0; b < 2; ++b) {
-        insert_mesh(grid, &p.meshes[b]);
-    }
+    for (int b = 0; b < 2; ++b) insert_mesh(grid, &p.meshes[b]);
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &found));
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = _i ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
@@ -217,9 +215,7 @@ START_TEST(bodies_at_rest_cost_nothing) {
     vox_suggestion moving, resting;
     moving.struct_size = resting.struct_size = sizeof moving;
     vox_grid* grid = grid_of(NULL);
-    for (int b = 0; b < 2; ++b) {
-        insert_mesh(grid, &p.meshes[b]);
-    }
+    for (int b = 0; b < 2; ++b) insert_mesh(grid, &p.meshes[b]);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &moving));
     ck_assert_double_gt(term(&moving, "visit a row"), 0);
