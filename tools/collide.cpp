@@ -76,10 +76,10 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
-        std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, query %.3f, decide %.3f",
+        std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
                     milliseconds(profile.stream_ns), milliseconds(profile.winding_ns),
                     milliseconds(profile.broad_phase_ns), milliseconds(profile.windows_ns),
-                    milliseconds(profile.query_ns), milliseconds(profile.decide_ns));
+                    milliseconds(profile.lookup_ns), milliseconds(profile.decide_ns));
     else
         std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(profile.bin_ns),
                     milliseconds(profile.broad_ns), milliseconds(profile.narrow_ns));

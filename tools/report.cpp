@@ -186,7 +186,7 @@ void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
                        {"winding_ns", profile.winding_ns},
                        {"broad_phase_ns", profile.broad_phase_ns},
                        {"windows_ns", profile.windows_ns},
-                       {"query_ns", profile.query_ns},
+                       {"lookup_ns", profile.lookup_ns},
                        {"decide_ns", profile.decide_ns}};
     json["counters"] = counters_json(counters_of(grid));
 }

@@ -50,7 +50,7 @@ struct WholeStep {
     fast::StreamBuffers stream_buffers{memory};
     fast::BroadPhase broad{memory};
     fast::Windows windows{memory};
-    fast::QueryBuffers query_buffers{memory};
+    fast::LookupBuffers lookup_buffers{memory};
     std::vector<fast::Finding> findings; // in body 0
     Count ignored;
     std::pmr::vector<Hit> hits{memory};
@@ -85,7 +85,7 @@ struct WholeStep {
         broad_phase();
         make_windows();
         Keep keep(findings);
-        query(keep, 1);
+        look_up(keep, 1);
     }
 
     void stream() {
@@ -104,9 +104,9 @@ struct WholeStep {
         fast::find_regions(step, boxes, broad);
     }
     void make_windows() { fast::make_windows(step, broad, 0, boxes, windows); }
-    void query(fast::Findings& out, std::uint32_t bodies) {
+    void look_up(fast::Findings& out, std::uint32_t bodies) {
         for (const fast::Piece& piece : step.super_pieces)
-            if (piece.body < bodies) fast::query(step, broad, windows, piece, boxes, query_buffers, out);
+            if (piece.body < bodies) fast::look_up(step, broad, windows, piece, boxes, lookup_buffers, out);
     }
     void decide() {
         hits.clear();
@@ -136,7 +136,7 @@ struct Bodies {
     fast::Bins bins{memory}, sparse_bins{memory};
     std::pmr::vector<std::uint32_t> cell_of;
     fast::Window window{};
-    std::unique_ptr<fast::QueryScratch> scratch = std::make_unique<fast::QueryScratch>();
+    std::unique_ptr<fast::LookupScratch> scratch = std::make_unique<fast::LookupScratch>();
     fast::Certificate certificate{memory};
     fast::LastPositions rest{memory};
     std::uint64_t exact_tests = 0;
@@ -221,14 +221,14 @@ struct Bodies {
         sparse.count = std::uint32_t(b.positions.size());
     }
 
-    void query() {
-        fast::Query q{};
+    void look_up() {
+        fast::TiledBody q{};
         q.tiles = &tiles;
         q.positions = packed(a);
         q.boxes = tile_boxes.data();
         q.known = known.data();
         const fast::Source source{window, region, 1};
-        fast::query_tiles(q, {&source, 1}, 0, std::uint32_t(tiles.tiles.size()), *scratch, found);
+        fast::look_up_tiles(q, {&source, 1}, 0, std::uint32_t(tiles.tiles.size()), *scratch, found);
         fast::flush(*scratch, found);
     }
 };
@@ -255,7 +255,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
          }},
         {"broad_phase", "block", w.blocks, [&w] { w.broad_phase(); }},
         {"windows", "vertex", w.vertices, [&w] { w.make_windows(); }},
-        {"query", "tet", w.tets, [&w] { w.query(w.ignored, 4); }},
+        {"lookup", "tet", w.tets, [&w] { w.look_up(w.ignored, 4); }},
         {"decide", "finding", w.findings.size(), [&w] { w.decide(); }},
         {"tiles", "tet", tets,
          [&s] {
@@ -287,7 +287,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
              s.sparse_bins.clear();
              fast::bin_tree(s.sparse, Bodies::cell_size, s.cell_of, s.sparse_bins);
          }},
-        {"query tiles", "tet", tets, [&s] { s.query(); }},
+        {"look up tiles", "tet", tets, [&s] { s.look_up(); }},
         {"track", "tet", tets,
          [&s] {
              const auto supers = s.tiles.super_tile_count();

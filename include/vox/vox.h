@@ -923,7 +923,7 @@ typedef struct vox_profile {
     uint32_t reserved;
     uint64_t step_ns;
     uint64_t bin_ns;         /* classify the vertices, recompute the boxes: stream + winding + windows */
-    uint64_t broad_ns;       /* cells and box tests: broad_phase + query */
+    uint64_t broad_ns;       /* cells and box tests: broad_phase + lookup */
     uint64_t narrow_ns;      /* exact decisions: decide */
     uint64_t contacts_ns;    /* canonical order, barycentric coordinates */
     uint64_t depth_ns;       /* penetrations */
@@ -932,7 +932,7 @@ typedef struct vox_profile {
     uint64_t winding_ns;     /* rule out self-contacts by winding numbers; of the worker that took longest over them */
     uint64_t broad_phase_ns; /* regions in which meshes may be in contact */
     uint64_t windows_ns;     /* bin the vertices that lie there */
-    uint64_t query_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
+    uint64_t lookup_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
     uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
 } vox_profile;
 

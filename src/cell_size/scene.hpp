@@ -32,7 +32,7 @@ struct CellSizeScene {
 
     // ---- set by the caller ----
     std::pmr::vector<Body> bodies;
-    SampleBudget budget = thorough;
+    SampleBudget budget = thorough; // prepare() makes it a small one where the scene is a grid's
     // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
     std::pmr::vector<const Mesh*> meshes;
     std::pmr::vector<const Tiles*> tiles;   // null where they were not made
@@ -47,9 +47,9 @@ struct CellSizeScene {
     // a step. Throws Error(NON_FINITE) naming mesh_id and vertex.
     void prepare(vox_cost_model model);
 
-    // For the fast engine's model, which bodies are near each other: from the last step where all bodies are
-    // where they were then (`last_step` is null otherwise), else found by the same functions that the engine
-    // calls.
+    // For the fast engine's model, which bodies are near each other: from the last step where the boxes of all
+    // bodies are what they were then (prepare() sets `last_step` to null otherwise), else found by the same
+    // functions that the engine calls.
     const fast::Step& step() const noexcept { return last_step ? last_step->last_step() : step_; }
     const fast::StepBoxes& boxes() const noexcept { return last_step ? last_step->boxes() : boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept {

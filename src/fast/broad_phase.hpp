@@ -47,7 +47,7 @@ std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& re
 struct PairRegion {
     std::uint32_t a, b;
     Box region;
-    TileSize tile_size; // of those tiles: they will query the window of a
+    TileSize tile_size; // of those tiles: they will look into the windows of a
 };
 
 struct BroadPhase {

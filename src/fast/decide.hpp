@@ -1,9 +1,9 @@
-// The last stage: which findings of the query are hits. What floats could not decide is decided exactly.
+// The last stage: which findings of the lookup are hits. What floats could not decide is decided exactly.
 #pragma once
 
 #include "base/scene.hpp"
 #include "exact/predicates.hpp"
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 
 #include <cstdint>
 #include <memory_resource>

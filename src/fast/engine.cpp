@@ -25,11 +25,11 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
     const std::uint64_t regions_found = nanoseconds();
     fast::make_windows(step_, broad_phase_, settings.cell_size, boxes_, windows_);
     const std::uint64_t windows_made = nanoseconds();
-    query(hits);
+    look_up(hits);
     count(counters);
     const std::uint64_t end = nanoseconds();
 
-    std::uint64_t winding = 0; // within the tasks of the windows, as decisions are within those of the query
+    std::uint64_t winding = 0; // within the tasks of the windows, as decisions are within those of the lookup
     profile.decide_ns = 0;
     for (const fast::Windows::Worker& worker : windows_.workers)
         winding = std::max(winding, worker.winding_ns);
@@ -38,9 +38,9 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
     profile.winding_ns = tracked - streamed + winding;
     profile.broad_phase_ns = regions_found - tracked;
     profile.windows_ns = windows_made - regions_found - winding;
-    profile.query_ns = end - windows_made - profile.decide_ns;
+    profile.lookup_ns = end - windows_made - profile.decide_ns;
     profile.bin_ns = profile.stream_ns + profile.winding_ns + profile.windows_ns;
-    profile.broad_ns = profile.broad_phase_ns + profile.query_ns;
+    profile.broad_ns = profile.broad_phase_ns + profile.lookup_ns;
     profile.narrow_ns = profile.decide_ns;
 }
 
@@ -68,8 +68,8 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
     degenerate_.clear();
 }
 
-// The query of each piece, and the decisions on what it finds.
-void FastEngine::query(std::pmr::vector<Hit>& hits) {
+// The lookup of each piece, and the decisions on what it finds.
+void FastEngine::look_up(std::pmr::vector<Hit>& hits) {
     constexpr std::size_t task_tiles =
         32; // are worth a task: by bench_stages, ten microseconds where they find points
     fast::Decided decided{hits, degenerate_};
@@ -77,7 +77,7 @@ void FastEngine::query(std::pmr::vector<Hit>& hits) {
         step_.super_pieces.size(), step_.tile_count, task_tiles, [&](std::size_t p, std::uint32_t worker) {
             const fast::Piece& piece = step_.super_pieces[p];
             fast::ExactDecisions decide(step_.bodies, piece.body, workers_[worker].decided, decided);
-            fast::query(step_, broad_phase_, windows_, piece, boxes_, workers_[worker], decide);
+            fast::look_up(step_, broad_phase_, windows_, piece, boxes_, workers_[worker], decide);
         });
     workers_.level();
 }
@@ -100,7 +100,7 @@ void FastEngine::count(vox_counters& counters) {
         counters.exact_tests += worker.decided.exact_tests;
         counters.filtered += worker.decided.filtered;
         if (worker.scratch.empty()) continue;
-        const fast::QueryCounters& counted = worker.scratch[0].counters;
+        const fast::LookupCounters& counted = worker.scratch[0].counters;
         counters.visited_cells += counted.visited_cells;
         counters.visited_entries += counted.visited_points;
         counters.candidates += counted.candidates;

@@ -7,7 +7,7 @@
 #include "fast/broad_phase.hpp"
 #include "fast/decide.hpp"
 #include "fast/mesh_state.hpp"
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 #include "fast/step.hpp"
 #include "fast/stream.hpp"
 #include "fast/windows.hpp"
@@ -22,7 +22,7 @@
 namespace vox {
 
 struct FastSettings {
-    double cell_size = 0;       // 0: chosen for each body from the tiles that query its windows
+    double cell_size = 0;       // 0: chosen for each body from the tiles that look into its windows
     bool winding = true;        // cull self-collision by winding numbers where it pays
     Workers* workers = nullptr; // that share the work; null: none, all is done on the calling thread
     // Leave out what cannot have changed: pairs of bodies neither of which moved since the last step, whose
@@ -42,7 +42,7 @@ public:
     // it, in any order. `prepared` is what there is of each body. Throws Error(NON_FINITE) naming mesh and
     // vertex; sets the counters from `cells` to `skipped_degenerate` (degenerate tetrahedra with a vertex in
     // their box) and the times of its stages, with the sums that they make up: `winding` and `decide` run
-    // within the tasks of `windows` and `query`, and count for the worker that took longest over them.
+    // within the tasks of `windows` and `lookup`, and count for the worker that took longest over them.
     // Nothing but times and the order of hits depends on the workers. With more than one, the memory given to
     // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
@@ -68,14 +68,14 @@ public:
     double cell_size() const noexcept { return cell_size_; }
 
 private:
-    struct Worker : fast::QueryBuffers {
-        using QueryBuffers::QueryBuffers;
+    struct Worker : fast::LookupBuffers {
+        using LookupBuffers::LookupBuffers;
         fast::DecideCounts decided;
     };
 
     void begin(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                const FastSettings& settings);
-    void query(std::pmr::vector<Hit>& hits);
+    void look_up(std::pmr::vector<Hit>& hits);
     void count(vox_counters& counters);
 
     fast::Step step_;

@@ -1,15 +1,15 @@
-// The query takes a tile at a time. It fetches the points in the tile's box from the rows of cells that the
+// The lookup takes a tile at a time. It fetches the points in the tile's box from the rows of cells that the
 // box meets; quantises points and vertices to 8 bits within the box (monotone, so a point in a tet's box is
 // in its quantised box); tests each point against the 64 boxes of the tets at once; and decides the pairs
 // that are left in single precision (narrow-inl.hpp).
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/query.cpp"
+#define HWY_TARGET_INCLUDE "fast/lookup.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/cache_control.h>
@@ -26,7 +26,7 @@ namespace HWY_NAMESPACE {
 // candidates whose set is empty, and returns how many are left. Nothing branches, as these sets are hard to
 // predict.
 template <class Own>
-HWY_INLINE std::uint32_t TestBoxes(QueryScratch& s, std::uint32_t begin, std::uint32_t end,
+HWY_INLINE std::uint32_t TestBoxes(LookupScratch& s, std::uint32_t begin, std::uint32_t end,
                                    std::uint32_t left, std::uint64_t valid, Own own) {
     const Bytes d;
     constexpr std::size_t lanes = hn::MaxLanes(Bytes());
@@ -79,8 +79,8 @@ HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
 
 // One tile and how far it is prepared.
 struct TileWork {
-    const Query& query;
-    QueryScratch& s;
+    const TiledBody& body;
+    LookupScratch& s;
     Findings& out;
     const Tile& tile;
     Box box;
@@ -92,7 +92,7 @@ struct TileWork {
 
     void narrow(const std::uint32_t* tets, std::uint32_t count) {
         const bool few = tile.vertex_count <= few_vertices;
-        if (query.rounded)
+        if (body.rounded)
             few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
                 : Narrow<true, ManyCorners>(tets, s, count, constants, out);
         else
@@ -103,32 +103,32 @@ struct TileWork {
 
 // All candidates in scratch against the tile; the first own_count are vertices of the same body.
 HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_count) {
-    QueryScratch& s = w.s;
+    LookupScratch& s = w.s;
     const Tile& tile = w.tile;
     if (!w.ready) {
-        if (!w.loaded) LoadTile<false>(*w.query.tiles, w.query.positions, tile, s, w.box);
+        if (!w.loaded) LoadTile<false>(*w.body.tiles, w.body.positions, tile, s, w.box);
         for (int a = 0; a < 3; ++a) w.scales[a] = MakeScale(w.box.lo[a], w.box.hi[a]);
-        const std::size_t index = static_cast<std::size_t>(&tile - w.query.tiles->tiles.data());
-        QuantiseTile(w.query.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
+        const std::size_t index = static_cast<std::size_t>(&tile - w.body.tiles->tiles.data());
+        QuantiseTile(w.body.tiles->corners.data() + index * 4 * tile_size, w.scales, tile.vertex_count, s);
         ManyCorners::Prepare(s, tile.vertex_count);
-        w.constants = MakeConstants(w.box, w.query.rounded);
+        w.constants = MakeConstants(w.box, w.body.rounded);
         w.ready = true;
     }
     if (own_count && !w.stamped) {
         w.stamped = true;
         s.tag += 1u << 6;
-        const std::uint32_t* vertices = w.query.tiles->vertices.data() + tile.first_vertex;
-        const std::uint64_t* own = w.query.tiles->own.data() + tile.first_vertex;
+        const std::uint32_t* vertices = w.body.tiles->vertices.data() + tile.first_vertex;
+        const std::uint64_t* own = w.body.tiles->own.data() + tile.first_vertex;
         for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
-            w.query.stamps[vertices[i]] = s.tag | i;
+            w.body.stamps[vertices[i]] = s.tag | i;
             s.own[i] = own[i];
         }
     }
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    const std::uint32_t* tets = w.query.tiles->tets.data() + tile.first_tet;
-    const std::uint32_t* stamps = w.query.stamps;
+    const std::uint32_t* tets = w.body.tiles->tets.data() + tile.first_tet;
+    const std::uint32_t* stamps = w.body.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
             const std::uint32_t stamp = stamps[s.candidate_id[i]];
@@ -151,7 +151,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
             }
             to += 4;
         } while (mask);
-        if (pairs > QueryScratch::most_pairs - 64) {
+        if (pairs > LookupScratch::most_pairs - 64) {
             w.narrow(tets, pairs);
             pairs = 0;
         }
@@ -172,7 +172,7 @@ HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& 
     const Floats d;
     const Words du;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-    QueryScratch& s = w.s;
+    LookupScratch& s = w.s;
     const auto lx = hn::Set(d, box.lo[0]), ly = hn::Set(d, box.lo[1]), lz = hn::Set(d, box.lo[2]);
     const auto hx = hn::Set(d, box.hi[0]), hy = hn::Set(d, box.hi[1]), hz = hn::Set(d, box.hi[2]);
     const Window& window = source.window;
@@ -201,7 +201,7 @@ HWY_NOINLINE std::uint32_t Filter(TileWork& w, const Source& source, const Box& 
         hn::StoreU(compress(vz), d, s.candidate_z + n);
         hn::StoreU(compress(hn::LoadU(du, ids + i)), du, s.candidate_id + n);
         n += compress.count();
-        if (n > QueryScratch::most_candidates - 16) {
+        if (n > LookupScratch::most_candidates - 16) {
             label();
             Process(w, n, own ? n : own_count);
             n = labelled = own_count = 0;
@@ -289,24 +289,24 @@ HWY_INLINE void PrefetchWindow(const Window& window) {
     PrefetchRange(bins.points.id.data() + window.first_point, bytes);
 }
 
-void QueryTiles(const Query& query, const Source* sources, std::size_t source_count, std::uint32_t first,
-                std::uint32_t last, QueryScratch& s, Findings& out) {
+void LookUpTiles(const TiledBody& body, const Source* sources, std::size_t source_count, std::uint32_t first,
+                 std::uint32_t last, LookupScratch& s, Findings& out) {
     for (std::size_t i = 0; i < source_count; ++i) PrefetchWindow(sources[i].window);
     for (std::uint32_t t = first; t < last; ++t) {
-        TileWork w{query, s, out, query.tiles->tiles.data()[t], query.boxes[t], false, false, false, {}, {}};
-        if (!query.known[t]) {
-            LoadTile(*query.tiles, query.positions, w.tile, s, w.box);
+        TileWork w{body, s, out, body.tiles->tiles.data()[t], body.boxes[t], false, false, false, {}, {}};
+        if (!body.known[t]) {
+            LoadTile(*body.tiles, body.positions, w.tile, s, w.box);
             w.loaded = true;
-            query.boxes[t] = w.box;
-            query.known[t] = 1;
+            body.boxes[t] = w.box;
+            body.known[t] = 1;
         }
         std::uint32_t n = 0, own_count = 0;
         bool met = false;
         for (std::size_t i = 0; i < source_count; ++i) {
             if (!overlap(w.box, sources[i].region)) continue;
-            if (!met) PrefetchTile(*query.tiles, w.tile, query.stamps);
+            if (!met) PrefetchTile(*body.tiles, w.tile, body.stamps);
             met = true;
-            n = Fetch(w, sources[i], query.stamps && sources[i].body == sources[0].body, n, own_count);
+            n = Fetch(w, sources[i], body.stamps && sources[i].body == sources[0].body, n, own_count);
         }
         if (n) Process(w, n, own_count);
     }
@@ -321,7 +321,7 @@ namespace vox::fast {
 
 // Computes the barycentric coordinates of the findings here, where the points are in the cache; later they
 // would not be.
-void weigh(QueryScratch& s) {
+void weigh(LookupScratch& s) {
     for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
         Finding* findings = s.findings + first;
         const std::uint32_t count = std::min<std::uint32_t>(s.finding_count - first, barycentric_block);
@@ -336,19 +336,19 @@ void weigh(QueryScratch& s) {
     }
 }
 
-void hand_over(QueryScratch& scratch, Findings& out) {
+void hand_over(LookupScratch& scratch, Findings& out) {
     weigh(scratch);
     out.take(std::span<const Finding>(scratch.findings, scratch.finding_count));
     scratch.finding_count = 0;
 }
 
-void flush(QueryScratch& scratch, Findings& out) {
+void flush(LookupScratch& scratch, Findings& out) {
     if (scratch.finding_count) hand_over(scratch, out);
 }
 
-void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
-                 QueryScratch& scratch, Findings& out) {
-    VOX_SIMD_DISPATCH(QueryTiles)(query, sources.data(), sources.size(), first, last, scratch, out);
+void look_up_tiles(const TiledBody& body, std::span<const Source> sources, std::uint32_t first,
+                   std::uint32_t last, LookupScratch& scratch, Findings& out) {
+    VOX_SIMD_DISPATCH(LookUpTiles)(body, sources.data(), sources.size(), first, last, scratch, out);
 }
 
 namespace {
@@ -375,7 +375,7 @@ void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t
 // Makes room for one stamp for each vertex. No tile may mistake the stamps of another for its own, also when
 // the tag wraps round.
 void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<std::uint32_t>& stamps,
-                    QueryScratch& scratch) {
+                    LookupScratch& scratch) {
     if (stamps.size() < vertices) stamps.resize(vertices, 0);
     if ((scratch.tag >> 6) + tiles < 1u << 26) return;
     std::fill(stamps.begin(), stamps.end(), 0u);
@@ -384,8 +384,8 @@ void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<st
 
 } // namespace
 
-void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
-           StepBoxes& boxes, QueryBuffers& buffers, Findings& out) {
+void look_up(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
+             StepBoxes& boxes, LookupBuffers& buffers, Findings& out) {
     const std::uint32_t b = piece.body;
     const StepBody& body = step.of[b];
     const bool self = !is_empty(windows.of[b].own), reached = broad.is_reached(b);
@@ -398,15 +398,15 @@ void query(const Step& step, const BroadPhase& broad, const Windows& windows, co
     if (buffers.sources.empty()) return;
 
     const Tiles& tiles = *body.tiles;
-    Query tile_query{};
-    tile_query.tiles = &tiles;
-    tile_query.positions = body.positions;
-    tile_query.boxes = boxes.tiles.data() + body.first_tile;
-    tile_query.known = boxes.tile_known.data() + body.first_tile;
-    tile_query.rounded = body.rounded;
-    for (const Source& source : buffers.sources) tile_query.rounded |= step.of[source.body].rounded;
+    TiledBody tiled{};
+    tiled.tiles = &tiles;
+    tiled.positions = body.positions;
+    tiled.boxes = boxes.tiles.data() + body.first_tile;
+    tiled.known = boxes.tile_known.data() + body.first_tile;
+    tiled.rounded = body.rounded;
+    for (const Source& source : buffers.sources) tiled.rounded |= step.of[source.body].rounded;
     if (buffers.scratch.empty()) buffers.scratch.resize(1);
-    QueryScratch& scratch = buffers.scratch[0];
+    LookupScratch& scratch = buffers.scratch[0];
     scratch.finding_count = 0; // another piece may have failed and left some
     if (self) prepare_stamps(step.bodies[b].vertex_count, tiles.tiles.size(), buffers.stamps, scratch);
     std::pmr::vector<Source>& near = buffers.near;
@@ -423,8 +423,8 @@ void query(const Step& step, const BroadPhase& broad, const Windows& windows, co
             near.push_back(source);
         }
         if (near.empty()) continue;
-        tile_query.stamps = near[0].body == b ? buffers.stamps.data() : nullptr;
-        query_tiles(tile_query, near, tiles.super_first[s], tiles.super_first[s + 1], scratch, out);
+        tiled.stamps = near[0].body == b ? buffers.stamps.data() : nullptr;
+        look_up_tiles(tiled, near, tiles.super_first[s], tiles.super_first[s + 1], scratch, out);
     }
     flush(scratch, out);
 }

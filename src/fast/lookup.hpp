@@ -1,4 +1,4 @@
-// The query: the vertices of windows against the tetrahedra of tiles.
+// The lookup: the vertices of windows against the tetrahedra of tiles.
 #pragma once
 
 #include "exact/barycentric.hpp"
@@ -24,7 +24,7 @@ struct Finding {
     Weights weights;           // or Weights::unknown()
 };
 
-struct QueryCounters {
+struct LookupCounters {
     std::uint64_t visited_cells = 0;
     std::uint64_t visited_points = 0;
     std::uint64_t candidates = 0; // (vertex, tetrahedron) pairs that passed the exact box test
@@ -45,7 +45,7 @@ struct TileVertices {
 };
 
 // Buffers of a worker, for one tile at a time. About 40 KiB.
-struct alignas(64) QueryScratch : TileVertices {
+struct alignas(64) LookupScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 512; // handled at a time
     static constexpr std::uint32_t most_pairs = 2048;
     static constexpr std::uint32_t most_findings = 128;
@@ -73,7 +73,7 @@ struct alignas(64) QueryScratch : TileVertices {
     std::uint32_t finding_count = 0;
     // For self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the current tile.
     std::uint32_t tag = 0;
-    QueryCounters counters;
+    LookupCounters counters;
 };
 
 // Points to test against tiles: those of a window that are in `region`.
@@ -83,7 +83,7 @@ struct Source {
     std::uint32_t body;
 };
 
-struct Query {
+struct TiledBody {
     const Tiles* tiles;
     const float* positions; // packed, of the body of the tiles
     // Boxes of the tiles of the body. One that is not known is made when it is needed.
@@ -99,24 +99,24 @@ struct Query {
 // Finds every point of the sources that is in the closed box of a tet of the tiles [first, last) and not
 // certainly, by floats, outside the tet. Full buffers of findings go to `out`; flush() hands over the rest,
 // which stays in scratch.
-void query_tiles(const Query& query, std::span<const Source> sources, std::uint32_t first, std::uint32_t last,
-                 QueryScratch& scratch, Findings& out);
-void flush(QueryScratch& scratch, Findings& out);
+void look_up_tiles(const TiledBody& body, std::span<const Source> sources, std::uint32_t first,
+                   std::uint32_t last, LookupScratch& scratch, Findings& out);
+void flush(LookupScratch& scratch, Findings& out);
 
 // The buffers of a worker.
-struct QueryBuffers {
-    explicit QueryBuffers(std::pmr::memory_resource* memory)
+struct LookupBuffers {
+    explicit LookupBuffers(std::pmr::memory_resource* memory)
         : sources(memory), near(memory), stamps(memory), scratch(memory) {}
 
     std::pmr::vector<Source> sources, near; // of a piece of a body, and of a super-tile
     std::pmr::vector<std::uint32_t> stamps;
-    std::pmr::vector<QueryScratch> scratch; // one, once it is needed
+    std::pmr::vector<LookupScratch> scratch; // one, once it is needed
 
     auto buffers() { return std::tie(sources, near, stamps, scratch); }
 };
 
 // Some super-tiles of a body against the windows of the bodies that reach it.
-void query(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
-           StepBoxes& boxes, QueryBuffers& buffers, Findings& out);
+void look_up(const Step& step, const BroadPhase& broad, const Windows& windows, const Piece& piece,
+             StepBoxes& boxes, LookupBuffers& buffers, Findings& out);
 
 } // namespace vox::fast

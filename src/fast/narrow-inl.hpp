@@ -1,4 +1,4 @@
-// The last part of the query of a tile: it decides pairs of candidates and tets in single precision with a
+// The last part of the lookup of a tile: it decides pairs of candidates and tets in single precision with a
 // bound on the rounding errors. What that leaves open is decided exactly by the receiver of the findings
 // (decide.hpp). Included once for each SIMD target, after hwy/highway.h.
 //
@@ -31,7 +31,7 @@
 #endif
 
 #include "fast/compress-inl.hpp"
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 #include "fast/tile-inl.hpp"
 
 #include <hwy/highway.h>
@@ -41,7 +41,7 @@
 namespace vox::fast {
 
 // Out of line and compiled once, so it may call functions that are not compiled for the target.
-void hand_over(QueryScratch& scratch, Findings& out);
+void hand_over(LookupScratch& scratch, Findings& out);
 
 } // namespace vox::fast
 #endif
@@ -60,8 +60,8 @@ public:
         hn::Vec<Words> corners;
     };
 
-    static void Prepare(QueryScratch&, std::uint32_t) {} // once the tile's vertices are in scratch
-    explicit Corners(const QueryScratch& s)
+    static void Prepare(LookupScratch&, std::uint32_t) {} // once the tile's vertices are in scratch
+    explicit Corners(const LookupScratch& s)
         : table_{TableOf(s.x), TableOf(s.y), TableOf(s.z)}, corners_(s.corners) {}
     HWY_INLINE Tets operator[](const std::uint32_t* pairs) const {
         return {corners_(hn::And(hn::LoadU(Words(), pairs), hn::Set(Words(), 63)))};
@@ -87,13 +87,13 @@ public:
         const std::uint32_t* pairs;
     };
 
-    static void Prepare(QueryScratch& s, std::uint32_t vertex_count) {
+    static void Prepare(LookupScratch& s, std::uint32_t vertex_count) {
         const Floats d;
         for (std::uint32_t i = 0; i < vertex_count; i += static_cast<std::uint32_t>(hn::Lanes(d)))
             hn::StoreInterleaved4(hn::Load(d, s.x + i), hn::Load(d, s.y + i), hn::Load(d, s.z + i),
                                   hn::Zero(d), d, s.xyz + 4 * i);
     }
-    explicit Corners(const QueryScratch& s)
+    explicit Corners(const LookupScratch& s)
         : xyz_(s.xyz), corners_(reinterpret_cast<const std::uint8_t*>(s.corners)) {}
     HWY_INLINE Tets operator[](const std::uint32_t* pairs) const { return {pairs}; }
     template <int kCorner>
@@ -122,7 +122,7 @@ constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pai
 
 // Decides `count` pairs.
 template <bool kRounded, class CornersOf>
-HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s, std::uint32_t count,
+HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
@@ -202,7 +202,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, QueryScratch& s
                 block.corner[c][2][at] = s.z[v];
             }
         }
-        if (s.finding_count == QueryScratch::most_findings) hand_over(s, out);
+        if (s.finding_count == LookupScratch::most_findings) hand_over(s, out);
     }
 }
 

@@ -6,7 +6,7 @@
 #define VOX_FAST_QUANTISE_INL
 #endif
 
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 #include "fast/tile-inl.hpp"
 
 #include <hwy/highway.h>
@@ -77,7 +77,7 @@ struct ByteTable {
 
 // Local indices of the corners, and the quantised boxes of the tets; of at most 16 kQuarters vertices.
 template <std::uint32_t kQuarters>
-HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScratch& s) {
+HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, LookupScratch& s) {
     const Bytes d;
     for (std::size_t j = 0; j < tile_size; j += hn::Lanes(d)) {
         const auto c0 = hn::LoadU(d, corners + j), c1 = hn::LoadU(d, corners + tile_size + j);
@@ -96,7 +96,7 @@ HWY_INLINE void QuantiseTets(const std::uint8_t* HWY_RESTRICT corners, QueryScra
 }
 
 HWY_INLINE void QuantiseTile(const std::uint8_t* HWY_RESTRICT corners, const Scale* scales,
-                             std::uint32_t vertex_count, QueryScratch& s) {
+                             std::uint32_t vertex_count, LookupScratch& s) {
     Quantise(s.x, vertex_count, scales[0], s.quantised[0]);
     Quantise(s.y, vertex_count, scales[1], s.quantised[1]);
     Quantise(s.z, vertex_count, scales[2], s.quantised[2]);

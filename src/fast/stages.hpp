@@ -5,8 +5,8 @@
 namespace vox::fast {
 
 // In the order in which they begin. Part of `winding` runs within the tasks of `windows`, and all of `decide`
-// within those of `query`.
+// within those of `lookup`.
 inline constexpr const char* stage_names[] = {"stream",  "winding", "broad_phase",
-                                              "windows", "query",   "decide"};
+                                              "windows", "lookup",  "decide"};
 
 } // namespace vox::fast

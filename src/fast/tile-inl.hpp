@@ -7,7 +7,7 @@
 #define VOX_FAST_TILE_INL
 #endif
 
-#include "fast/query.hpp"
+#include "fast/lookup.hpp"
 
 #include <hwy/highway.h>
 

@@ -9,7 +9,7 @@ namespace vox::fast {
 
 namespace {
 
-// Edge length of a cell, in harmonic mean box sides of the tiles that query it. The optimum is flat from 0.4
+// Edge length of a cell, in harmonic mean box sides of the tiles that look into it. The optimum is flat from 0.4
 // to 0.9.
 constexpr double cell_in_tile_sides = 0.6;
 // A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
@@ -143,7 +143,7 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
                  points);
     if (points.count == 0) return;
 
-    // From the mean side of the tiles that will query the window.
+    // From the mean side of the tiles that will look into the window.
     TileSize size;
     for (const PairRegion& pair : pairs) size.add(pair.tile_size);
     if (!is_empty(own)) sample_tiles(step_body, boxes, size);

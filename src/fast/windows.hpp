@@ -1,4 +1,4 @@
-// Which vertices of a body may be in contact, binned for the query in cells of a size that fits the tiles
+// Which vertices of a body may be in contact, binned for the lookup in cells of a size that fits the tiles
 // that will look for them.
 #pragma once
 

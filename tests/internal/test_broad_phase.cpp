@@ -5,7 +5,9 @@
 #include "internal/stage_checks.hpp"
 #include "mesh/filter.hpp"
 
+#include <cfloat>
 #include <deque>
+#include <limits>
 
 #include "support/suite.h" // last: it defines macros with common names
 
@@ -287,15 +289,132 @@ START_TEST(workers_find_the_same) {
 }
 END_TEST
 
+// ---- pairs ----------------------------------------------------------------------------------------
+
+START_TEST(pairs_are_all_that_overlap) {
+    Random r{3};
+    fast::PairBuffers buffers(std::pmr::get_default_resource());
+    std::pmr::vector<fast::Pair> pairs;
+    std::size_t touching = 0;
+    for (int round = 0; round < 500; ++round) {
+        std::vector<Box> boxes(r.below(60));
+        for (Box& box : boxes) {
+            if (r.below(10) == 0) {
+                box = empty_box;
+                continue;
+            }
+            for (int a = 0; a < 3; ++a) { // of whole numbers, so that many touch
+                box.lo[a] = float(r.below(round % 3 == a ? 30 : 6));
+                box.hi[a] = box.lo[a] + float(r.below(4));
+                if (r.below(50) == 0) box.lo[a] = -FLT_MAX;
+                if (r.below(50) == 0) box.hi[a] = FLT_MAX;
+            }
+            box.lo[3] = std::numeric_limits<float>::quiet_NaN(); // the fourth means nothing
+        }
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+        for (std::uint32_t a = 0; a < boxes.size(); ++a)
+            for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+                const Box &p = boxes[a], &q = boxes[b];
+                bool meet = a != b, touch = false;
+                for (int i = 0; i < 3; ++i) {
+                    meet = meet && p.lo[i] <= p.hi[i] && q.lo[i] <= q.hi[i] && p.lo[i] <= q.hi[i] &&
+                           q.lo[i] <= p.hi[i];
+                    touch = touch || p.hi[i] == q.lo[i];
+                }
+                if (meet) expected.emplace_back(a, b);
+                touching += meet && touch;
+            }
+        fast::find_pairs(boxes, buffers, pairs);
+        for (const fast::Pair& pair : pairs) found.emplace_back(pair.a, pair.b);
+        ck_assert_msg(found == expected, "%zu boxes: %zu pairs, expected %zu", boxes.size(), found.size(),
+                      expected.size());
+    }
+    ck_assert_uint_gt(touching, 1000);
+}
+END_TEST
+
+// ---- sides ----------------------------------------------------------------------------------------
+
+// Boxes have a side of a region in common when, and only when, the box around them does not reach it.
+START_TEST(common_sides_are_those_of_the_box_around) {
+    Random r{4};
+    std::size_t out = 0, touching = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const auto box = [&] { // of whole numbers, so that many touch
+            Box made = empty_box;
+            for (int a = 0; a < 3; ++a) {
+                made.lo[a] = float(r.below(9));
+                made.hi[a] = made.lo[a] + float(r.below(3));
+            }
+            made.lo[3] = made.hi[3] = std::numeric_limits<float>::quiet_NaN(); // the fourth means nothing
+            return made;
+        };
+        const Box region = box();
+        Box around = empty_box;
+        unsigned common = all_sides;
+        for (std::uint32_t i = 0; i < 1 + r.below(5); ++i) {
+            const Box one = box();
+            const unsigned sides = sides_of(one, region);
+            ck_assert_int_eq(sides == 0, overlap(one, region));
+            common &= sides;
+            add(around, one);
+        }
+        ck_assert_int_eq(common == 0, overlap(around, region));
+        out += common != 0;
+        touching += common == 0 && around.hi[0] == region.lo[0];
+    }
+    ck_assert_uint_gt(out, 1000);
+    ck_assert_uint_gt(touching, 100);
+}
+END_TEST
+
+// Many boxes at once say what each says by itself, however many they are, at every SIMD level; empty ones,
+// too.
+START_TEST(sides_of_many_boxes) {
+    Random r{6};
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    std::size_t overlapping = 0, all = 0;
+    at_each_level([&](const char* level) {
+        for (std::uint32_t count = 0; count <= fast::most_boxes; ++count) {
+            const auto box = [&] { // of whole numbers, so that many touch
+                Box made = empty_box;
+                for (int a = 0; a < 3; ++a) {
+                    made.lo[a] = float(r.below(5));
+                    made.hi[a] = made.lo[a] + float(r.below(4));
+                }
+                made.lo[3] = made.hi[3] = nan; // the fourth means nothing
+                return made;
+            };
+            const Box region = box();
+            std::vector<Box> boxes(count);
+            for (Box& one : boxes) one = r.below(8) == 0 ? empty_box : box();
+            std::vector<std::uint8_t> sides(count + 1, 0xee);
+            fast::find_sides(boxes.data(), count, region, sides.data());
+            const std::uint64_t overlaps = fast::find_overlaps(boxes.data(), count, region);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                ck_assert_msg(sides[i] == sides_of(boxes[i], region), "%s: box %u of %u: sides %x",
+                              level, i, count, unsigned{sides[i]});
+                ck_assert_msg((overlaps >> i & 1) == overlap(boxes[i], region), "%s: box %u of %u",
+                              level, i, count);
+                overlapping += overlaps >> i & 1;
+            }
+            ck_assert_uint_eq(sides[count], 0xee); // nothing is written beyond
+            if (count < 64) ck_assert_uint_eq(overlaps >> count, 0);
+            all += count;
+        }
+    });
+    ck_assert_uint_gt(overlapping, all / 20);
+    ck_assert_uint_lt(overlapping, all / 2);
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("broad_phase");
-    TCase* tests = tcase_create("broad_phase");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, regions_hold_what_may_be_in_contact);
-    tcase_add_test(tests, filters_and_bodies_at_rest_leave_pairs_out);
-    tcase_add_test(tests, workers_find_the_same);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "broad_phase");
+    tcase_add_each(tests, regions_hold_what_may_be_in_contact, filters_and_bodies_at_rest_leave_pairs_out,
+                   workers_find_the_same, pairs_are_all_that_overlap, common_sides_are_those_of_the_box_around,
+                   sides_of_many_boxes);
     return run_suite(suite);
 }

@@ -124,8 +124,8 @@ struct Described : CellSizeScene {
 
 // ---- the reference engine -------------------------------------------------------------------------
 
-// The model counts in the mean over how the lattice lies: where a small dense body meets few cells, that is
-// what it can tell. So is what it is compared with, over a few places.
+// The model's counts are means over all positions of the lattice. Where a small dense body meets few cells,
+// the engine's counts depend on the position, so they are averaged over a few.
 START_TEST(reference_counts) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -162,14 +162,15 @@ START_TEST(reference_counts) {
 }
 END_TEST
 
-// Without what the vertices of a lattice make of the lists' lengths: a smooth function.
+// Leaves out the count of lists of another length, the only term that is not smooth for the vertices of a
+// lattice.
 SampleBudget smooth(SampleBudget budget) {
     budget.listed = 0;
     return budget;
 }
 
-// The quick look agrees with the thorough one about where the minimum is: both lose next to nothing by it. In
-// small scenes it leaves the lengths of lists out.
+// With the quick budget the model has its minimum where the thorough one has it, or loses next to nothing.
+// In small scenes the quick budget does not count the lengths of lists.
 START_TEST(reference_quick_look) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -232,8 +233,8 @@ double term(const CostTerms& terms, const std::string& name) {
     return 0;
 }
 
-// Where boxes are wider than a few cells a formula goes on from what was counted, which knows nothing of a
-// fine body that is all in few of the cells.
+// For boxes wider than a few cells the model does not count but uses a formula. The formula does not know of
+// a fine body that lies in few of the cells, so scenes with one have a wide tolerance.
 START_TEST(reference_lists_of_other_length) {
     const Named& named = scenes[_i];
     const double tolerance = named.unit < 0.5 ? 0.8 : _i < 4 ? 0.1 : 0.3;
@@ -249,9 +250,9 @@ START_TEST(reference_lists_of_other_length) {
 }
 END_TEST
 
-// One vertex of a cubic lattice lies in every cell as large as a cube of it, wherever that lies, and the
-// model sees that this is better than cells a little larger or smaller, which counts of visits and readings
-// alone do not tell. Where vertices have left their places it is not.
+// A cell as large as a cube of a cubic lattice holds exactly one of its vertices, wherever the cells begin.
+// The model must see that such cells are better than slightly larger or smaller ones, though counts of visits
+// and reads alone do not show it. Once vertices are moved at random, they are no better.
 START_TEST(cells_as_large_as_those_of_a_lattice) {
     for (const double jittered : {0.02, 0.5}) {
         Scene scene;
@@ -301,8 +302,8 @@ END_TEST
 
 // ---- the fast engine ------------------------------------------------------------------------------
 
-// How many vertices lie in few cells is a matter of luck, since a window's lattice begins at its corner:
-// counted at nine sizes a little apart, together.
+// A window's lattice begins at its corner, so with few cells the counts depend on the exact size. Those at
+// nine slightly different sizes are summed.
 START_TEST(fast_counts) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -320,8 +321,7 @@ START_TEST(fast_counts) {
             vox_profile profile{};
             FastSettings settings;
             settings.cell_size = size * named.unit * std::pow(1.2, (i - 4.0) / sizes);
-            settings.winding =
-                false; // the model has it that bodies which collide with themselves are looked at
+            settings.winding = false; // the model counts self-collision as if nothing were culled
             engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
             const FastModel::Counts counts = cost.counts(settings.cell_size, FastModel::Alignment::actual);
             ck_near(named, size, "vertices binned", counts.vertices, double(counters.entries), 0.02);
@@ -336,8 +336,8 @@ START_TEST(fast_counts) {
 }
 END_TEST
 
-// As for the reference engine. Some scenes have next to no tiles to look at; the thorough model says what is
-// lost.
+// As for the reference engine. Some scenes have next to no tiles to look at; what the quick budget loses is
+// computed with the thorough model.
 START_TEST(fast_quick_look) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -490,7 +490,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     return settings.levels[0].cell_size;
 }
 
-// How much the model says a size loses for the scene as it is, but for what its lattices make of the lists.
+// The loss of a size for the scene as it is now, by the model without the term for lists of another length.
 double loss(Scene& scene, double cell_size) {
     const ReferenceModel cost(Described(scene, smooth(thorough)), VOX_STORAGE_HASHED, shipped_weights());
     const CellSizeRange range = cost.range().value();

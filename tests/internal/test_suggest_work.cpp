@@ -1,5 +1,5 @@
-// What a grid's suggestion takes, by count: what is looked at, and memory. A step of a small scene takes ten
-// microseconds, and a suggestion should take less.
+// How much work a grid's suggestion does and how much memory it allocates, both counted. A step of a small
+// scene takes ten microseconds, and a suggestion should take less.
 #include <thread> // first: a macro of Check is named as a function there
 
 #include "cell_size/fast_model.hpp"
@@ -83,8 +83,8 @@ void fill(Scene& scene, std::size_t tets, double distance, bool self) {
 
 // ---- what is looked at ----------------------------------------------------------------------------
 
-// As many points near sampled tiles and looks at each cell size in a large scene as in a small one, about, in
-// light contact, deep contact and self-collision.
+// The model examines about as many points near sampled tiles, and makes about as many lookups for each cell
+// size, in a large scene as in a small one. This holds in light contact, deep contact and self-collision.
 START_TEST(the_model_looks_at_few) {
     const double distances[] = {1.95, 0.8, 1.9};
     for (const std::size_t tets : sizes)
@@ -172,8 +172,8 @@ void ck_same(const vox_suggestion& a, const vox_suggestion& b) {
     ck_assert_mem_eq(&a.curve, &b.curve, sizeof a.curve);
 }
 
-// With the depth stage and without: the same answer, and once its meshes were looked at, for as little. The
-// allocations of a suggestion do not grow with the scene but for those of lists that double.
+// The suggestion is the same with the depth stage and without. After the first one, which measures the
+// meshes, the number of allocations does not grow with the scene, except for lists that double.
 START_TEST(a_suggestion_allocates_little) {
     for (const std::size_t tets : sizes) {
         Scene scene;
@@ -196,8 +196,8 @@ START_TEST(a_suggestion_allocates_little) {
 }
 END_TEST
 
-// What the last step found is used while it holds: bodies that moved are where they are, whatever was found
-// before; so are those that came or were cut.
+// What the last step found is used only while it holds. After bodies moved, were inserted or were cut, the
+// suggestion is that of the scene as it is now.
 START_TEST(what_changed_since_the_step_counts) {
     Scene scene;
     fill(scene, sizes[0], 1.95, false);

@@ -29,8 +29,8 @@ fast::Points collected(const Mesh& mesh, const Box& region) {
 Box random_box(Random& r, double extent) {
     Box box =
         box_around({r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)});
-    add(box, box_around(
-                       {r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)}));
+    add(box,
+        box_around({r.uniform(-extent, extent), r.uniform(-extent, extent), r.uniform(-extent, extent)}));
     return box;
 }
 
@@ -64,8 +64,9 @@ START_TEST(window_collects_and_bins) {
             // Two windows in the same buffers: the second must leave the first alone.
             fast::Bins bins(std::pmr::get_default_resource());
             std::pmr::vector<std::uint32_t> cell_of;
-            const fast::WindowLattice lattices[2] = {fast::make_lattice(box, cell_size, most_cells),
-                                               fast::make_lattice(points, box, cell_size / 3, most_cells)};
+            const fast::WindowLattice lattices[2] = {
+                fast::make_lattice(box, cell_size, most_cells),
+                fast::make_lattice(points, box, cell_size / 3, most_cells)};
             const fast::Window windows[2] = {fast::bin(points, lattices[0], box, cell_of, bins),
                                              fast::bin(points, lattices[1], box, cell_of, bins)};
             std::uint64_t occupied = 0, fullest = 0;
@@ -155,7 +156,7 @@ START_TEST(lattice_covers_the_bulk) {
 }
 END_TEST
 
-// ---- query ----------------------------------------------------------------------------------------
+// ---- lookup ---------------------------------------------------------------------------------------
 
 using Found = std::array<std::uint32_t, 4>; // body, vertex, tet, certain
 
@@ -247,8 +248,8 @@ END_TEST
 
 // Vertices of `meshes` against the tets of `meshes[0]`, its own vertices first where `self`; each mesh's
 // within its region.
-std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
-                         double cell_size) {
+std::vector<Found> look_up(const std::vector<Mesh>& meshes, const std::vector<Box>& regions, bool self,
+                           double cell_size) {
     const Mesh& mesh = meshes[0];
     const Tiles tiles = tiles_of(mesh);
     const auto tile_count = std::uint32_t(tiles.tiles.size());
@@ -267,16 +268,16 @@ std::vector<Found> query(const std::vector<Mesh>& meshes, const std::vector<Box>
     fast::make_tile_boxes(tiles, packed(mesh), 0, tile_count / 2, boxes.data(), known.data());
     std::vector<std::uint32_t> stamps(mesh.positions.size());
     const bool stamped = self && !sources.empty() && sources[0].body == 0;
-    fast::Query q{};
+    fast::TiledBody q{};
     q.tiles = &tiles;
     q.positions = packed(mesh);
     q.boxes = boxes.data();
     q.known = known.data();
     q.stamps = stamped ? stamps.data() : nullptr;
-    const auto scratch = std::make_unique<fast::QueryScratch>();
+    const auto scratch = std::make_unique<fast::LookupScratch>();
     Collect out;
     for (std::uint32_t t = 0; t < tile_count; t += 5) // in pieces
-        fast::query_tiles(q, sources, t, std::min(tile_count, t + 5), *scratch, out);
+        fast::look_up_tiles(q, sources, t, std::min(tile_count, t + 5), *scratch, out);
     fast::flush(*scratch, out);
     for (std::uint32_t t = 0; t < tile_count; ++t) {
         Box box = empty_box;
@@ -294,7 +295,7 @@ std::size_t check_query(const std::vector<Mesh>& meshes, const std::vector<Box>&
     std::vector<Found> first;
     std::size_t uncertain = 0;
     at_each_level([&](const char* level) {
-        const std::vector<Found> found = query(meshes, regions, self, cell_size);
+        const std::vector<Found> found = look_up(meshes, regions, self, cell_size);
         if (first.empty()) first = found;
         ck_assert_msg(found == first, "%s: other findings on %s", name, level);
     });
@@ -325,7 +326,7 @@ std::size_t check_query(const std::vector<Mesh>& meshes, const std::vector<Box>&
     return uncertain;
 }
 
-START_TEST(query_misses_nothing) {
+START_TEST(lookup_misses_nothing) {
     Random r{7};
     std::size_t uncertain = 0;
     for (int round = 0; round < 40; ++round) {
@@ -362,7 +363,7 @@ START_TEST(query_misses_nothing) {
 END_TEST
 
 // More vertices in one tile, and more pairs, than the buffers hold at a time.
-START_TEST(query_of_crowds) {
+START_TEST(lookup_of_crowds) {
     Random r{8};
     Mesh tets = block(2, 2, 2), crowd;
     move(tets, 1, -1, -1, -1);
@@ -380,6 +381,6 @@ int main() {
     Suite* suite = suite_create("windows");
     TCase* tests = add_case(suite, "windows");
     tcase_add_each(tests, window_collects_and_bins, lattice_is_monotone, lattice_covers_the_bulk,
-                   windows_of_sparse_space, windows_of_one_place, query_misses_nothing, query_of_crowds);
+                   windows_of_sparse_space, windows_of_one_place, lookup_misses_nothing, lookup_of_crowds);
     return run_suite(suite);
 }

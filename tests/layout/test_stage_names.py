@@ -60,12 +60,12 @@ class StageNames(unittest.TestCase):
         if found:
             self.fail("\n" + "\n".join(found))
 
-    README = "## Stages of a step\n\n1. **stream** reads\n2. **query** asks\n\n## Other\n\n1. **body** is\n"
-    CODE = 'inline constexpr const char* stage_names[] = {"stream", "query"};\n'
+    README = "## Stages of a step\n\n1. **stream** reads\n2. **lookup** asks\n\n## Other\n\n1. **body** is\n"
+    CODE = 'inline constexpr const char* stage_names[] = {"stream", "lookup"};\n'
     PROFILE = ("typedef struct vox_profile {\n uint64_t step_ns;\n uint64_t events_ns;\n uint64_t stream_ns; /* a */\n"
-               " uint64_t query_ns;\n} vox_profile;\n")
-    BENCH = '{"tiles", "tet", t},\n{"stream", "vertex", v,\n[] {}},\n{"sides", "box", b},\n{"query", "tet", t},\n'
-    PICTURE = "  stream [class=stage]\n  hits [class=data]\n  query [class=stage]\n"
+               " uint64_t lookup_ns;\n} vox_profile;\n")
+    BENCH = '{"tiles", "tet", t},\n{"stream", "vertex", v,\n[] {}},\n{"sides", "box", b},\n{"lookup", "tet", t},\n'
+    PICTURE = "  stream [class=stage]\n  hits [class=data]\n  lookup [class=stage]\n"
 
     def test_each_difference_is_noticed(self):
         sound = [self.README, self.CODE, self.PROFILE, self.BENCH, self.PICTURE]
@@ -73,7 +73,7 @@ class StageNames(unittest.TestCase):
         for place, words in enumerate(["vox_profile", "src/fast/stages.hpp has", "vox_profile has", "bench/stages/stages.cpp", "docs/step.dot"]):
             with self.subTest(words=words):
                 changed = list(sound)
-                changed[place] = changed[place].replace("query", "ask")
+                changed[place] = changed[place].replace("lookup", "ask")
                 self.assertIn(words, "\n".join(differences(*changed)))
         self.assertIn("lists no stages", "\n".join(differences("", *sound[1:])))
 

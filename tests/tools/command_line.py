@@ -281,7 +281,7 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(found["hash"], r"\A[0-9a-f]{16}\Z")
         self.assertEqual([m["file"] for m in found["meshes"]], [self.two, self.one])
         for key in ("step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "stream_ns", "winding_ns",
-                    "broad_phase_ns", "windows_ns", "query_ns", "decide_ns"):
+                    "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns"):
             self.assertGreaterEqual(found["profile"][key], 0)
         self.assertEqual(found["counters"]["contacts"], 1)
 
