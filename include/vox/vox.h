@@ -213,6 +213,11 @@ typedef struct vox_grid_desc {
      * own, so its built-in scheduler is serial, too. */
     uint32_t worker_count;
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
+    /* Most searches for a closest point that the depth stage makes in one step, for penetrations that would be ENCLOSED
+     * or CROSSING. The first ones, in the order of the penetrations, get them; the others become
+     * VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. 0 (the default): no
+     * limit. */
+    uint64_t closest_budget;
 } vox_grid_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -550,6 +555,8 @@ typedef enum vox_penetration_state {
                                        crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
                                        case for all vertices that p is connected with */
     VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface; depth is 0, direction the surface's normal at p */
+    VOX_PENETRATION_UNKNOWN = 5,    /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
+                                       the normal of a facet of the contact's tetrahedron */
     VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
 } vox_penetration_state;
 
@@ -765,7 +772,7 @@ VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a,
 
 /* Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings,
  * meshes with their ids, positions (borrowed ones too, read during the call), and the state that the next events are
- * derived from. Allocator, log, task system, worker count, byte budget, and the results of the last step are not saved.
+ * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not saved.
  * *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first. Allocates
  * nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
 VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size);
@@ -773,8 +780,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t cap
 /* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
  * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
  * contacts until the first step. The meshes own their positions; to move them, bind others.
- * Of `desc` only allocator, log, tasks, worker_count, byte_budget, and an engine other than AUTO are used; null: the
- * defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * Of `desc` only allocator, log, tasks, worker_count, byte_budget, closest_budget, and an engine other than AUTO are
+ * used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
  * The bytes need not be trusted: everything in them is checked, no memory is reserved for a count before the bytes it
  * stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
@@ -910,6 +917,7 @@ typedef struct vox_counters {
     uint64_t disabled_meshes;    /* not included in `meshes` (see vox_mesh_set_enabled) */
     uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
     uint64_t cell_size_changes;  /* how often the reference engine chose another cell size (see vox_grid_desc) */
+    uint64_t unknown_penetrations; /* part of `penetrations` for which closest_budget left no search */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */

@@ -1,16 +1,17 @@
-// A tree of boxes over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH
-// construction on GPUs", Computer Graphics Forum 28, 2009), and searched nearest box first (Roussopoulos,
-// Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
+// A tree over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH construction on
+// GPUs", Computer Graphics Forum 28, 2009), whose boxes follow the positions. depth/near.* searches it.
 #include "depth/closest.hpp"
 
 #include "base/bits.hpp"
+#include "base/boxes.hpp"
+#include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "depth/points.hpp"
 #include "exact/closest_point.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -21,7 +22,17 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
 constexpr int digit_bits = 10;
+
+struct Box3d {
+    Vec3d min, max;
+};
 constexpr Box3d empty_box3d{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+Box3d box_of(const Solid& solid, std::uint32_t triangle) {
+    const std::uint32_t* v = solid.topology->triangles[triangle].v;
+    const Vec3d a = solid.at(v[0]), b = solid.at(v[1]), c = solid.at(v[2]);
+    return {min(min(a, b), c), max(max(a, b), c)};
+}
 
 // The cell of x on an axis from min to max, which may be equal.
 std::uint32_t cell_of(double x, double min, double max) {
@@ -30,15 +41,7 @@ std::uint32_t cell_of(double x, double min, double max) {
     return static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1));
 }
 
-// Whether the plane of a triangle, and so the triangle, is farther from p than the root of `squared`.
-bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
-    constexpr double rounding = 1 + 0x1p-40;
-    const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    const Vec3d a = solid.at(v[0]), b = solid.at(v[1]), c = solid.at(v[2]);
-    const Vec3d normal = cross(b - a, c - a);
-    const double height = dot(normal, p - a);
-    return height * height > rounding * squared * dot(normal, normal);
-}
+float most_of(const float (&p)[3]) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); }
 
 } // namespace
 
@@ -49,25 +52,40 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
     return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
-Box3d SurfaceTree::box_of(std::uint32_t triangle) const {
-    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
-    const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+// ---- the tree ---------------------------------------------------------------------------------------
+
+void SurfaceTree::reserve(std::size_t triangles) {
+    const std::size_t leaves = (triangles + tree_width - 1) / tree_width;
+    order_.reserve(triangles);
+    scratch_.reserve(triangles);
+    triangles_.reserve(leaves * tree_width);
+    leaves_.reserve(leaves);
+    std::size_t nodes = 0;
+    for (std::size_t count = leaves; count > 0; count = count > 1 ? (count + tree_width - 1) / tree_width : 0)
+        nodes += (count + tree_width - 1) / tree_width;
+    nodes_.reserve(nodes);
+}
+
+// The frame of the solid's positions as they are now.
+void SurfaceTree::take_frame() {
+    Box3d all = empty_box3d;
+    for (std::uint32_t t = 0; t < solid_.topology->triangles.size(); ++t) extend(all, box_of(solid_, t));
+    middle_ = 0.5 * all.min + 0.5 * all.max;
+    const Vec3d half = all.max - middle_;
+    const double most = std::max({half.x, half.y, half.z});
+    scale_ = most > 0 ? std::ldexp(1.0, std::clamp(-1 - std::ilogb(most), -1000, 1000)) : 1;
 }
 
 void SurfaceTree::sort_along_curve() {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    Box3d all = empty_box3d;
-    for (std::uint32_t t = 0; t < count; ++t) extend(all, box_of(t));
     order_.resize(count);
     scratch_.resize(count);
+    const double half = 1 / scale_;
+    const auto cell = [&](double x, double middle) { return cell_of(x, middle - half, middle + half); };
     for (std::uint32_t t = 0; t < count; ++t) {
-        const Box3d box = box_of(t);
-        order_[t] = {morton_code(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x),
-                                 cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y),
-                                 cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z)),
-                     t};
+        const Box3d box = box_of(solid_, t);
+        const Vec3d at = 0.5 * box.min + 0.5 * box.max;
+        order_[t] = {morton_code(cell(at.x, middle_.x), cell(at.y, middle_.y), cell(at.z, middle_.z)), t};
     }
     std::array<std::uint32_t, 1 << digit_bits> place;
     for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
@@ -81,138 +99,416 @@ void SurfaceTree::sort_along_curve() {
     }
 }
 
-std::uint32_t SurfaceTree::leaves_of(std::size_t triangles) {
-    return static_cast<std::uint32_t>(
-        std::bit_ceil(std::max<std::size_t>((triangles + leaf_size - 1) / leaf_size, 1)));
+// The lanes behind the last triangle hold the last one again.
+void SurfaceTree::lay_out_levels() {
+    view_ = {};
+    view_.count[0] = (order_.size() + tree_width - 1) / tree_width;
+    view_.levels = 1;
+    std::size_t nodes = 0;
+    do {
+        const std::size_t level = view_.levels++;
+        view_.first[level] = nodes;
+        view_.count[level] = (view_.count[level - 1] + tree_width - 1) / tree_width;
+        nodes += view_.count[level];
+    } while (view_.count[view_.levels - 1] > 1);
+    triangles_.resize(view_.count[0] * tree_width);
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+        triangles_[i] = order_[std::min(i, order_.size() - 1)].triangle;
+    leaves_.resize(view_.count[0]);
+    nodes_.resize(nodes);
+    view_.leaves = leaves_.data();
+    view_.nodes = nodes_.data();
+    view_.triangles = triangles_.data();
 }
 
-void SurfaceTree::reserve(std::size_t triangles) {
-    order_.reserve(triangles);
-    scratch_.reserve(triangles);
-    boxes_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
-    slabs_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
+void SurfaceTree::build(const Solid& solid, bool folds) {
+    invalidate();
+    update(solid, folds, nullptr);
 }
 
-void SurfaceTree::build(const Solid& solid) {
+void SurfaceTree::update(const Solid& solid, bool folds, Workers* workers) {
     solid_ = solid;
-    reserve(solid.topology->triangles.size());
-    sort_along_curve();
-    const auto count = static_cast<std::uint32_t>(order_.size());
-    leaves_ = leaves_of(count);
-    boxes_.assign(2 * std::size_t{leaves_} - 1, empty_box3d);
-    for (std::uint32_t i = 0; i < count; ++i)
-        extend(boxes_[std::size_t{leaves_} - 1 + i / leaf_size], box_of(order_[i].triangle));
-    for (std::size_t i = leaves_ - 1; i-- > 0;) {
-        boxes_[i] = boxes_[2 * i + 1];
-        extend(boxes_[i], boxes_[2 * i + 2]);
+    state_ = {};
+    if (!is_built_) {
+        reserve(solid.topology->triangles.size());
+        take_frame();
+        sort_along_curve();
+        lay_out_levels();
+        is_built_ = true;
     }
-    slabs_.assign(boxes_.size(), {});
-    last_ = order_[0].triangle;
-    middle_ = 0.5 * (boxes_[0].min + boxes_[0].max);
-    size_ = length(boxes_[0].max - boxes_[0].min);
+    fit(workers);
+    if (!fits_frame()) {
+        take_frame();
+        fit(workers);
+        (void)fits_frame();
+    }
+    if (folds && !has_parts_) find_parts();
 }
 
-// Whether the slab of a node shows that all its triangles are farther from p than `distance`.
-bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distance) {
-    // Only for nodes with few triangles. With many, a slab is as thick as their box, and takes long to make.
-    constexpr std::size_t most_leaves = 16;
-    if (most_leaves * (node + 1) < leaves_) return false;
-    std::size_t first = node, leaves = 1; // of the node's subtree
-    for (; first < leaves_ - 1; leaves *= 2) first = 2 * first + 1;
-    first = (first - (leaves_ - 1)) * leaf_size;
-    const std::size_t last = std::min(first + leaves * leaf_size, order_.size());
-    Slab& slab = slabs_[node];
-    if (!slab.is_made) {
-        slab.is_made = true;
-        Vec3d areas{0, 0, 0};
-        for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t* v = solid_.topology->triangles[order_[i].triangle].v;
-            const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
-            const Vec3d area = cross(b - a, c - a);
-            areas = dot(areas, area) < 0 ? areas - area : areas + area; // whatever their winding
-        }
-        slab.normal = normalised(areas);
-        slab.low = infinity;
-        slab.high = -infinity;
-        for (std::size_t i = first; i < last; ++i)
-            for (const std::uint32_t v : solid_.topology->triangles[order_[i].triangle].v) {
-                const double height = dot(slab.normal, solid_.at(v) - middle_);
-                slab.low = std::min(slab.low, height);
-                slab.high = std::max(slab.high, height);
+void SurfaceTree::fit(Workers* workers) {
+    constexpr std::size_t least = 256; // leaves that are worth a task
+    const auto run = [&](std::size_t items, std::size_t least_items, auto&& function) {
+        const auto range = [&](std::size_t begin, std::size_t end, std::uint32_t) { function(begin, end); };
+        if (workers)
+            workers->for_ranges(items, least_items, range);
+        else
+            range(0, items, 0);
+    };
+    run(view_.count[0], least, [&](std::size_t begin, std::size_t end) { fit_leaves(begin, end); });
+    for (std::size_t level = 1; level < view_.levels; ++level)
+        run(view_.count[level], least, [&](std::size_t begin, std::size_t end) {
+            refit_nodes(view_, level, begin, end, nodes_.data());
+        });
+}
+
+void SurfaceTree::fit_leaves(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+        TreeLeaf& leaf = leaves_[i];
+        for (std::size_t lane = 0; lane < tree_width; ++lane) {
+            const std::uint32_t* v = solid_.topology->triangles[triangles_[i * tree_width + lane]].v;
+            float corner[3][3];
+            for (int c = 0; c < 3; ++c) {
+                const Vec3d at = scale_ * (solid_.at(v[c]) - middle_);
+                corner[c][0] = static_cast<float>(at.x);
+                corner[c][1] = static_cast<float>(at.y);
+                corner[c][2] = static_cast<float>(at.z);
             }
+            for (int axis = 0; axis < 3; ++axis) {
+                leaf.a[axis][lane] = corner[0][axis];
+                leaf.ab[axis][lane] = corner[1][axis] - corner[0][axis];
+                leaf.ac[axis][lane] = corner[2][axis] - corner[0][axis];
+            }
+        }
     }
-    const Vec3d from_middle = p - middle_;
-    const double height = dot(slab.normal, from_middle);
-    const double rounding = 0x1p-48 * (size_ + length(from_middle));
-    return std::max(slab.low - height, height - slab.high) > distance + rounding;
 }
 
-bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
-    if (has_corner(solid_.topology->triangles[found.at.triangle], fold.vertex)) return false;
-    if (!fold.only_straight || found.squared == 0) return true;
+// Whether the frame still suits the positions: the largest coordinate, which it notes, is neither much more
+// than 1, so that nothing overflows, nor much less, which would waste digits.
+bool SurfaceTree::fits_frame() {
+    const TreeNode& root = nodes_[view_.first[view_.levels - 1]];
+    most_ = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t child = 0; child < view_.count[view_.levels - 2]; ++child) {
+            const float most =
+                std::max(std::abs(root.min[axis][child]), std::abs(root.max[axis][child]));
+            if (!(most <= 4)) return false;
+            most_ = std::max(most_, most);
+        }
+    return most_ >= 0.125f;
+}
+
+// Vertices connected by edges make a part (R. E. Tarjan, "Efficiency of a good but not linear set union
+// algorithm", Journal of the ACM 22, 1975).
+void SurfaceTree::find_parts() {
+    const Topology& topology = *solid_.topology;
+    const auto count = static_cast<std::uint32_t>(topology.neighbours.size());
+    part_.resize(count);
+    for (std::uint32_t v = 0; v < count; ++v) part_[v] = v;
+    const auto root = [&](std::uint32_t v) {
+        while (part_[v] != v) v = part_[v] = part_[part_[v]];
+        return v;
+    };
+    for (std::uint32_t v = 0; v < count; ++v)
+        for (const std::uint32_t w : topology.neighbours_of(v)) {
+            if (w > v) break;
+            const std::uint32_t a = root(v), b = root(w);
+            part_[std::max(a, b)] = std::min(a, b);
+        }
+    for (std::uint32_t v = 0; v < count; ++v) part_[v] = part_[part_[v]];
+    const std::uint32_t first = part_[solid_.topology->triangles[0].v[0]];
+    if (std::ranges::all_of(topology.triangles, [&](const Triangle& t) { return part_[t.v[0]] == first; }))
+        part_.clear();
+    has_parts_ = true;
+}
+
+// ---- searches ---------------------------------------------------------------------------------------
+
+// A point in the frame of the tree, and how far a search has to look for points up to some distance.
+class SurfaceTree::Query {
+public:
+    Query(const SurfaceTree& tree, const Vec3d& p) : scale_(tree.scale_) {
+        const Vec3d at = tree.scale_ * (p - tree.middle_);
+        p_[0] = static_cast<float>(at.x);
+        p_[1] = static_cast<float>(at.y);
+        p_[2] = static_cast<float>(at.z);
+        const float most = most_of(p_);
+        constexpr float far = 0x1p40f; // beyond it, squares might overflow
+        if (most < far) {
+            slack_ = 0x1p-18 * double{most + tree.most_};
+        } else {
+            for (float& x : p_) x = 0;
+            slack_ = infinity;
+        }
+    }
+    const float (&point() const)[3] { return p_; }
+    float reach(double squared) const {
+        constexpr double rounding = 1 + 0x1p-19;
+        return static_cast<float>(rounding * (std::sqrt(squared) * scale_ + slack_));
+    }
+
+private:
+    float p_[3];
+    double scale_, slack_;
+};
+
+// Receives the triangles near a point, and keeps the closest.
+class SurfaceTree::NearestOne {
+public:
+    NearestOne(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
+               SearchState& state, Closest& out)
+        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), state_(state), out_(out) {}
+
+    bool run() {
+        if (state_.near != SearchState::none) look_at(state_.near);
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestOne*>(self);
+            nearest.look_at(triangle);
+            return nearest.reach_;
+        };
+        find_near(tree_.view_, query_.point(), reach_, visit, this);
+        if (found_) state_.near = out_.at.triangle;
+        return found_;
+    }
+
+private:
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return;
+        if (found_ && triangle == out_.at.triangle) return;
+        ++state_.visited;
+        const Closest candidate = closest_point(tree_.solid_, triangle, p_);
+        if (found_ &&
+            (candidate.squared > out_.squared ||
+             (candidate.squared == out_.squared &&
+              !tree_.solid_.topology->before(candidate.at.triangle, out_.at.triangle))))
+            return;
+        found_ = true;
+        out_ = candidate;
+        reach_ = query_.reach(candidate.squared);
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Vec3d p_;
+    const std::uint32_t left_out_, part_;
+    SearchState& state_;
+    Closest& out_;
+    float reach_ = std::numeric_limits<float>::infinity();
+    bool found_ = false;
+};
+
+bool SurfaceTree::find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
+                             Closest& out) const {
+    return NearestOne(*this, p, left_out, part, state, out).run();
+}
+
+bool SurfaceTree::find(const Vec3d& p, std::uint32_t left_out, SearchState& state, Closest& out) const {
+    return find_among(p, left_out, all_parts, state, out);
+}
+
+// ---- folds ------------------------------------------------------------------------------------------
+
+namespace {
+
+// Where a closest point lies: inside a triangle, inside an edge or at a vertex, by the corners with a weight.
+struct Place {
+    std::uint32_t vertex[3] = {SurfaceTree::no_vertex, SurfaceTree::no_vertex, SurfaceTree::no_vertex};
+    std::uint32_t count = 0;
+
+    Place() = default;
+    Place(const Topology& topology, const SurfacePoint& at) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (at.weight[i] == 0) continue;
+            std::size_t k = count++;
+            const std::uint32_t corner = topology.triangles[at.triangle].v[i];
+            for (; k > 0 && vertex[k - 1] > corner; --k) vertex[k] = vertex[k - 1];
+            vertex[k] = corner;
+        }
+    }
+    bool operator==(const Place&) const = default;
+};
+
+// Whether no point of the surface next to the place is nearer to p.
+bool is_local_minimum(const Solid& solid, const Place& place, const Closest& found) {
+    if (place.count == 3) return true;
+    const Vec3d origin = solid.at(place.vertex[0]);
+    const Vec3d along = place.count == 2 ? solid.at(place.vertex[1]) - origin : Vec3d{0, 0, 0};
+    const double squared = dot(along, along);
+    for (const std::uint32_t t : solid.topology->ring_of(place.vertex[0])) {
+        const Triangle& triangle = solid.topology->triangles[t];
+        if (place.count == 2 && !has_corner(triangle, place.vertex[1])) continue;
+        for (const std::uint32_t v : triangle.v) {
+            if (v == place.vertex[0] || v == place.vertex[1]) continue;
+            // The way into the triangle, at right angles to the edge.
+            Vec3d into = solid.at(v) - origin;
+            if (squared > 0) into = into - (dot(into, along) / squared) * along;
+            constexpr double rounding = 1e-12;
+            if (-dot(found.way, into) > rounding * length(found.way) * length(into)) return false;
+        }
+    }
+    return true;
+}
+
+struct FoundPlace {
+    Place place;
+    Closest found;
+};
+
+// The nearest of different places, in order.
+template <std::size_t capacity>
+class Nearest {
+public:
+    explicit Nearest(const Topology& topology) : topology_(topology) {}
+
+    bool before(const Closest& a, const Closest& b) const {
+        return a.squared != b.squared ? a.squared < b.squared
+                                      : topology_.before(a.at.triangle, b.at.triangle);
+    }
+    // To be asked before add().
+    bool wants(const Closest& found) const { return size_ < capacity || before(found, list_[size_ - 1].found); }
+    void add(const Place& place, const Closest& found) {
+        std::size_t last = 0;
+        while (last < size_ && !(list_[last].place == place)) ++last;
+        if (last < size_ && !before(found, list_[last].found)) return;
+        if (last == size_) {
+            if (size_ < capacity) ++size_;
+            last = size_ - 1;
+        }
+        for (; last > 0 && before(found, list_[last - 1].found); --last) list_[last] = list_[last - 1];
+        list_[last] = {place, found};
+    }
+    // The squared distance within which another is wanted.
+    double squared() const { return size_ < capacity ? infinity : list_[size_ - 1].found.squared; }
+
+    const FoundPlace* begin() const { return list_; }
+    const FoundPlace* end() const { return list_ + size_; }
+
+private:
+    const Topology& topology_;
+    FoundPlace list_[capacity];
+    std::size_t size_ = 0;
+};
+
+} // namespace
+
+// Receives the triangles near a point that lies in a fold, and keeps the places to which there may be a way.
+class SurfaceTree::NearestPlaces {
+public:
+    static constexpr std::size_t most_places = 4, most_minima = 8;
+
+    NearestPlaces(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
+                  double exit, SearchState& state)
+        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), exit_(exit), state_(state),
+          places_(*tree.solid_.topology), minima_(*tree.solid_.topology) {}
+
+    void run() {
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestPlaces*>(self);
+            nearest.look_at(triangle);
+            return nearest.reach();
+        };
+        find_near(tree_.view_, query_.point(), reach(), visit, this);
+    }
+
+    // Calls visit(closest) for the places in order, until it returns true.
+    template <class Visit>
+    bool any_of(Visit&& visit) const {
+        auto place = places_.begin(), minimum = minima_.begin();
+        while (place != places_.end() || minimum != minima_.end()) {
+            const bool is_place = place != places_.end() &&
+                                  (minimum == minima_.end() || !places_.before(minimum->found, place->found));
+            const auto& next = is_place ? *place : *minimum;
+            if (is_place) {
+                if (minimum != minima_.end() && minimum->place == place->place) ++minimum;
+                ++place;
+            } else
+                ++minimum;
+            if (visit(next.found)) return true;
+        }
+        return false;
+    }
+
+private:
+    float reach() const {
+        return query_.reach(std::max(places_.squared(), std::min(exit_, minima_.squared())));
+    }
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return;
+        ++state_.visited;
+        const Closest found = closest_point(tree_.solid_, triangle, p_);
+        const bool is_minimum = found.squared <= exit_ && minima_.wants(found), is_place = places_.wants(found);
+        if (!is_minimum && !is_place) return;
+        const Place place(*tree_.solid_.topology, found.at);
+        if (is_place) places_.add(place, found);
+        if (is_minimum && is_local_minimum(tree_.solid_, place, found)) minima_.add(place, found);
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Vec3d p_;
+    const std::uint32_t left_out_, part_;
+    const double exit_;
+    SearchState& state_;
+    Nearest<most_places> places_;
+    Nearest<most_minima> minima_;
+};
+
+// The squared distance at which a line from p leaves the fold, or 0 where it does not.
+double SurfaceTree::squared_exit(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
+                                 const Vec3d& way) const {
+    const double beyond = 4 * (length(p - middle_) + double{most_} / scale_);
+    SurfacePoint out;
+    std::uint64_t tets = 0;
+    if (!walk_out(solid_, tet, p, p + (beyond / length(way)) * way, out, tets)) return 0;
+    if (has_corner(solid_.topology->triangles[out.triangle], vertex)) return 0;
+    const Vec3d whole = out.point - p;
+    constexpr double rounding = 1 + 1e-9;
+    return rounding * dot(whole, whole);
+}
+
+// Whether a straight line inside the fold leads to the point found.
+bool SurfaceTree::is_straight_ahead(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
+                                    const Closest& found) const {
+    if (found.squared == 0) return true;
     // The walk goes twice as far, so that rounding does not end it too early.
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, fold.tet, p, p + 2.0 * found.way, out, tets)) return false;
+    if (!walk_out(solid_, tet, p, p + 2.0 * found.way, out, tets)) return false;
     const Vec3d way = out.point - p, rest = out.point - found.at.point;
     constexpr double rounding = 1e-12; // squared
-    return !has_corner(solid_.topology->triangles[out.triangle], fold.vertex) &&
+    return !has_corner(solid_.topology->triangles[out.triangle], vertex) &&
            dot(rest, rest) <= rounding * dot(way, way);
 }
 
-bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) {
-    struct Node {
-        double squared; // a bound of the squared distance to the box
-        std::size_t box;
-    };
-    bool found = false;
-    double best = infinity, best_distance = infinity;
-    const auto look_at = [&](std::uint32_t triangle) {
-        ++visited;
-        if (is_beyond_plane(solid_, triangle, p, best)) return;
-        const Closest candidate = closest_point(solid_, triangle, p);
-        if (candidate.squared > best || (candidate.squared == best && found &&
-                                         !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
-            return;
-        if (fold && !accept(p, *fold, candidate)) return;
-        found = true;
-        best = candidate.squared;
-        best_distance = std::sqrt(best);
-        out = candidate;
-    };
-    look_at(last_);
-    std::array<Node, 64> stack; // one box waits at each level
-    std::size_t waiting = 0;
-    for (Node node{squared_distance_bound(p, boxes_[0]), 0};; node = stack[--waiting]) {
-        while (node.squared <= best && node.squared < infinity &&
-               !is_beyond_slab(node.box, p, best_distance)) {
-            const std::size_t child = 2 * node.box + 1;
-            if (child < boxes_.size()) {
-                Node near{squared_distance_bound(p, boxes_[child]), child},
-                    far{squared_distance_bound(p, boxes_[child + 1]), child + 1};
-                if (far.squared < near.squared) std::swap(near, far);
-                stack[waiting++] = far;
-                node = near;
-                continue;
-            }
-            const std::size_t first = (node.box - (leaves_ - 1)) * leaf_size;
-            for (std::size_t i = first; i < std::min(first + leaf_size, order_.size()); ++i)
-                look_at(order_[i].triangle);
-            break;
-        }
-        if (waiting == 0) break;
-    }
-    if (found) last_ = out.at.triangle;
-    return found;
+bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                               Closest& out) const {
+    const std::uint32_t part = part_.empty() ? all_parts : part_[solid_.tets[tet].v[0]];
+    if (!find_among(p, vertex, part, state, out)) return find(p, vertex, state, out);
+    const auto is_reached = [&](const Closest& found) { return is_straight_ahead(p, vertex, tet, found); };
+    if (is_reached(out)) return true;
+    NearestPlaces others(*this, p, vertex, part, squared_exit(p, vertex, tet, out.way), state);
+    others.run();
+    const Place first(*solid_.topology, out.at);
+    if (others.any_of([&](const Closest& found) {
+            if (Place(*solid_.topology, found.at) == first || !is_reached(found)) return false;
+            out = found;
+            return true;
+        }))
+        return true;
+    return part == all_parts || find(p, vertex, state, out);
+}
+
+bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
+                                  SearchState& state, Closest& out) const {
+    return self ? find_in_fold(p, vertex, tet, state, out) : find(p, no_vertex, state, out);
 }
 
 bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
                                   Closest& out, std::uint64_t& visited) {
-    if (!self) return find(p, nullptr, out, visited);
-    Fold fold{vertex, tet, true};
-    if (find(p, &fold, out, visited)) return true;
-    fold.only_straight = false;
-    return find(p, &fold, out, visited);
+    const bool found = find_of_contact(p, vertex, tet, self, state_, out);
+    visited += std::exchange(state_.visited, 0);
+    return found;
 }
 
 } // namespace vox::depth

@@ -148,7 +148,7 @@ void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& wo
     const std::uint32_t b = unresolved_[range.first].body_b;
     const Solid solid = scene.solid(b);
     const bool has_surface = !solid.topology->triangles.empty();
-    if (has_surface) worker.tree.build(solid);
+    if (has_surface) worker.tree.build(solid, std::any_of(unresolved_.begin() + static_cast<std::ptrdiff_t>(range.first), unresolved_.begin() + static_cast<std::ptrdiff_t>(range.last), [&](const Unresolved& u){ return scene.hits[points_[u.point].hit].body_a == b; }));
     for (std::size_t i = range.first; i < range.last; ++i) {
         Point& point = points_[unresolved_[i].point];
         const std::uint32_t a = scene.hits[point.hit].body_a;

@@ -58,7 +58,7 @@ private:
         depth::SurfaceTree tree;
         depth::Counts counts;
 
-        auto buffers() { return std::tie(number, queue, normals, tree); }
+        auto buffers() { return std::tie(number, queue, normals); }
     };
     struct Scene {
         std::span<const Body> bodies;

@@ -1,0 +1,339 @@
+// Branch and bound, nearest first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995),
+// with the eight children of a node in the lanes of a register (Wald, Benthin, Boulos, "Getting rid of
+// packets", IEEE Symposium on Interactive Ray Tracing 2008).
+//
+// A triangle is ruled out by a plane. Let g be any vector from a point of the triangle to p: no point of the
+// triangle is nearer to p than the least of g (p - v) / |g| over its corners v. For the closest point that is
+// the distance itself, and for a point that rounding made a poor choice it is still a lower bound. So the
+// closest point may be computed without care (Ericson, Real-Time Collision Detection, 2005, Sect. 5.1.5).
+//
+// The rounding of the bounds. Positions, and the sums and products of three terms in g (p - v), are each off
+// by a few u M |g|, u = 2^-24, less than 2^-19 M |g| together.
+#include "depth/near.hpp"
+
+#include "base/simd.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "depth/near.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::depth {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, tree_width>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+struct V3 {
+    V x, y, z;
+};
+
+HWY_INLINE V3 Load3(const float (*from)[tree_width], std::size_t lane) {
+    const D d;
+    return {hn::Load(d, from[0] + lane), hn::Load(d, from[1] + lane), hn::Load(d, from[2] + lane)};
+}
+HWY_INLINE V3 Set3(const float* p) {
+    const D d;
+    return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])};
+}
+HWY_INLINE V3 Sub3(const V3& a, const V3& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V3 Scale3(V s, const V3& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
+HWY_INLINE V Dot3(const V3& a, const V3& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
+
+HWY_INLINE unsigned Bits(M mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), mask, bits);
+    return bits[0];
+}
+
+// ---- search -----------------------------------------------------------------------------------------
+
+// For each triangle of a leaf, g and the bound g (p - v), and the bits of those that are not ruled out.
+struct Bounds {
+    alignas(32) float bound[tree_width], squared[tree_width];
+};
+
+// Whether a triangle is not farther than `reach`; true where the numbers are not comparable.
+HWY_INLINE bool MayBeNear(float bound, float squared, float reach) {
+    return !(bound > 0 && bound * bound > reach * reach * squared);
+}
+
+HWY_INLINE unsigned BoundTriangles(const TreeLeaf& leaf, const V3& p, float reach, Bounds& out) {
+    const D d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), squared_reach = hn::Set(d, reach * reach);
+    unsigned near = 0;
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const V3 ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane), ap = Sub3(p, Load3(leaf.a, lane));
+        const V abab = Dot3(ab, ab), abac = Dot3(ab, ac), acac = Dot3(ac, ac);
+        const V d1 = Dot3(ab, ap), d2 = Dot3(ac, ap);
+        const V d3 = hn::Sub(d1, abab), d4 = hn::Sub(d2, abac);
+        const V d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, acac);
+        const V vc = Difference(d1, d4, d3, d2), vb = Difference(d5, d2, d1, d6),
+                va = Difference(d3, d6, d5, d4);
+        const V e1 = hn::Sub(d4, d3), e2 = hn::Sub(d5, d6);
+        // Weights of b and c, times `whole`: inside, then on an edge, then at a corner.
+        V whole = hn::Add(va, hn::Add(vb, vc)), b = vb, c = vc;
+        const auto set = [&](M where, V new_b, V new_c, V new_whole) HWY_ATTR {
+            b = hn::IfThenElse(where, new_b, b);
+            c = hn::IfThenElse(where, new_c, c);
+            whole = hn::IfThenElse(where, new_whole, whole);
+        };
+        const auto both = [](M x, M y) HWY_ATTR { return hn::And(x, y); };
+        set(both(hn::Le(va, zero), both(hn::Ge(e1, zero), hn::Ge(e2, zero))), e2, e1, hn::Add(e1, e2));
+        set(both(hn::Le(vb, zero), both(hn::Ge(d2, zero), hn::Le(d6, zero))), zero, d2, hn::Sub(d2, d6));
+        set(both(hn::Ge(d6, zero), hn::Le(d5, d6)), zero, one, one);
+        set(both(hn::Le(vc, zero), both(hn::Ge(d1, zero), hn::Le(d3, zero))), d1, zero, hn::Sub(d1, d3));
+        set(both(hn::Ge(d3, zero), hn::Le(d4, d3)), one, zero, one);
+        set(both(hn::Le(d1, zero), hn::Le(d2, zero)), zero, zero, one);
+        const V3 g =
+            Sub3(Sub3(ap, Scale3(hn::Div(b, whole), ab)), Scale3(hn::Div(c, whole), ac));
+        const V squared = Dot3(g, g);
+        const V bound = hn::Sub(Dot3(g, ap), hn::Max(zero, hn::Max(Dot3(g, ab), Dot3(g, ac))));
+        hn::Store(bound, d, out.bound + lane);
+        hn::Store(squared, d, out.squared + lane);
+        const M far = both(hn::Gt(bound, zero),
+                           hn::Gt(hn::Mul(bound, bound), hn::Mul(squared_reach, squared)));
+        near |= Bits(hn::Not(far)) << lane;
+    }
+    return near;
+}
+
+// A lower bound of the squared distance to each child of a node, and the bits of those within reach.
+HWY_INLINE unsigned BoundChildren(const TreeNode& node, const V3& p, float reach, float* squared) {
+    const D d;
+    const V zero = hn::Zero(d), squared_reach = hn::Set(d, reach * reach);
+    const V infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    unsigned near = 0;
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const V3 below = Sub3(Load3(node.min, lane), p), above = Sub3(p, Load3(node.max, lane));
+        const V3 out = {hn::Max(zero, hn::Max(below.x, above.x)), hn::Max(zero, hn::Max(below.y, above.y)),
+                        hn::Max(zero, hn::Max(below.z, above.z))};
+        const V height = Dot3(Load3(node.normal, lane), p);
+        const V beyond = hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low + lane), height),
+                                               hn::Sub(height, hn::Load(d, node.high + lane))));
+        const V bound = hn::Max(Dot3(out, out), hn::Mul(beyond, beyond));
+        hn::Store(bound, d, squared + lane);
+        const M is_near = hn::And(hn::Le(bound, squared_reach), hn::Lt(bound, infinite));
+        near |= Bits(is_near) << lane;
+    }
+    return near;
+}
+
+HWY_INLINE unsigned LowestBit(unsigned bits) {
+    return static_cast<unsigned>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
+// Visits the triangles of a leaf, at first the one that seems to be the nearest.
+HWY_INLINE float VisitLeaf(const TreeView& tree, std::size_t i, const V3& p, float reach, VisitTriangle visit,
+                           void* receiver) {
+    Bounds at;
+    unsigned near = BoundTriangles(tree.leaves[i], p, reach, at);
+    while (near != 0) {
+        unsigned best = LowestBit(near);
+        for (unsigned rest = near & (near - 1); rest != 0; rest &= rest - 1)
+            if (at.squared[LowestBit(rest)] < at.squared[best]) best = LowestBit(rest);
+        near &= ~(1u << best);
+        reach = visit(receiver, tree.triangles[i * tree_width + best]);
+        for (unsigned rest = near; rest != 0; rest &= rest - 1) {
+            const unsigned lane = LowestBit(rest);
+            if (!MayBeNear(at.bound[lane], at.squared[lane], reach)) near &= ~(1u << lane);
+        }
+    }
+    return reach;
+}
+
+void FindNear(const TreeView& tree, const float* point, float reach, VisitTriangle visit, void* receiver) {
+    struct Entry {
+        std::uint32_t level, index;
+        float squared;
+    };
+    Entry stack[TreeView::most_levels * tree_width];
+    std::size_t size = 0;
+    stack[size++] = {static_cast<std::uint32_t>(tree.levels - 1), 0, 0};
+    const V3 p = Set3(point);
+    while (size > 0) {
+        const Entry entry = stack[--size];
+        if (entry.squared > reach * reach) continue;
+        if (entry.level == 0) {
+            reach = VisitLeaf(tree, entry.index, p, reach, visit, receiver);
+            continue;
+        }
+        alignas(32) float squared[tree_width];
+        unsigned near =
+            BoundChildren(tree.nodes[tree.first[entry.level] + entry.index], p, reach, squared);
+        const std::size_t first = size; // the farthest
+        for (; near != 0; near &= near - 1) {
+            const unsigned child = LowestBit(near);
+            std::size_t place = size++;
+            for (; place > first && stack[place - 1].squared < squared[child]; --place)
+                stack[place] = stack[place - 1];
+            stack[place] = {entry.level - 1, entry.index * static_cast<std::uint32_t>(tree_width) + child,
+                            squared[child]};
+        }
+    }
+}
+
+// ---- refit ------------------------------------------------------------------------------------------
+
+HWY_INLINE float Least(V v) { return hn::GetLane(hn::MinOfLanes(D(), v)); }
+HWY_INLINE float Most(V v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); }
+
+// The corners of some triangles.
+struct Corners {
+    V3 a, b, c;
+};
+HWY_INLINE Corners LoadCorners(const TreeLeaf& leaf, std::size_t lane) {
+    const V3 a = Load3(leaf.a, lane), ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane);
+    return {a,
+            {hn::Add(a.x, ab.x), hn::Add(a.y, ab.y), hn::Add(a.z, ab.z)},
+            {hn::Add(a.x, ac.x), hn::Add(a.y, ac.y), hn::Add(a.z, ac.z)}};
+}
+
+HWY_INLINE void BoxOfLeaf(const TreeLeaf& leaf, TreeNode& node, std::size_t child) {
+    const D d;
+    const auto axis = [](V a, V b, V c, V& min, V& max) HWY_ATTR {
+        min = hn::Min(min, hn::Min(a, hn::Min(b, c)));
+        max = hn::Max(max, hn::Max(a, hn::Max(b, c)));
+    };
+    const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), lowest = hn::Neg(infinite);
+    V3 min{infinite, infinite, infinite}, max{lowest, lowest, lowest};
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const Corners at = LoadCorners(leaf, lane);
+        axis(at.a.x, at.b.x, at.c.x, min.x, max.x);
+        axis(at.a.y, at.b.y, at.c.y, min.y, max.y);
+        axis(at.a.z, at.b.z, at.c.z, min.z, max.z);
+    }
+    node.min[0][child] = Least(min.x);
+    node.min[1][child] = Least(min.y);
+    node.min[2][child] = Least(min.z);
+    node.max[0][child] = Most(max.x);
+    node.max[1][child] = Most(max.y);
+    node.max[2][child] = Most(max.z);
+}
+
+HWY_INLINE float Root(float x) { return hn::GetLane(hn::Sqrt(hn::Set(hn::CappedTag<float, 1>(), x))); }
+
+// The sum of vectors that may each be turned round, made a unit vector.
+struct Direction {
+    float of[3] = {0, 0, 0};
+
+    HWY_INLINE void Add(float x, float y, float z) {
+        const float s = of[0] * x + of[1] * y + of[2] * z < 0 ? -1.0f : 1.0f;
+        of[0] += s * x;
+        of[1] += s * y;
+        of[2] += s * z;
+    }
+    HWY_INLINE void Normalise() {
+        const float squared = of[0] * of[0] + of[1] * of[1] + of[2] * of[2];
+        const float scale = squared > 1e-30f ? 1 / Root(squared) : 0; // false for NaN, too
+        for (float& x : of) x = scale > 0 ? x * scale : 0;
+    }
+};
+
+// The mean normal of a leaf, by area.
+HWY_INLINE Direction NormalOfLeaf(const TreeLeaf& leaf) {
+    const D d;
+    alignas(32) float n[3][tree_width];
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const V3 ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane);
+        hn::Store(Difference(ab.y, ac.z, ab.z, ac.y), d, n[0] + lane);
+        hn::Store(Difference(ab.z, ac.x, ab.x, ac.z), d, n[1] + lane);
+        hn::Store(Difference(ab.x, ac.y, ab.y, ac.x), d, n[2] + lane);
+    }
+    Direction sum;
+    for (std::size_t i = 0; i < tree_width; ++i) sum.Add(n[0][i], n[1][i], n[2][i]);
+    sum.Normalise();
+    return sum;
+}
+
+// The slab of a direction around some leaves.
+HWY_INLINE void SlabOf(const TreeLeaf* leaves, std::size_t count, const Direction& direction, TreeNode& node,
+                       std::size_t child) {
+    const D d;
+    const V3 normal = Set3(direction.of);
+    V low = hn::Set(d, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+            const Corners at = LoadCorners(leaves[i], lane);
+            const V a = Dot3(normal, at.a), b = Dot3(normal, at.b), c = Dot3(normal, at.c);
+            low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
+            high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
+        }
+    for (std::size_t axis = 0; axis < 3; ++axis) node.normal[axis][child] = direction.of[axis];
+    node.low[child] = Least(low);
+    node.high[child] = Most(high);
+}
+
+void RefitNodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
+                TreeNode* nodes) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr std::size_t most_slab_level = 3; // of larger parts, a slab is as thick as the box
+    const D d;
+    std::size_t leaves = 1; // below a child
+    for (std::size_t l = 1; l < level; ++l) leaves *= tree_width;
+    for (std::size_t i = begin; i < end; ++i) {
+        TreeNode& node = nodes[tree.first[level] + i];
+        for (std::size_t child = 0; child < tree_width; ++child) {
+            const std::size_t below = i * tree_width + child;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                node.min[axis][child] = infinity;
+                node.max[axis][child] = -infinity;
+                node.normal[axis][child] = 0;
+            }
+            node.low[child] = -infinity;
+            node.high[child] = infinity;
+            if (below >= tree.count[level - 1]) continue;
+            Direction direction;
+            if (level == 1) {
+                BoxOfLeaf(tree.leaves[below], node, child);
+                direction = NormalOfLeaf(tree.leaves[below]);
+            } else {
+                const TreeNode& from = nodes[tree.first[level - 1] + below];
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    V min = hn::Load(d, from.min[axis]), max = hn::Load(d, from.max[axis]);
+                    for (std::size_t lane = hn::Lanes(d); lane < tree_width; lane += hn::Lanes(d)) {
+                        min = hn::Min(min, hn::Load(d, from.min[axis] + lane));
+                        max = hn::Max(max, hn::Load(d, from.max[axis] + lane));
+                    }
+                    node.min[axis][child] = Least(min);
+                    node.max[axis][child] = Most(max);
+                }
+                if (level > most_slab_level) continue;
+                for (std::size_t k = 0; k < tree_width; ++k)
+                    direction.Add(from.normal[0][k], from.normal[1][k], from.normal[2][k]);
+                direction.Normalise();
+            }
+            const std::size_t first = below * leaves;
+            const std::size_t count = tree.count[0] - first < leaves ? tree.count[0] - first : leaves;
+            SlabOf(tree.leaves + first, count, direction, node, child);
+        }
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::depth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::depth {
+
+void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
+                 TreeNode* nodes) {
+    VOX_SIMD_DISPATCH(RefitNodes)(tree, level, begin, end, nodes);
+}
+
+void find_near(const TreeView& tree, const float (&p)[3], float reach, VisitTriangle visit, void* receiver) {
+    VOX_SIMD_DISPATCH(FindNear)(tree, p, reach, visit, receiver);
+}
+
+} // namespace vox::depth
+#endif

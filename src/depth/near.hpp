@@ -1,0 +1,54 @@
+// The triangles near a point, by a tree of boxes eight children wide, in single precision. Nothing here
+// decides: what cannot be ruled out goes to the caller, who computes in double.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace vox::depth {
+
+inline constexpr std::size_t tree_width = 8;
+
+// Eight triangles: a corner of each, and the edges from there to the other two.
+struct alignas(32) TreeLeaf {
+    float a[3][tree_width], ab[3][tree_width], ac[3][tree_width];
+};
+
+// What bounds each of eight children: a box, and a slab, which is all points between two planes. Where a
+// surface is nearly flat and the point is far away, a box many edges long is a poor bound of the distance,
+// and a slab is a good one. A child that does not exist has an empty box.
+struct alignas(32) TreeNode {
+    float min[3][tree_width], max[3][tree_width];
+    float normal[3][tree_width], low[tree_width], high[tree_width];
+};
+
+// A complete tree. Level 0 are the leaves; node i of level l > 0 is nodes[first[l] + i], and its children are
+// those of level l - 1 from 8 i on. The last level has one node.
+struct TreeView {
+    static constexpr std::size_t most_levels = 12; // for 2^32 triangles
+
+    const TreeLeaf* leaves;
+    const TreeNode* nodes;
+    const std::uint32_t* triangles; // of the lanes of the leaves
+    std::size_t first[most_levels];
+    std::size_t count[most_levels]; // of leaves, or of nodes of a level
+    std::size_t levels;
+};
+
+// Makes the nodes of a level from the leaves or nodes below, which are those from `begin` to `end` of this
+// level. Slabs have the mean normal of the triangles where `slabs` is set, and are all of space elsewhere.
+void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
+                 TreeNode* nodes);
+
+
+// The receiver of triangles. It returns a new reach, not more than the last one.
+using VisitTriangle = float (*)(void* receiver, std::uint32_t triangle);
+
+// Calls visit for the triangles that may be within `reach` of p, the nearest first as far as that is known.
+// The distances compared are rounded: with coordinates up to M in magnitude, p included, they are too large
+// by at most 2^-19 M and a factor of 1 + 2^-20, which is for the caller to add to `reach`.
+void find_near(const TreeView& tree, const float (&p)[3], float reach, VisitTriangle visit, void* receiver);
+
+} // namespace vox::depth
