@@ -1,6 +1,7 @@
 // Looks for the scene in which the depth stage costs most beside the contacts alone.
 //
 //   bench_depth_worst [--tets N] [--samples K] [--climb K] [--seed S] [--scene NAME] [--meshes FOLDER]
+//                     [--budget SEARCHES]
 //
 // Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
 // parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of a
@@ -221,9 +222,10 @@ constexpr Kind kinds[] = {{"noise", noise},           {"squash", squash},
 
 class Grid {
 public:
-    Grid(const Bodies& bodies, std::uint32_t flags) {
+    Grid(const Bodies& bodies, std::uint32_t flags, std::uint64_t budget) {
         vox_grid_desc desc = vox_default_grid_desc();
         desc.flags = flags;
+        desc.closest_budget = budget;
         must(vox_grid_create(&desc, &grid_));
         for (const Mesh& mesh : bodies) {
             vox_mesh_desc mesh_desc = vox_default_mesh_desc();
@@ -286,11 +288,12 @@ struct Result {
     std::uint64_t hash = 0;
 };
 
-Result measure(const Kind& kind, const Setting& setting, const Parameters& parameters, int steps) {
+Result measure(const Kind& kind, const Setting& setting, const Parameters& parameters, int steps,
+               std::uint64_t budget) {
     Random random{7};
     Bodies bodies = kind.make(setting, parameters, random);
     const Bodies first = bodies;
-    Grid alone(bodies, 0), whole(bodies, VOX_GRID_PENETRATIONS);
+    Grid alone(bodies, 0, 0), whole(bodies, VOX_GRID_PENETRATIONS, budget);
     Result result;
     result.parameters = parameters;
     Random motion{11};
@@ -323,7 +326,7 @@ void print(const char* name, const Result& r) {
                 r.parameters[0], r.parameters[1], r.parameters[2], r.parameters[3],
                 static_cast<unsigned long long>(r.counters.tets),
                 static_cast<unsigned long long>(r.counters.penetrations), 1e3 * r.alone, 1e3 * r.whole,
-                r.ratio, double(r.counters.closest_searches) / n, r.depth_ns / n,
+                r.ratio, double(r.counters.closest_searches) / n, 1e9 * (r.whole - r.alone) / n,
                 static_cast<unsigned long long>(r.hash));
     std::fflush(stdout);
 }
@@ -358,7 +361,7 @@ Mesh read_mesh([[maybe_unused]] const std::string& path) {
 struct Options {
     double tets = 15000;
     int samples = 8, climb = 8, steps = 4;
-    std::uint64_t seed = 1;
+    std::uint64_t seed = 1, budget = 0;
     std::string scene, meshes;
 };
 
@@ -386,7 +389,7 @@ void run(const Options& options) {
                                                       : std::clamp(best.parameters[k] +
                                                                        double{random.uniform(-reach, reach)},
                                                                    0.0, 1.0);
-            const Result result = measure(kind, setting, parameters, options.steps);
+            const Result result = measure(kind, setting, parameters, options.steps, options.budget);
             print(kind.name, result);
             if (result.ratio > best.ratio) best = result;
         }
@@ -416,6 +419,8 @@ int main(int argc, char** argv) {
             options.steps = std::atoi(value.c_str());
         else if (option == "--seed")
             options.seed = std::strtoull(value.c_str(), nullptr, 10);
+        else if (option == "--budget")
+            options.budget = std::strtoull(value.c_str(), nullptr, 10);
         else if (option == "--scene")
             options.scene = value;
         else if (option == "--meshes")
@@ -425,7 +430,7 @@ int main(int argc, char** argv) {
     }
     if (!known || !(options.tets >= 1000) || options.samples < 1 || options.climb < 0 || options.steps < 2) {
         std::fprintf(stderr, "usage: bench_depth_worst [--tets N >= 1000] [--samples K] [--climb K] [--steps K >= 2] "
-                             "[--seed S] [--scene NAME] [--meshes FOLDER]\n");
+                             "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
         return 2;
     }
     return bench::run_program("bench_depth_worst", [&] {

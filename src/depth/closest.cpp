@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace vox::depth {
@@ -76,16 +77,20 @@ void SurfaceTree::take_frame() {
     scale_ = most > 0 ? std::ldexp(1.0, std::clamp(-1 - std::ilogb(most), -1000, 1000)) : 1;
 }
 
+std::uint32_t SurfaceTree::place_on_curve(const Vec3d& p) const noexcept {
+    const double half = 1 / scale_;
+    const auto cell = [&](double x, double middle) { return cell_of(x, middle - half, middle + half); };
+    return morton_code(cell(p.x, middle_.x), cell(p.y, middle_.y), cell(p.z, middle_.z));
+}
+
+// Part after part.
 void SurfaceTree::sort_along_curve() {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
     order_.resize(count);
     scratch_.resize(count);
-    const double half = 1 / scale_;
-    const auto cell = [&](double x, double middle) { return cell_of(x, middle - half, middle + half); };
     for (std::uint32_t t = 0; t < count; ++t) {
         const Box3d box = box_of(solid_, t);
-        const Vec3d at = 0.5 * box.min + 0.5 * box.max;
-        order_[t] = {morton_code(cell(at.x, middle_.x), cell(at.y, middle_.y), cell(at.z, middle_.z)), t};
+        order_[t] = {place_on_curve(0.5 * box.min + 0.5 * box.max), t};
     }
     std::array<std::uint32_t, 1 << digit_bits> place;
     for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
@@ -97,12 +102,27 @@ void SurfaceTree::sort_along_curve() {
         for (const Key& key : order_) scratch_[place[digit(key)]++] = key;
         order_.swap(scratch_);
     }
+    if (part_.empty()) return;
+    const auto key = [&](const Key& k) {
+        return std::tuple(part_[solid_.topology->triangles[k.triangle].v[0]], k.code, k.triangle);
+    };
+    std::sort(order_.begin(), order_.end(), [&](const Key& x, const Key& y) { return key(x) < key(y); });
 }
 
-// The lanes behind the last triangle hold the last one again.
-void SurfaceTree::lay_out_levels() {
+// No leaf has triangles of two parts. The lanes that this leaves over hold the triangle before them again.
+void SurfaceTree::lay_out() {
+    triangles_.clear();
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const std::uint32_t triangle = order_[i].triangle;
+        const auto part = [&](std::uint32_t t) { return part_[solid_.topology->triangles[t].v[0]]; };
+        if (!part_.empty() && i > 0 && part(triangle) != part(order_[i - 1].triangle))
+            while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
+        triangles_.push_back(triangle);
+    }
+    while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
+
     view_ = {};
-    view_.count[0] = (order_.size() + tree_width - 1) / tree_width;
+    view_.count[0] = triangles_.size() / tree_width;
     view_.levels = 1;
     std::size_t nodes = 0;
     do {
@@ -111,38 +131,62 @@ void SurfaceTree::lay_out_levels() {
         view_.count[level] = (view_.count[level - 1] + tree_width - 1) / tree_width;
         nodes += view_.count[level];
     } while (view_.count[view_.levels - 1] > 1);
-    triangles_.resize(view_.count[0] * tree_width);
-    for (std::size_t i = 0; i < triangles_.size(); ++i)
-        triangles_[i] = order_[std::min(i, order_.size() - 1)].triangle;
     leaves_.resize(view_.count[0]);
     nodes_.resize(nodes);
+    name_parts_of_nodes();
     view_.leaves = leaves_.data();
     view_.nodes = nodes_.data();
     view_.triangles = triangles_.data();
+    view_.part = part_of_nodes_.empty() ? nullptr : part_of_nodes_.data();
 }
 
-void SurfaceTree::build(const Solid& solid, bool folds) {
+void SurfaceTree::name_parts_of_nodes() {
+    part_of_nodes_.clear();
+    if (part_.empty()) return;
+    part_of_nodes_.reserve(leaves_.size() + nodes_.size());
+    for (std::size_t i = 0; i < leaves_.size(); ++i)
+        part_of_nodes_.push_back(part_[solid_.topology->triangles[triangles_[i * tree_width]].v[0]]);
+    std::size_t below = 0; // of the first child
+    for (std::size_t level = 1; level < view_.levels; ++level)
+        for (std::size_t i = 0; i < view_.count[level]; ++i) {
+            const std::size_t last = std::min((i + 1) * tree_width, view_.count[level - 1]) - i * tree_width;
+            std::uint32_t part = part_of_nodes_[below];
+            for (std::size_t child = 1; child < last; ++child)
+                if (part_of_nodes_[below + child] != part) part = TreeView::mixed;
+            part_of_nodes_.push_back(part);
+            below += last;
+        }
+}
+
+void SurfaceTree::invalidate() noexcept {
+    is_built_ = has_parts_ = false;
+    part_.clear();
+}
+
+void SurfaceTree::build(const Solid& solid) {
     invalidate();
-    update(solid, folds, nullptr);
+    update(solid, false, nullptr);
 }
 
 void SurfaceTree::update(const Solid& solid, bool folds, Workers* workers) {
     solid_ = solid;
     state_ = {};
+    if (folds && !has_parts_) {
+        find_parts();
+        is_built_ &= part_.empty();
+    }
     if (!is_built_) {
         reserve(solid.topology->triangles.size());
         take_frame();
         sort_along_curve();
-        lay_out_levels();
+        lay_out();
         is_built_ = true;
     }
     fit(workers);
-    if (!fits_frame()) {
-        take_frame();
-        fit(workers);
-        (void)fits_frame();
-    }
-    if (folds && !has_parts_) find_parts();
+    if (fits_frame()) return;
+    take_frame();
+    fit(workers);
+    (void)fits_frame();
 }
 
 void SurfaceTree::fit(Workers* workers) {
@@ -182,22 +226,24 @@ void SurfaceTree::fit_leaves(std::size_t begin, std::size_t end) {
     }
 }
 
-// Whether the frame still suits the positions: the largest coordinate, which it notes, is neither much more
-// than 1, so that nothing overflows, nor much less, which would waste digits.
+// Whether the frame still suits the positions: the largest coordinate, of which it notes a bound, is neither
+// much more than 1, so that nothing overflows, nor much less, which would waste digits.
 bool SurfaceTree::fits_frame() {
     const TreeNode& root = nodes_[view_.first[view_.levels - 1]];
     most_ = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::size_t child = 0; child < view_.count[view_.levels - 2]; ++child) {
-            const float most =
-                std::max(std::abs(root.min[axis][child]), std::abs(root.max[axis][child]));
-            if (!(most <= 4)) return false;
-            most_ = std::max(most_, most);
+    for (std::size_t child = 0; child < view_.count[view_.levels - 2]; ++child) {
+        float squared = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float most = std::max(std::abs(root.low[k][child]), std::abs(root.high[k][child]));
+            if (!(most <= 8)) return false;
+            squared += most * most;
         }
+        most_ = std::max(most_, 1.01f * std::sqrt(squared));
+    }
     return most_ >= 0.125f;
 }
 
-// Vertices connected by edges make a part (R. E. Tarjan, "Efficiency of a good but not linear set union
+// (R. E. Tarjan, "Efficiency of a good but not linear set union
 // algorithm", Journal of the ACM 22, 1975).
 void SurfaceTree::find_parts() {
     const Topology& topology = *solid_.topology;
@@ -216,7 +262,8 @@ void SurfaceTree::find_parts() {
         }
     for (std::uint32_t v = 0; v < count; ++v) part_[v] = part_[part_[v]];
     const std::uint32_t first = part_[solid_.topology->triangles[0].v[0]];
-    if (std::ranges::all_of(topology.triangles, [&](const Triangle& t) { return part_[t.v[0]] == first; }))
+    if (std::all_of(topology.triangles.begin(), topology.triangles.end(),
+                    [&](const Triangle& t) { return part_[t.v[0]] == first; }))
         part_.clear();
     has_parts_ = true;
 }
@@ -265,7 +312,7 @@ public:
             nearest.look_at(triangle);
             return nearest.reach_;
         };
-        find_near(tree_.view_, query_.point(), reach_, visit, this);
+        find_near(tree_.view_, part_, query_.point(), reach_, visit, this);
         if (found_) state_.near = out_.at.triangle;
         return found_;
     }
@@ -300,10 +347,6 @@ private:
 bool SurfaceTree::find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
                              Closest& out) const {
     return NearestOne(*this, p, left_out, part, state, out).run();
-}
-
-bool SurfaceTree::find(const Vec3d& p, std::uint32_t left_out, SearchState& state, Closest& out) const {
-    return find_among(p, left_out, all_parts, state, out);
 }
 
 // ---- folds ------------------------------------------------------------------------------------------
@@ -377,6 +420,9 @@ public:
         for (; last > 0 && before(found, list_[last - 1].found); --last) list_[last] = list_[last - 1];
         list_[last] = {place, found};
     }
+    bool has(const Place& place) const {
+        return std::any_of(begin(), end(), [&](const FoundPlace& known) { return known.place == place; });
+    }
     // The squared distance within which another is wanted.
     double squared() const { return size_ < capacity ? infinity : list_[size_ - 1].found.squared; }
 
@@ -391,122 +437,113 @@ private:
 
 } // namespace
 
-// Receives the triangles near a point that lies in a fold, and keeps the places to which there may be a way.
+// Receives the triangles near a point that lies in a fold, and tries the places where they are closest.
 class SurfaceTree::NearestPlaces {
 public:
-    static constexpr std::size_t most_places = 4, most_minima = 8;
+    // `first` is the closest, which no straight line reaches, and `squared_exit` the squared distance within
+    // which minima are tried.
+    NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, const Closest& first,
+                  double squared_exit, SearchState& state)
+        : tree_(tree), query_(tree, line.p), line_(line), part_(part), squared_exit_(squared_exit),
+          state_(state), places_(*tree.solid_.topology), minima_(*tree.solid_.topology) {
+        const Place place(*tree.solid_.topology, first.at);
+        places_.add(place, first);
+        if (is_local_minimum(tree.solid_, place, first)) minima_.add(place, first);
+    }
 
-    NearestPlaces(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
-                  double exit, SearchState& state)
-        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), exit_(exit), state_(state),
-          places_(*tree.solid_.topology), minima_(*tree.solid_.topology) {}
-
-    void run() {
+    // Returns whether there is a place that is reached.
+    bool run(Closest& out) {
         const auto visit = [](void* self, std::uint32_t triangle) {
             auto& nearest = *static_cast<NearestPlaces*>(self);
             nearest.look_at(triangle);
             return nearest.reach();
         };
-        find_near(tree_.view_, query_.point(), reach(), visit, this);
-    }
-
-    // Calls visit(closest) for the places in order, until it returns true.
-    template <class Visit>
-    bool any_of(Visit&& visit) const {
-        auto place = places_.begin(), minimum = minima_.begin();
-        while (place != places_.end() || minimum != minima_.end()) {
-            const bool is_place = place != places_.end() &&
-                                  (minimum == minima_.end() || !places_.before(minimum->found, place->found));
-            const auto& next = is_place ? *place : *minimum;
-            if (is_place) {
-                if (minimum != minima_.end() && minimum->place == place->place) ++minimum;
-                ++place;
-            } else
-                ++minimum;
-            if (visit(next.found)) return true;
-        }
-        return false;
+        find_near(tree_.view_, part_, query_.point(), reach(), visit, this);
+        if (!is_reached_ || !(places_.has(reached_.place) || minima_.has(reached_.place))) return false;
+        out = reached_.found;
+        return true;
     }
 
 private:
+    static constexpr std::size_t most_places = 4, most_minima = 8;
+
     float reach() const {
-        return query_.reach(std::max(places_.squared(), std::min(exit_, minima_.squared())));
+        double squared = std::max(places_.squared(), std::min(squared_exit_, minima_.squared()));
+        if (is_reached_) squared = std::min(squared, reached_.found.squared);
+        return query_.reach(squared);
     }
+
     void look_at(std::uint32_t triangle) {
         const Triangle& corners = tree_.solid_.topology->triangles[triangle];
-        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return;
+        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
         ++state_.visited;
-        const Closest found = closest_point(tree_.solid_, triangle, p_);
-        const bool is_minimum = found.squared <= exit_ && minima_.wants(found), is_place = places_.wants(found);
-        if (!is_minimum && !is_place) return;
+        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
+        if (is_reached_ && !places_.before(found, reached_.found)) return;
+        bool is_place = places_.wants(found);
+        bool is_minimum = found.squared <= squared_exit_ && minima_.wants(found);
+        if (!is_place && !is_minimum) return;
         const Place place(*tree_.solid_.topology, found.at);
+        is_minimum = is_minimum && is_local_minimum(tree_.solid_, place, found);
+        if (!is_place && !is_minimum) return;
+        const bool is_known = places_.has(place) || minima_.has(place);
         if (is_place) places_.add(place, found);
-        if (is_minimum && is_local_minimum(tree_.solid_, place, found)) minima_.add(place, found);
+        if (is_minimum) minima_.add(place, found);
+        double squared_exit = 0;
+        // A place is tried once, and belongs to the first of the triangles that meet there.
+        if (is_known ? !(is_reached_ && reached_.place == place)
+                     : !tree_.reaches(line_, found, squared_exit))
+            return;
+        is_reached_ = true;
+        reached_ = {place, found};
     }
 
     const SurfaceTree& tree_;
     const Query query_;
-    const Vec3d p_;
-    const std::uint32_t left_out_, part_;
-    const double exit_;
+    const Line line_;
+    const std::uint32_t part_;
+    const double squared_exit_;
     SearchState& state_;
-    Nearest<most_places> places_;
-    Nearest<most_minima> minima_;
+    Nearest<most_places> places_; // the nearest ones
+    Nearest<most_minima> minima_; // the nearest ones of those where the distance has a local minimum
+    FoundPlace reached_;
+    bool is_reached_ = false;
 };
 
-// The squared distance at which a line from p leaves the fold, or 0 where it does not.
-double SurfaceTree::squared_exit(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
-                                 const Vec3d& way) const {
-    const double beyond = 4 * (length(p - middle_) + double{most_} / scale_);
-    SurfacePoint out;
-    std::uint64_t tets = 0;
-    if (!walk_out(solid_, tet, p, p + (beyond / length(way)) * way, out, tets)) return 0;
-    if (has_corner(solid_.topology->triangles[out.triangle], vertex)) return 0;
-    const Vec3d whole = out.point - p;
-    constexpr double rounding = 1 + 1e-9;
-    return rounding * dot(whole, whole);
-}
-
-// Whether a straight line inside the fold leads to the point found.
-bool SurfaceTree::is_straight_ahead(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
-                                    const Closest& found) const {
+// Whether a line leads to the closest point inside the fold. Where it does not, `squared_exit` becomes the
+// squared distance at which it leaves the fold, or 0 where it does not leave.
+bool SurfaceTree::reaches(const Line& line, const Closest& found, double& squared_exit) const {
+    squared_exit = 0;
     if (found.squared == 0) return true;
-    // The walk goes twice as far, so that rounding does not end it too early.
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, tet, p, p + 2.0 * found.way, out, tets)) return false;
-    const Vec3d way = out.point - p, rest = out.point - found.at.point;
+    if (!walk_out(solid_, line.tet, line.p, line.p + line.times * found.way, out, tets) ||
+        has_corner(solid_.topology->triangles[out.triangle], line.vertex))
+        return false;
+    const Vec3d way = out.point - line.p, rest = out.point - found.at.point;
+    squared_exit = dot(way, way);
     constexpr double rounding = 1e-12; // squared
-    return !has_corner(solid_.topology->triangles[out.triangle], vertex) &&
-           dot(rest, rest) <= rounding * dot(way, way);
+    return dot(rest, rest) <= rounding * squared_exit;
 }
 
-bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
-                               Closest& out) const {
-    const std::uint32_t part = part_.empty() ? all_parts : part_[solid_.tets[tet].v[0]];
+bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
+                               SearchState& state, Closest& out) const {
+    const std::uint32_t part = part_of(tet);
     if (!find_among(p, vertex, part, state, out)) return find(p, vertex, state, out);
-    const auto is_reached = [&](const Closest& found) { return is_straight_ahead(p, vertex, tet, found); };
-    if (is_reached(out)) return true;
-    NearestPlaces others(*this, p, vertex, part, squared_exit(p, vertex, tet, out.way), state);
-    others.run();
-    const Place first(*solid_.topology, out.at);
-    if (others.any_of([&](const Closest& found) {
-            if (Place(*solid_.topology, found.at) == first || !is_reached(found)) return false;
-            out = found;
-            return true;
-        }))
+    // The first line leads out of the body. The others go twice as far as the point, so that rounding does
+    // not end them too early.
+    const double beyond = 4 * (length(p - middle_) + double{most_} / scale_);
+    double squared_exit = 0;
+    if (reaches({p, vertex, tet, std::max(2.0, beyond / length(out.way))}, out, squared_exit)) return true;
+    constexpr double rounding = 1 + 1e-9;
+    if (NearestPlaces(*this, {p, vertex, tet, 2}, part, out, rounding * squared_exit, state).run(out))
         return true;
     return part == all_parts || find(p, vertex, state, out);
 }
 
 bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
-                                  SearchState& state, Closest& out) const {
-    return self ? find_in_fold(p, vertex, tet, state, out) : find(p, no_vertex, state, out);
-}
-
-bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
                                   Closest& out, std::uint64_t& visited) {
-    const bool found = find_of_contact(p, vertex, tet, self, state_, out);
+    const bool found = self ? find_in_fold(p, vertex, tet, state_, out)
+                            : find(p, no_vertex, state_, out);
     visited += std::exchange(state_.visited, 0);
     return found;
 }

@@ -29,8 +29,8 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
 struct SearchState {
     static constexpr std::uint32_t none = ~0u;
 
-    std::uint32_t near = none;  // a triangle that is probably close to the next point, of the same tree
-    std::uint64_t visited = 0;  // triangles whose closest point was computed
+    std::uint32_t near = none; // a triangle that is probably close to the next point, of the same tree
+    std::uint64_t visited = 0; // triangles whose closest point was computed
 };
 
 // A tree over the triangles of a surface. It is built once for a topology, and fitted to the positions of each
@@ -38,36 +38,45 @@ struct SearchState {
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
-        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory), part_(memory) {
-    }
+        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory), part_(memory),
+          part_of_nodes_(memory) {}
 
     // Makes room for surfaces of that many triangles.
     void reserve(std::size_t triangles);
 
     // Sorts the triangles of the solid, in time linear in their number, and fits the tree to its positions.
-    // With `folds`, it prepares for searches in folds, which takes time linear in the size of the mesh.
-    void build(const Solid& solid, bool folds = true);
+    void build(const Solid& solid);
 
-    // Fits the tree to the positions of the solid; builds it where that was not done for its topology.
-    // `workers` may be null.
+    // Fits the tree to the positions of the solid, in time linear in the number of triangles. Where that was
+    // not done for its topology, the tree is built, and with `folds` the parts of the mesh are found, in time
+    // linear in its size. `workers` may be null.
     void update(const Solid& solid, bool folds, Workers* workers);
 
     // To be called when the topology has changed.
-    void invalidate() noexcept { is_built_ = has_parts_ = false; }
+    void invalidate() noexcept;
+
+    // Vertices connected by edges make a part of the mesh. This is the name of the one with a tetrahedron, or
+    // all_parts where there is only one, or they were not found.
+    std::uint32_t part_of(std::uint32_t tet) const noexcept {
+        return part_.empty() ? all_parts : part_[solid_.tets[tet].v[0]];
+    }
+    static constexpr std::uint32_t all_parts = TreeView::mixed;
+
+    // A number that is close for points close to each other.
+    std::uint32_t place_on_curve(const Vec3d& p) const noexcept;
 
     // Finds the closest point to p; of points equally far, that of the first triangle (Topology::before).
     // Triangles with the vertex `left_out` are left out. Returns false when there is no point.
-    bool find(const Vec3d& p, std::uint32_t left_out, SearchState& state, Closest& out) const;
+    bool find(const Vec3d& p, std::uint32_t left_out, SearchState& state, Closest& out) const {
+        return find_among(p, left_out, all_parts, state, out);
+    }
 
     // Finds the point of the fold that a vertex at p has entered, which is in `tet` of the vertex's own mesh.
     // docs/depth.md has the rule. Returns false when all triangles have the vertex.
     bool find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
                       Closest& out) const;
 
-    // One of the two: the second where `self` is set.
-    bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
-                         SearchState& state, Closest& out) const;
-    // The same, with a state of the tree's own. Adds to `visited`.
+    // One of the two, the second where `self` is set, with a state of the tree's own. Adds to `visited`.
     bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
                          std::uint64_t& visited);
 
@@ -77,15 +86,14 @@ private:
     struct Key {
         std::uint32_t code, triangle;
     };
-    static constexpr std::uint32_t all_parts = ~0u;
-
     class Query;
     class NearestOne;
     class NearestPlaces;
 
     void take_frame();
     void sort_along_curve();
-    void lay_out_levels();
+    void lay_out();
+    void name_parts_of_nodes();
     void fit(Workers* workers);
     void fit_leaves(std::size_t begin, std::size_t end);
     bool fits_frame();
@@ -93,12 +101,16 @@ private:
     bool is_in(std::uint32_t part, const Triangle& triangle) const noexcept {
         return part == all_parts || part_[triangle.v[0]] == part;
     }
-
     bool find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
                     Closest& out) const;
-    bool is_straight_ahead(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
-                           const Closest& found) const;
-    double squared_exit(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, const Vec3d& way) const;
+
+    // A straight line from a vertex at p, in `tet`, through a closest point and `times` as far.
+    struct Line {
+        Vec3d p;
+        std::uint32_t vertex, tet;
+        double times;
+    };
+    bool reaches(const Line& line, const Closest& found, double& squared_exit) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
@@ -110,9 +122,9 @@ private:
     Vec3d middle_{};
     double scale_ = 1;
     float most_ = 0; // the largest coordinate, in magnitude
-    // Of each vertex, the part of the mesh it belongs to, named by one of its vertices; empty when there is
-    // only one part.
-    std::pmr::vector<std::uint32_t> part_;
+    // Of each vertex, the lowest vertex of its part; empty when there is only one part, or folds were not
+    // asked for. And of each leaf and node the part of its triangles, as TreeView has it.
+    std::pmr::vector<std::uint32_t> part_, part_of_nodes_;
     bool is_built_ = false, has_parts_ = false;
     SearchState state_{};
 };

@@ -13,6 +13,8 @@
 
 #include "base/simd.hpp"
 
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "depth/near.cpp"
 #include <hwy/foreach_target.h>
@@ -114,13 +116,13 @@ HWY_INLINE unsigned BoundChildren(const TreeNode& node, const V3& p, float reach
     const V infinite = hn::Set(d, std::numeric_limits<float>::infinity());
     unsigned near = 0;
     for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
-        const V3 below = Sub3(Load3(node.min, lane), p), above = Sub3(p, Load3(node.max, lane));
-        const V3 out = {hn::Max(zero, hn::Max(below.x, above.x)), hn::Max(zero, hn::Max(below.y, above.y)),
-                        hn::Max(zero, hn::Max(below.z, above.z))};
-        const V height = Dot3(Load3(node.normal, lane), p);
-        const V beyond = hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low + lane), height),
-                                               hn::Sub(height, hn::Load(d, node.high + lane))));
-        const V bound = hn::Max(Dot3(out, out), hn::Mul(beyond, beyond));
+        const auto beyond = [&](std::size_t k) HWY_ATTR {
+            const V at = Dot3(Load3(node.axis[k], lane), p);
+            return hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low[k] + lane), at),
+                                         hn::Sub(at, hn::Load(d, node.high[k] + lane))));
+        };
+        const V3 out = {beyond(0), beyond(1), beyond(2)};
+        const V bound = Dot3(out, out);
         hn::Store(bound, d, squared + lane);
         const M is_near = hn::And(hn::Le(bound, squared_reach), hn::Lt(bound, infinite));
         near |= Bits(is_near) << lane;
@@ -133,16 +135,16 @@ HWY_INLINE unsigned LowestBit(unsigned bits) {
 }
 
 // Visits the triangles of a leaf, at first the one that seems to be the nearest.
-HWY_INLINE float VisitLeaf(const TreeView& tree, std::size_t i, const V3& p, float reach, VisitTriangle visit,
-                           void* receiver) {
+HWY_INLINE float VisitLeaf(const TreeLeaf& leaf, const std::uint32_t* triangles, const V3& p, float reach,
+                           VisitTriangle visit, void* receiver) {
     Bounds at;
-    unsigned near = BoundTriangles(tree.leaves[i], p, reach, at);
+    unsigned near = BoundTriangles(leaf, p, reach, at);
     while (near != 0) {
         unsigned best = LowestBit(near);
         for (unsigned rest = near & (near - 1); rest != 0; rest &= rest - 1)
             if (at.squared[LowestBit(rest)] < at.squared[best]) best = LowestBit(rest);
         near &= ~(1u << best);
-        reach = visit(receiver, tree.triangles[i * tree_width + best]);
+        reach = visit(receiver, triangles[best]);
         for (unsigned rest = near; rest != 0; rest &= rest - 1) {
             const unsigned lane = LowestBit(rest);
             if (!MayBeNear(at.bound[lane], at.squared[lane], reach)) near &= ~(1u << lane);
@@ -151,20 +153,22 @@ HWY_INLINE float VisitLeaf(const TreeView& tree, std::size_t i, const V3& p, flo
     return reach;
 }
 
-void FindNear(const TreeView& tree, const float* point, float reach, VisitTriangle visit, void* receiver) {
+void FindNear(const TreeView& tree, std::uint32_t part, const float* point, float reach, VisitTriangle visit,
+              void* receiver) {
     struct Entry {
         std::uint32_t level, index;
         float squared;
     };
+    const V3 p = Set3(point);
     Entry stack[TreeView::most_levels * tree_width];
     std::size_t size = 0;
     stack[size++] = {static_cast<std::uint32_t>(tree.levels - 1), 0, 0};
-    const V3 p = Set3(point);
     while (size > 0) {
         const Entry entry = stack[--size];
         if (entry.squared > reach * reach) continue;
         if (entry.level == 0) {
-            reach = VisitLeaf(tree, entry.index, p, reach, visit, receiver);
+            reach = VisitLeaf(tree.leaves[entry.index], tree.triangles + entry.index * tree_width, p, reach,
+                              visit, receiver);
             continue;
         }
         alignas(32) float squared[tree_width];
@@ -173,11 +177,12 @@ void FindNear(const TreeView& tree, const float* point, float reach, VisitTriang
         const std::size_t first = size; // the farthest
         for (; near != 0; near &= near - 1) {
             const unsigned child = LowestBit(near);
+            const std::uint32_t index = entry.index * static_cast<std::uint32_t>(tree_width) + child;
+            if (!tree.has(part, entry.level - 1, index)) continue;
             std::size_t place = size++;
             for (; place > first && stack[place - 1].squared < squared[child]; --place)
                 stack[place] = stack[place - 1];
-            stack[place] = {entry.level - 1, entry.index * static_cast<std::uint32_t>(tree_width) + child,
-                            squared[child]};
+            stack[place] = {entry.level - 1, index, squared[child]};
         }
     }
 }
@@ -186,39 +191,6 @@ void FindNear(const TreeView& tree, const float* point, float reach, VisitTriang
 
 HWY_INLINE float Least(V v) { return hn::GetLane(hn::MinOfLanes(D(), v)); }
 HWY_INLINE float Most(V v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); }
-
-// The corners of some triangles.
-struct Corners {
-    V3 a, b, c;
-};
-HWY_INLINE Corners LoadCorners(const TreeLeaf& leaf, std::size_t lane) {
-    const V3 a = Load3(leaf.a, lane), ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane);
-    return {a,
-            {hn::Add(a.x, ab.x), hn::Add(a.y, ab.y), hn::Add(a.z, ab.z)},
-            {hn::Add(a.x, ac.x), hn::Add(a.y, ac.y), hn::Add(a.z, ac.z)}};
-}
-
-HWY_INLINE void BoxOfLeaf(const TreeLeaf& leaf, TreeNode& node, std::size_t child) {
-    const D d;
-    const auto axis = [](V a, V b, V c, V& min, V& max) HWY_ATTR {
-        min = hn::Min(min, hn::Min(a, hn::Min(b, c)));
-        max = hn::Max(max, hn::Max(a, hn::Max(b, c)));
-    };
-    const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), lowest = hn::Neg(infinite);
-    V3 min{infinite, infinite, infinite}, max{lowest, lowest, lowest};
-    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
-        const Corners at = LoadCorners(leaf, lane);
-        axis(at.a.x, at.b.x, at.c.x, min.x, max.x);
-        axis(at.a.y, at.b.y, at.c.y, min.y, max.y);
-        axis(at.a.z, at.b.z, at.c.z, min.z, max.z);
-    }
-    node.min[0][child] = Least(min.x);
-    node.min[1][child] = Least(min.y);
-    node.min[2][child] = Least(min.z);
-    node.max[0][child] = Most(max.x);
-    node.max[1][child] = Most(max.y);
-    node.max[2][child] = Most(max.z);
-}
 
 HWY_INLINE float Root(float x) { return hn::GetLane(hn::Sqrt(hn::Set(hn::CappedTag<float, 1>(), x))); }
 
@@ -255,66 +227,97 @@ HWY_INLINE Direction NormalOfLeaf(const TreeLeaf& leaf) {
     return sum;
 }
 
-// The slab of a direction around some leaves.
-HWY_INLINE void SlabOf(const TreeLeaf* leaves, std::size_t count, const Direction& direction, TreeNode& node,
-                       std::size_t child) {
+// Makes a child of a node have these axes and the box around some leaves.
+HWY_INLINE void BoxOfLeaves(const TreeLeaf* leaves, std::size_t count, const float (&axes)[3][3],
+                            TreeNode& node, std::size_t child) {
     const D d;
-    const V3 normal = Set3(direction.of);
-    V low = hn::Set(d, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
-            const Corners at = LoadCorners(leaves[i], lane);
-            const V a = Dot3(normal, at.a), b = Dot3(normal, at.b), c = Dot3(normal, at.c);
-            low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
-            high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const V3 axis = Set3(axes[k]);
+        V low = hn::Set(d, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+                const V a = Dot3(axis, Load3(leaves[i].a, lane));
+                const V b = hn::Add(a, Dot3(axis, Load3(leaves[i].ab, lane)));
+                const V c = hn::Add(a, Dot3(axis, Load3(leaves[i].ac, lane)));
+                low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
+                high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
+            }
+        for (std::size_t i = 0; i < 3; ++i) node.axis[k][i][child] = axes[k][i];
+        node.low[k][child] = Least(low);
+        node.high[k][child] = Most(high);
+    }
+}
+
+// The box along the coordinate axes around the boxes of all children of a node.
+HWY_INLINE void BoxOfNode(const TreeNode& from, TreeNode& node, std::size_t child) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        float low = infinity, high = -infinity;
+        for (std::size_t c = 0; c < tree_width; ++c) {
+            if (!(from.low[0][c] <= from.high[0][c])) continue; // empty
+            float least = 0, most = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float a = from.axis[k][i][c] * from.low[k][c], b = from.axis[k][i][c] * from.high[k][c];
+                least += a < b ? a : b;
+                most += a < b ? b : a;
+            }
+            low = least < low ? least : low;
+            high = most > high ? most : high;
         }
-    for (std::size_t axis = 0; axis < 3; ++axis) node.normal[axis][child] = direction.of[axis];
-    node.low[child] = Least(low);
-    node.high[child] = Most(high);
+        for (std::size_t k = 0; k < 3; ++k) node.axis[k][i][child] = k == i ? 1.0f : 0.0f;
+        node.low[i][child] = low;
+        node.high[i][child] = high;
+    }
+}
+
+// Two unit vectors at right angles to n and to each other (Duff et al., "Building an orthonormal basis,
+// revisited", Journal of Computer Graphics Techniques 6, 2017). Without n, the coordinate axes.
+HWY_INLINE void AxesOf(const Direction& n, float (&axes)[3][3]) {
+    const float x = n.of[0], y = n.of[1], z = n.of[2];
+    const float sign = z < 0 ? -1.0f : 1.0f, a = -1.0f / (sign + z), b = x * y * a;
+    const bool any = x * x + y * y + z * z > 0.5f;
+    const float made[3][3] = {
+        {x, y, z}, {1.0f + sign * x * x * a, sign * b, -sign * x}, {b, sign + y * y * a, -y}};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < 3; ++i) axes[k][i] = any ? made[k][i] : k == i ? 1.0f : 0.0f;
 }
 
 void RefitNodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
                 TreeNode* nodes) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    constexpr std::size_t most_slab_level = 3; // of larger parts, a slab is as thick as the box
-    const D d;
-    std::size_t leaves = 1; // below a child
+    constexpr std::size_t most_fitted_level = 2; // larger parts are seldom flat
+    std::size_t leaves = 1;                      // below a child
     for (std::size_t l = 1; l < level; ++l) leaves *= tree_width;
     for (std::size_t i = begin; i < end; ++i) {
         TreeNode& node = nodes[tree.first[level] + i];
         for (std::size_t child = 0; child < tree_width; ++child) {
             const std::size_t below = i * tree_width + child;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.min[axis][child] = infinity;
-                node.max[axis][child] = -infinity;
-                node.normal[axis][child] = 0;
+            if (below >= tree.count[level - 1]) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    for (std::size_t axis = 0; axis < 3; ++axis) node.axis[k][axis][child] = 0;
+                    node.low[k][child] = infinity;
+                    node.high[k][child] = -infinity;
+                }
+                continue;
             }
-            node.low[child] = -infinity;
-            node.high[child] = infinity;
-            if (below >= tree.count[level - 1]) continue;
-            Direction direction;
+            if (level > most_fitted_level) {
+                BoxOfNode(nodes[tree.first[level - 1] + below], node, child);
+                continue;
+            }
+            Direction normal;
             if (level == 1) {
-                BoxOfLeaf(tree.leaves[below], node, child);
-                direction = NormalOfLeaf(tree.leaves[below]);
+                normal = NormalOfLeaf(tree.leaves[below]);
             } else {
                 const TreeNode& from = nodes[tree.first[level - 1] + below];
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    V min = hn::Load(d, from.min[axis]), max = hn::Load(d, from.max[axis]);
-                    for (std::size_t lane = hn::Lanes(d); lane < tree_width; lane += hn::Lanes(d)) {
-                        min = hn::Min(min, hn::Load(d, from.min[axis] + lane));
-                        max = hn::Max(max, hn::Load(d, from.max[axis] + lane));
-                    }
-                    node.min[axis][child] = Least(min);
-                    node.max[axis][child] = Most(max);
-                }
-                if (level > most_slab_level) continue;
                 for (std::size_t k = 0; k < tree_width; ++k)
-                    direction.Add(from.normal[0][k], from.normal[1][k], from.normal[2][k]);
-                direction.Normalise();
+                    normal.Add(from.axis[0][0][k], from.axis[0][1][k], from.axis[0][2][k]);
+                normal.Normalise();
             }
+            float axes[3][3];
+            AxesOf(normal, axes);
             const std::size_t first = below * leaves;
             const std::size_t count = tree.count[0] - first < leaves ? tree.count[0] - first : leaves;
-            SlabOf(tree.leaves + first, count, direction, node, child);
+            BoxOfLeaves(tree.leaves + first, count, axes, node, child);
         }
     }
 }
@@ -331,8 +334,9 @@ void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std
     VOX_SIMD_DISPATCH(RefitNodes)(tree, level, begin, end, nodes);
 }
 
-void find_near(const TreeView& tree, const float (&p)[3], float reach, VisitTriangle visit, void* receiver) {
-    VOX_SIMD_DISPATCH(FindNear)(tree, p, reach, visit, receiver);
+void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
+               VisitTriangle visit, void* receiver) {
+    VOX_SIMD_DISPATCH(FindNear)(tree, part, p, reach, visit, receiver);
 }
 
 } // namespace vox::depth

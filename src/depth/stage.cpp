@@ -13,15 +13,15 @@ namespace vox {
 using namespace depth;
 
 DepthStage::DepthStage(std::pmr::memory_resource* memory)
-    : starts_(memory), points_(memory), pairs_(memory), unresolved_(memory), unresolved_by_body_(memory),
-      workers_(memory) {}
+    : starts_(memory), points_(memory), pairs_(memory), workers_(memory), fallback_(memory) {}
 
 Solid DepthStage::Scene::solid(std::uint32_t body) const {
     return {topologies[body], bodies[body].tets, bodies[body].positions};
 }
 
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-                      std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
+                      std::span<const Hit> hits, std::span<const vox_contact> contacts,
+                      std::uint64_t closest_budget, Workers* workers,
                       std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
     penetrations.clear();
     if (hits.empty()) return;
@@ -41,9 +41,9 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     };
     for_each(pairs_, points_.size(),
              [&](const Range& range, Worker& worker) { find_consistent(scene, range, worker); });
-    list_unresolved(scene);
-    for_each(unresolved_by_body_, unresolved_.size(),
-             [&](const Range& range, Worker& worker) { find_closest(scene, range, worker); });
+    Counts fallback_counts;
+    const auto [searches, unknown] = fallback_.find(bodies, topologies, hits, closest_budget, workers, points_,
+                                                    fallback_counts);
 
     workers_.level();
 
@@ -62,22 +62,21 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
                                       static_cast<float>(point.direction.y),
                                       static_cast<float>(point.direction.z)}};
     }
-    counters.closest_searches = unresolved_.size();
+    counters.closest_searches = searches;
+    counters.closest_tests = fallback_counts.closest_tests;
+    counters.unknown_penetrations = unknown;
     for (const Worker& worker : workers_) {
         counters.leaving_edges += worker.counts.leaving_edges;
         counters.edge_tests += worker.counts.edge_tests;
-        counters.closest_tests += worker.counts.closest_tests;
     }
 }
 
-// There are never more points, pairs or unresolved points than contacts.
+// There are never more points or pairs than contacts.
 void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
     pairs_.reserve(contacts);
     starts_.reserve(contacts);
-    unresolved_.reserve(contacts);
-    unresolved_by_body_.reserve(contacts);
     workers_.grow(worker_count);
     for (Worker& worker : workers_) worker.counts = {};
 }
@@ -124,50 +123,6 @@ void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker&
                         scene.solid(hit.body_b), hit.body_a == hit.body_b};
     find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,
                            worker.normals, worker.counts);
-}
-
-void DepthStage::list_unresolved(const Scene& scene) {
-    unresolved_.clear();
-    unresolved_by_body_.clear();
-    for (std::size_t i = 0; i < points_.size(); ++i)
-        if (points_[i].state == VOX_PENETRATION_ENCLOSED || points_[i].state == VOX_PENETRATION_CROSSING)
-            unresolved_.push_back({scene.hits[points_[i].hit].body_b, i});
-    const auto before = [](const Unresolved& x, const Unresolved& y) {
-        return std::tie(x.body_b, x.point) < std::tie(y.body_b, y.point);
-    };
-    if (!std::is_sorted(unresolved_.begin(), unresolved_.end(), before))
-        std::sort(unresolved_.begin(), unresolved_.end(), before);
-    for (std::size_t i = 0; i < unresolved_.size(); ++i) {
-        if (i == 0 || unresolved_[i].body_b != unresolved_[i - 1].body_b)
-            unresolved_by_body_.push_back({i, i});
-        unresolved_by_body_.back().last = i + 1;
-    }
-}
-
-void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& worker) {
-    const std::uint32_t b = unresolved_[range.first].body_b;
-    const Solid solid = scene.solid(b);
-    const bool has_surface = !solid.topology->triangles.empty();
-    if (has_surface) worker.tree.build(solid, std::any_of(unresolved_.begin() + static_cast<std::ptrdiff_t>(range.first), unresolved_.begin() + static_cast<std::ptrdiff_t>(range.last), [&](const Unresolved& u){ return scene.hits[points_[u.point].hit].body_a == b; }));
-    for (std::size_t i = range.first; i < range.last; ++i) {
-        Point& point = points_[unresolved_[i].point];
-        const std::uint32_t a = scene.hits[point.hit].body_a;
-        const Vec3d p = scene.bodies[a].positions.exact(point.vertex);
-        Closest closest;
-        const bool found = has_surface && worker.tree.find_of_contact(p, point.vertex, point.tet, a == b,
-                                                                      closest, worker.counts.closest_tests);
-        point.depth = found ? length(closest.way) : 0;
-        point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
-        if (length(point.direction) > 0) continue;
-        point.depth = 0;
-        if (found) { // on the surface of a part of b that overlaps the part with the hit
-            point.state = VOX_PENETRATION_COINCIDENT;
-            worker.normals.begin(solid);
-            const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
-            point.direction = worker.normals.at(closest.at, p - apex);
-        }
-        if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);
-    }
 }
 
 } // namespace vox

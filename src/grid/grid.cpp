@@ -57,7 +57,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
+      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
       bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
@@ -92,11 +92,13 @@ void vox_grid::scene_changed() noexcept {
 
 void vox_grid::remove(vox_mesh id) {
     meshes_.remove(id);
+    depth_.fallback().forget(id);
     scene_changed();
 }
 
 void vox_grid::clear() {
     meshes_.clear();
+    depth_.fallback().forget_all();
     scene_changed();
     contacts_.clear();
     penetrations_.clear();
@@ -144,6 +146,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
     mark_moved(id);
+    depth_.fallback().topology_changed(id);
     adaptive_.scene_changed();
 }
 
@@ -154,6 +157,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     fast::MeshState state(&memory_);
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
+    depth_.fallback().topology_changed(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
 }
@@ -235,7 +239,8 @@ void vox_grid::step() {
         profile.contacts_ns = contacts_made - detected;
 
         if (find_penetrations_ && !all_carried) {
-            depth_.find(bodies_, topologies_, hits_, contacts_, &workers_, penetrations_, counters);
+            depth_.find(bodies_, topologies_, hits_, contacts_, closest_budget_, &workers_, penetrations_,
+                        counters);
             profile.depth_ns = nanoseconds() - contacts_made;
             contacts_made += profile.depth_ns;
         }
@@ -263,6 +268,13 @@ void vox_grid::step() {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
     }
+    if (counters.unknown_penetrations > 0 && log_.write)
+        write_log(VOX_LOG_WARNING,
+                  format("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
+                         static_cast<unsigned long long>(counters.unknown_penetrations),
+                         static_cast<unsigned long long>(counters.penetrations),
+                         static_cast<unsigned long long>(closest_budget_))
+                      .c_str());
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;

@@ -111,6 +111,7 @@ private:
     bool fast_;
     bool find_penetrations_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
+    std::uint64_t closest_budget_;
     double requested_cell_size_;      // 0: the library chooses it; the fast engine itself, for each window
     double used_cell_size_;           // in the last step; before the first one the requested one
     vox::AdaptiveCellSize adaptive_;  // chooses for the reference engine
