@@ -121,23 +121,27 @@ void SurfaceTree::lay_out() {
     }
     while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
 
-    view_ = {};
-    view_.count[0] = triangles_.size() / tree_width;
-    view_.levels = 1;
-    std::size_t nodes = 0;
+    const auto leaves = static_cast<std::uint32_t>(triangles_.size() / tree_width);
+    levels_.clear();
+    levels_.reserve(TreeView::most_levels);
+    std::uint32_t first_child = 0, last_child = leaves;
+    std::size_t below = 1;
     do {
-        const std::size_t level = view_.levels++;
-        view_.first[level] = nodes;
-        view_.count[level] = (view_.count[level - 1] + tree_width - 1) / tree_width;
-        nodes += view_.count[level];
-    } while (view_.count[view_.levels - 1] > 1);
-    leaves_.resize(view_.count[0]);
-    nodes_.resize(nodes);
+        const std::size_t count = (last_child - first_child + tree_width - 1) / tree_width;
+        levels_.push_back({last_child - leaves, count, first_child, last_child, below});
+        first_child = last_child;
+        last_child += static_cast<std::uint32_t>(count);
+        below *= tree_width;
+    } while (levels_.back().count > 1);
+    leaves_.resize(leaves);
+    nodes_.resize(last_child - leaves);
     name_parts_of_nodes();
-    view_.leaves = leaves_.data();
-    view_.nodes = nodes_.data();
-    view_.triangles = triangles_.data();
-    view_.part = part_of_nodes_.empty() ? nullptr : part_of_nodes_.data();
+    view_ = {leaves_.data(),
+             nodes_.data(),
+             triangles_.data(),
+             part_of_nodes_.empty() ? nullptr : part_of_nodes_.data(),
+             leaves,
+             last_child - leaves};
 }
 
 void SurfaceTree::name_parts_of_nodes() {
@@ -146,15 +150,12 @@ void SurfaceTree::name_parts_of_nodes() {
     part_of_nodes_.reserve(leaves_.size() + nodes_.size());
     for (std::size_t i = 0; i < leaves_.size(); ++i)
         part_of_nodes_.push_back(part_[solid_.topology->triangles[triangles_[i * tree_width]].v[0]]);
-    std::size_t below = 0; // of the first child
-    for (std::size_t level = 1; level < view_.levels; ++level)
-        for (std::size_t i = 0; i < view_.count[level]; ++i) {
-            const std::size_t last = std::min((i + 1) * tree_width, view_.count[level - 1]) - i * tree_width;
-            std::uint32_t part = part_of_nodes_[below];
-            for (std::size_t child = 1; child < last; ++child)
-                if (part_of_nodes_[below + child] != part) part = TreeView::mixed;
+    for (const TreeLevel& level : levels_)
+        for (std::size_t first = level.first_child; first < level.last_child; first += tree_width) {
+            std::uint32_t part = part_of_nodes_[first];
+            for (std::size_t i = first; i < std::min<std::size_t>(first + tree_width, level.last_child); ++i)
+                if (part_of_nodes_[i] != part) part = TreeView::mixed;
             part_of_nodes_.push_back(part);
-            below += last;
         }
 }
 
@@ -198,9 +199,9 @@ void SurfaceTree::fit(Workers* workers) {
         else
             range(0, items, 0);
     };
-    run(view_.count[0], least, [&](std::size_t begin, std::size_t end) { fit_leaves(begin, end); });
-    for (std::size_t level = 1; level < view_.levels; ++level)
-        run(view_.count[level], least, [&](std::size_t begin, std::size_t end) {
+    run(leaves_.size(), least, [&](std::size_t begin, std::size_t end) { fit_leaves(begin, end); });
+    for (const TreeLevel& level : levels_)
+        run(level.count, least, [&](std::size_t begin, std::size_t end) {
             refit_nodes(view_, level, begin, end, nodes_.data());
         });
 }
@@ -229,9 +230,10 @@ void SurfaceTree::fit_leaves(std::size_t begin, std::size_t end) {
 // Whether the frame still suits the positions: the largest coordinate, of which it notes a bound, is neither
 // much more than 1, so that nothing overflows, nor much less, which would waste digits.
 bool SurfaceTree::fits_frame() {
-    const TreeNode& root = nodes_[view_.first[view_.levels - 1]];
+    const TreeNode& root = nodes_.back();
+    const std::size_t children = levels_.back().last_child - levels_.back().first_child;
     most_ = 0;
-    for (std::size_t child = 0; child < view_.count[view_.levels - 2]; ++child) {
+    for (std::size_t child = 0; child < children; ++child) {
         float squared = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const float most = std::max(std::abs(root.low[k][child]), std::abs(root.high[k][child]));
@@ -371,8 +373,19 @@ struct Place {
     bool operator==(const Place&) const = default;
 };
 
-// Whether no point of the surface next to the place is nearer to p.
-bool is_local_minimum(const Solid& solid, const Place& place, const Closest& found) {
+// The way from p to the closest point there, the same for all triangles that meet there.
+Vec3d way_to(const Solid& solid, const Place& place, const Vec3d& p, const Closest& found) {
+    if (place.count == 3) return found.way;
+    const Vec3d a = solid.at(place.vertex[0]);
+    if (place.count == 1) return a - p;
+    const Vec3d along = solid.at(place.vertex[1]) - a;
+    const double squared = dot(along, along);
+    const double t = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0;
+    return (a - p) + t * along;
+}
+
+// Whether no point of the surface next to the place is nearer than the place is, which is at the end of `way`.
+bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) {
     if (place.count == 3) return true;
     const Vec3d origin = solid.at(place.vertex[0]);
     const Vec3d along = place.count == 2 ? solid.at(place.vertex[1]) - origin : Vec3d{0, 0, 0};
@@ -385,8 +398,10 @@ bool is_local_minimum(const Solid& solid, const Place& place, const Closest& fou
             // The way into the triangle, at right angles to the edge.
             Vec3d into = solid.at(v) - origin;
             if (squared > 0) into = into - (dot(into, along) / squared) * along;
-            constexpr double rounding = 1e-12;
-            if (-dot(found.way, into) > rounding * length(found.way) * length(into)) return false;
+            constexpr double rounding = 1e-12, squared_rounding = rounding * rounding;
+            const double nearer = -dot(way, into);
+            if (nearer > 0 && nearer * nearer > squared_rounding * dot(way, way) * dot(into, into))
+                return false;
         }
     }
     return true;
@@ -448,7 +463,8 @@ public:
           state_(state), places_(*tree.solid_.topology), minima_(*tree.solid_.topology) {
         const Place place(*tree.solid_.topology, first.at);
         places_.add(place, first);
-        if (is_local_minimum(tree.solid_, place, first)) minima_.add(place, first);
+        if (is_local_minimum(tree.solid_, place, way_to(tree.solid_, place, line.p, first)))
+            minima_.add(place, first);
     }
 
     // Returns whether there is a place that is reached.
@@ -458,7 +474,7 @@ public:
             nearest.look_at(triangle);
             return nearest.reach();
         };
-        find_near(tree_.view_, part_, query_.point(), reach(), visit, this);
+        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit, this);
         if (!is_reached_ || !(places_.has(reached_.place) || minima_.has(reached_.place))) return false;
         out = reached_.found;
         return true;
@@ -483,7 +499,8 @@ private:
         bool is_minimum = found.squared <= squared_exit_ && minima_.wants(found);
         if (!is_place && !is_minimum) return;
         const Place place(*tree_.solid_.topology, found.at);
-        is_minimum = is_minimum && is_local_minimum(tree_.solid_, place, found);
+        const Vec3d way = way_to(tree_.solid_, place, line_.p, found);
+        is_minimum = is_minimum && is_local_minimum(tree_.solid_, place, way);
         if (!is_place && !is_minimum) return;
         const bool is_known = places_.has(place) || minima_.has(place);
         if (is_place) places_.add(place, found);
@@ -491,7 +508,7 @@ private:
         double squared_exit = 0;
         // A place is tried once, and belongs to the first of the triangles that meet there.
         if (is_known ? !(is_reached_ && reached_.place == place)
-                     : !tree_.reaches(line_, found, squared_exit))
+                     : !tree_.reaches(line_, way, squared_exit))
             return;
         is_reached_ = true;
         reached_ = {place, found};
@@ -509,18 +526,18 @@ private:
     bool is_reached_ = false;
 };
 
-// Whether a line leads to the closest point inside the fold. Where it does not, `squared_exit` becomes the
+// Whether a line leads inside the fold to the point at the end of `way`. Where it does not, `squared_exit` becomes the
 // squared distance at which it leaves the fold, or 0 where it does not leave.
-bool SurfaceTree::reaches(const Line& line, const Closest& found, double& squared_exit) const {
+bool SurfaceTree::reaches(const Line& line, const Vec3d& way, double& squared_exit) const {
     squared_exit = 0;
-    if (found.squared == 0) return true;
+    if (dot(way, way) == 0) return true;
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, line.tet, line.p, line.p + line.times * found.way, out, tets) ||
+    if (!walk_out(solid_, line.tet, line.p, line.p + line.times * way, out, tets) ||
         has_corner(solid_.topology->triangles[out.triangle], line.vertex))
         return false;
-    const Vec3d way = out.point - line.p, rest = out.point - found.at.point;
-    squared_exit = dot(way, way);
+    const Vec3d whole = out.point - line.p, rest = whole - way;
+    squared_exit = dot(whole, whole);
     constexpr double rounding = 1e-12; // squared
     return dot(rest, rest) <= rounding * squared_exit;
 }
@@ -533,7 +550,7 @@ bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32
     // not end them too early.
     const double beyond = 4 * (length(p - middle_) + double{most_} / scale_);
     double squared_exit = 0;
-    if (reaches({p, vertex, tet, std::max(2.0, beyond / length(out.way))}, out, squared_exit)) return true;
+    if (reaches({p, vertex, tet, std::max(2.0, beyond / length(out.way))}, out.way, squared_exit)) return true;
     constexpr double rounding = 1 + 1e-9;
     if (NearestPlaces(*this, {p, vertex, tet, 2}, part, out, rounding * squared_exit, state).run(out))
         return true;

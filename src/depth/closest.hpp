@@ -38,8 +38,8 @@ struct SearchState {
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
-        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory), part_(memory),
-          part_of_nodes_(memory) {}
+        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory),
+          levels_(memory), part_(memory), part_of_nodes_(memory) {}
 
     // Makes room for surfaces of that many triangles.
     void reserve(std::size_t triangles);
@@ -110,13 +110,14 @@ private:
         std::uint32_t vertex, tet;
         double times;
     };
-    bool reaches(const Line& line, const Closest& found, double& squared_exit) const;
+    bool reaches(const Line& line, const Vec3d& way, double& squared_exit) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
     std::pmr::vector<std::uint32_t> triangles_; // of the lanes of leaves_
     std::pmr::vector<TreeLeaf> leaves_;
     std::pmr::vector<TreeNode> nodes_;
+    std::pmr::vector<TreeLevel> levels_; // the root's is the last
     TreeView view_{};
     // The tree's coordinates are scale_ * (x - middle_), mostly at most 1 in magnitude.
     Vec3d middle_{};

@@ -153,36 +153,101 @@ HWY_INLINE float VisitLeaf(const TreeLeaf& leaf, const std::uint32_t* triangles,
     return reach;
 }
 
+// Appends the numbers of the children whose bits are set. Writes up to tree_width numbers.
+HWY_INLINE std::size_t Append(unsigned near, std::uint32_t first, std::uint32_t* out) {
+    std::size_t count = 0;
+    for (unsigned child = 0; child < tree_width; ++child) { // without branches
+        out[count] = first + child;
+        count += near >> child & 1;
+    }
+    return count;
+}
+
+HWY_INLINE unsigned OfPart(const TreeView& tree, std::uint32_t part, std::uint32_t first, unsigned near) {
+    for (unsigned rest = near; rest != 0; rest &= rest - 1)
+        if (!tree.has(part, first + LowestBit(rest))) near &= ~(rest & (0u - rest));
+    return near;
+}
+
+// The leaf that one comes to by always taking the nearest child.
+HWY_INLINE std::uint32_t NearestLeaf(const TreeView& tree, std::uint32_t part, const V3& p, float reach) {
+    std::uint32_t number = tree.leaf_count + tree.node_count - 1;
+    while (number >= tree.leaf_count) {
+        alignas(32) float squared[tree_width];
+        const TreeNode& node = tree.nodes[number - tree.leaf_count];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
+        if (near == 0) return tree.leaf_count;
+        unsigned best = LowestBit(near);
+        for (near &= near - 1; near != 0; near &= near - 1)
+            if (squared[LowestBit(near)] < squared[best]) best = LowestBit(near);
+        number = node.first_child + best;
+    }
+    return number;
+}
+
 void FindNear(const TreeView& tree, std::uint32_t part, const float* point, float reach, VisitTriangle visit,
               void* receiver) {
+    const V3 p = Set3(point);
+    const auto visit_leaf = [&](std::uint32_t leaf) HWY_ATTR {
+        reach = VisitLeaf(tree.leaves[leaf], tree.triangles + leaf * tree_width, p, reach, visit, receiver);
+    };
+    if (reach == std::numeric_limits<float>::infinity()) {
+        const std::uint32_t leaf = NearestLeaf(tree, part, p, reach);
+        if (leaf < tree.leaf_count) visit_leaf(leaf);
+    }
+    // A good reach is known by now, so the order matters little, and leaves can wait for each other.
+    constexpr std::size_t most_leaves = 64;
+    std::uint32_t nodes[TreeView::most_levels * tree_width + tree_width];
+    std::uint32_t leaves[most_leaves + tree_width];
+    std::size_t node_count = 1, leaf_count = 0;
+    nodes[0] = tree.leaf_count + tree.node_count - 1;
+    while (node_count > 0) {
+        const TreeNode& node = tree.nodes[nodes[--node_count] - tree.leaf_count];
+        alignas(32) float squared[tree_width];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
+        if (node.first_child >= tree.leaf_count) {
+            node_count += Append(near, node.first_child, nodes + node_count);
+            continue;
+        }
+        leaf_count += Append(near, node.first_child, leaves + leaf_count);
+        if (leaf_count < most_leaves && node_count > 0) continue;
+        for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
+        leaf_count = 0;
+    }
+    for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
+}
+
+void FindNearestFirst(const TreeView& tree, std::uint32_t part, const float* point, float reach,
+                      VisitTriangle visit, void* receiver) {
     struct Entry {
-        std::uint32_t level, index;
+        std::uint32_t number;
         float squared;
     };
     const V3 p = Set3(point);
     Entry stack[TreeView::most_levels * tree_width];
-    std::size_t size = 0;
-    stack[size++] = {static_cast<std::uint32_t>(tree.levels - 1), 0, 0};
+    std::size_t size = 1;
+    stack[0] = {tree.leaf_count + tree.node_count - 1, 0};
     while (size > 0) {
         const Entry entry = stack[--size];
         if (entry.squared > reach * reach) continue;
-        if (entry.level == 0) {
-            reach = VisitLeaf(tree.leaves[entry.index], tree.triangles + entry.index * tree_width, p, reach,
+        if (entry.number < tree.leaf_count) {
+            reach = VisitLeaf(tree.leaves[entry.number], tree.triangles + entry.number * tree_width, p, reach,
                               visit, receiver);
             continue;
         }
         alignas(32) float squared[tree_width];
-        unsigned near =
-            BoundChildren(tree.nodes[tree.first[entry.level] + entry.index], p, reach, squared);
+        const TreeNode& node = tree.nodes[entry.number - tree.leaf_count];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
         const std::size_t first = size; // the farthest
         for (; near != 0; near &= near - 1) {
             const unsigned child = LowestBit(near);
-            const std::uint32_t index = entry.index * static_cast<std::uint32_t>(tree_width) + child;
-            if (!tree.has(part, entry.level - 1, index)) continue;
             std::size_t place = size++;
             for (; place > first && stack[place - 1].squared < squared[child]; --place)
                 stack[place] = stack[place - 1];
-            stack[place] = {entry.level - 1, index, squared[child]};
+            stack[place] = {node.first_child + child, squared[child]};
         }
     }
 }
@@ -282,17 +347,16 @@ HWY_INLINE void AxesOf(const Direction& n, float (&axes)[3][3]) {
         for (std::size_t i = 0; i < 3; ++i) axes[k][i] = any ? made[k][i] : k == i ? 1.0f : 0.0f;
 }
 
-void RefitNodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
+void RefitNodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
                 TreeNode* nodes) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    constexpr std::size_t most_fitted_level = 2; // larger parts are seldom flat
-    std::size_t leaves = 1;                      // below a child
-    for (std::size_t l = 1; l < level; ++l) leaves *= tree_width;
+    constexpr std::size_t most_leaves = tree_width; // larger parts are seldom flat
     for (std::size_t i = begin; i < end; ++i) {
-        TreeNode& node = nodes[tree.first[level] + i];
+        TreeNode& node = nodes[level.first + i];
+        node.first_child = level.first_child + static_cast<std::uint32_t>(i * tree_width);
         for (std::size_t child = 0; child < tree_width; ++child) {
-            const std::size_t below = i * tree_width + child;
-            if (below >= tree.count[level - 1]) {
+            const std::uint32_t number = node.first_child + static_cast<std::uint32_t>(child);
+            if (number >= level.last_child) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     for (std::size_t axis = 0; axis < 3; ++axis) node.axis[k][axis][child] = 0;
                     node.low[k][child] = infinity;
@@ -300,24 +364,25 @@ void RefitNodes(const TreeView& tree, std::size_t level, std::size_t begin, std:
                 }
                 continue;
             }
-            if (level > most_fitted_level) {
-                BoxOfNode(nodes[tree.first[level - 1] + below], node, child);
+            if (level.leaves_below > most_leaves) {
+                BoxOfNode(nodes[number - tree.leaf_count], node, child);
                 continue;
             }
             Direction normal;
-            if (level == 1) {
-                normal = NormalOfLeaf(tree.leaves[below]);
+            if (number < tree.leaf_count) {
+                normal = NormalOfLeaf(tree.leaves[number]);
             } else {
-                const TreeNode& from = nodes[tree.first[level - 1] + below];
+                const TreeNode& from = nodes[number - tree.leaf_count];
                 for (std::size_t k = 0; k < tree_width; ++k)
                     normal.Add(from.axis[0][0][k], from.axis[0][1][k], from.axis[0][2][k]);
                 normal.Normalise();
             }
             float axes[3][3];
             AxesOf(normal, axes);
-            const std::size_t first = below * leaves;
-            const std::size_t count = tree.count[0] - first < leaves ? tree.count[0] - first : leaves;
-            BoxOfLeaves(tree.leaves + first, count, axes, node, child);
+            const std::size_t first = (i * tree_width + child) * level.leaves_below;
+            const std::size_t rest = tree.leaf_count - first;
+            BoxOfLeaves(tree.leaves + first, rest < level.leaves_below ? rest : level.leaves_below, axes, node,
+                        child);
         }
     }
 }
@@ -329,7 +394,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::depth {
 
-void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
+void refit_nodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
                  TreeNode* nodes) {
     VOX_SIMD_DISPATCH(RefitNodes)(tree, level, begin, end, nodes);
 }
@@ -337,6 +402,11 @@ void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std
 void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
                VisitTriangle visit, void* receiver) {
     VOX_SIMD_DISPATCH(FindNear)(tree, part, p, reach, visit, receiver);
+}
+
+void find_nearest_first(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
+                        VisitTriangle visit, void* receiver) {
+    VOX_SIMD_DISPATCH(FindNearestFirst)(tree, part, p, reach, visit, receiver);
 }
 
 } // namespace vox::depth

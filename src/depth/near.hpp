@@ -21,43 +21,50 @@ struct alignas(32) TreeLeaf {
 struct alignas(32) TreeNode {
     float axis[3][3][tree_width];
     float low[3][tree_width], high[3][tree_width];
+    std::uint32_t first_child; // its number
 };
 
-// A complete tree. Level 0 are the leaves; node i of level l > 0 is nodes[first[l] + i], and its children are
-// those of level l - 1 from 8 i on. The last level has one node.
+// A complete tree. Leaves and nodes are numbered, leaves first, then level after level up to the root, which
+// comes last and is a node.
 struct TreeView {
     static constexpr std::size_t most_levels = 12; // for 2^32 triangles
 
     const TreeLeaf* leaves;
-    const TreeNode* nodes;
+    const TreeNode* nodes;          // number leaf_count + i is nodes[i]
     const std::uint32_t* triangles; // of the lanes of the leaves
-    const std::uint32_t* part;      // of the leaves, then of the nodes, or mixed; null: all are of one part
-    std::size_t first[most_levels];
-    std::size_t count[most_levels]; // of leaves, or of nodes of a level
-    std::size_t levels;
+    const std::uint32_t* part;      // by number, of the triangles there, or mixed; null: all are of one part
+    std::uint32_t leaf_count, node_count;
 
     static constexpr std::uint32_t mixed = ~0u; // as the part that is looked for: all of them
 
     // Whether a leaf or node has triangles of a part.
-    bool has(std::uint32_t wanted, std::size_t level, std::size_t index) const noexcept {
-        if (wanted == mixed || !part) return true;
-        const std::uint32_t found = part[level == 0 ? index : count[0] + first[level] + index];
-        return found == wanted || found == mixed;
+    bool has(std::uint32_t wanted, std::uint32_t number) const noexcept {
+        return wanted == mixed || !part || part[number] == wanted || part[number] == mixed;
     }
 };
 
-// Makes the nodes from `begin` to `end` of a level from the leaves, and the nodes of the level below.
-void refit_nodes(const TreeView& tree, std::size_t level, std::size_t begin, std::size_t end,
-                 TreeNode* nodes);
+// Nodes of one level, or some of them: their children are next to each other.
+struct TreeLevel {
+    std::size_t first, count;             // in nodes
+    std::uint32_t first_child, last_child; // numbers
+    std::size_t leaves_below;             // a child, at most
+};
 
+// Makes the nodes of a level from `begin` to `end` from the leaves, and from the nodes below.
+void refit_nodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
+                 TreeNode* nodes);
 
 // The receiver of triangles. It returns a new reach, not more than the last one.
 using VisitTriangle = float (*)(void* receiver, std::uint32_t triangle);
 
-// Calls visit for the triangles of a part, or all, that may be within `reach` of p, the nearest first as far
-// as that is known. The distances compared are rounded: with coordinates up to M in magnitude, p included,
+// Calls visit for the triangles of a part, or all, that may be within `reach` of p. Where that is infinite, it
+// begins with some that are near. The distances compared are rounded: with coordinates up to M in magnitude, p included,
 // they are too large by at most 2^-19 M and a factor of 1 + 2^-20, which is for the caller to add to `reach`.
 void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
                VisitTriangle visit, void* receiver);
+
+// The same, the nearest boxes first: slower, but better where the reach that is known is much too long.
+void find_nearest_first(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
+                        VisitTriangle visit, void* receiver);
 
 } // namespace vox::depth
