@@ -452,63 +452,95 @@ private:
 
 } // namespace
 
-// Receives the triangles near a point that lies in a fold, and tries the places where they are closest.
+// Receives the triangles near a vertex that is in a fold, and keeps the nearest places.
 class SurfaceTree::NearestPlaces {
 public:
-    // `first` is the closest, which no straight line reaches, and `squared_exit` the squared distance within
-    // which minima are tried.
-    NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, const Closest& first,
-                  double squared_exit, SearchState& state)
-        : tree_(tree), query_(tree, line.p), line_(line), part_(part), squared_exit_(squared_exit),
-          state_(state), places_(*tree.solid_.topology), minima_(*tree.solid_.topology) {
-        const Place place(*tree.solid_.topology, first.at);
-        places_.add(place, first);
-        if (is_local_minimum(tree.solid_, place, way_to(tree.solid_, place, line.p, first)))
-            minima_.add(place, first);
-    }
+    NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, SearchState& state)
+        : tree_(tree), query_(tree, line.p), line_(line), part_(part), state_(state),
+          places_(*tree.solid_.topology) {}
 
-    // Returns whether there is a place that is reached.
+    // Returns whether a straight line reaches one of them, not the first, which was tried before.
     bool run(Closest& out) {
         const auto visit = [](void* self, std::uint32_t triangle) {
             auto& nearest = *static_cast<NearestPlaces*>(self);
             nearest.look_at(triangle);
-            return nearest.reach();
+            return nearest.query_.reach(nearest.places_.squared());
         };
-        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit, this);
-        if (!is_reached_ || !(places_.has(reached_.place) || minima_.has(reached_.place))) return false;
-        out = reached_.found;
-        return true;
+        find_nearest_first(tree_.view_, part_, query_.point(), query_.reach(infinity), visit, this);
+        for (const FoundPlace* next = places_.begin() + 1; next < places_.end(); ++next) {
+            const Vec3d way = way_to(tree_.solid_, next->place, line_.p, next->found);
+            if (!tree_.reaches(line_, way)) continue;
+            out = next->found;
+            return true;
+        }
+        return false;
     }
+
+    bool has(const Place& place) const { return places_.has(place); }
 
 private:
-    static constexpr std::size_t most_places = 4, most_minima = 8;
-
-    float reach() const {
-        double squared = std::max(places_.squared(), std::min(squared_exit_, minima_.squared()));
-        if (is_reached_) squared = std::min(squared, reached_.found.squared);
-        return query_.reach(squared);
-    }
-
     void look_at(std::uint32_t triangle) {
         const Triangle& corners = tree_.solid_.topology->triangles[triangle];
         if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
         ++state_.visited;
         const Closest found = closest_point(tree_.solid_, triangle, line_.p);
-        if (is_reached_ && !places_.before(found, reached_.found)) return;
-        bool is_place = places_.wants(found);
-        bool is_minimum = found.squared <= squared_exit_ && minima_.wants(found);
-        if (!is_place && !is_minimum) return;
+        if (places_.wants(found)) places_.add(Place(*tree_.solid_.topology, found.at), found);
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Line line_;
+    const std::uint32_t part_;
+    SearchState& state_;
+    Nearest<4> places_;
+};
+
+// Receives the triangles near a vertex that is in a fold, and tries the nearest places where the distance has
+// a local minimum.
+class SurfaceTree::NearestMinima {
+public:
+    // Those in `tried` are known not to be reached. None is tried at a greater squared distance than
+    // `squared_exit`.
+    NearestMinima(const SurfaceTree& tree, const Line& line, std::uint32_t part, const NearestPlaces& tried,
+                  double squared_exit, SearchState& state)
+        : tree_(tree), query_(tree, line.p), line_(line), part_(part), tried_(tried),
+          squared_exit_(squared_exit), state_(state), minima_(*tree.solid_.topology) {}
+
+    // Returns whether a straight line reaches one of them.
+    bool run(Closest& out) {
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestMinima*>(self);
+            nearest.look_at(triangle);
+            return nearest.reach();
+        };
+        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit, this);
+        if (!is_reached_ || !minima_.has(reached_.place)) return false;
+        out = reached_.found;
+        return true;
+    }
+
+private:
+    float reach() const {
+        const double squared = std::min(squared_exit_, minima_.squared());
+        return query_.reach(is_reached_ ? std::min(squared, reached_.found.squared) : squared);
+    }
+
+    // Each is tried at once, since one that is reached makes the search short.
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
+        ++state_.visited;
+        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
+        if (found.squared > squared_exit_ || !minima_.wants(found)) return;
+        if (is_reached_ && !minima_.before(found, reached_.found)) return;
         const Place place(*tree_.solid_.topology, found.at);
         const Vec3d way = way_to(tree_.solid_, place, line_.p, found);
-        is_minimum = is_minimum && is_local_minimum(tree_.solid_, place, way);
-        if (!is_place && !is_minimum) return;
-        const bool is_known = places_.has(place) || minima_.has(place);
-        if (is_place) places_.add(place, found);
-        if (is_minimum) minima_.add(place, found);
-        double squared_exit = 0;
+        const bool is_known = minima_.has(place);
+        if (!is_known && !is_local_minimum(tree_.solid_, place, way)) return;
+        minima_.add(place, found);
         // A place is tried once, and belongs to the first of the triangles that meet there.
         if (is_known ? !(is_reached_ && reached_.place == place)
-                     : !tree_.reaches(line_, way, squared_exit))
+                     : tried_.has(place) || !tree_.reaches(line_, way))
             return;
         is_reached_ = true;
         reached_ = {place, found};
@@ -518,49 +550,60 @@ private:
     const Query query_;
     const Line line_;
     const std::uint32_t part_;
+    const NearestPlaces& tried_;
     const double squared_exit_;
     SearchState& state_;
-    Nearest<most_places> places_; // the nearest ones
-    Nearest<most_minima> minima_; // the nearest ones of those where the distance has a local minimum
+    Nearest<8> minima_;
     FoundPlace reached_;
     bool is_reached_ = false;
 };
 
-// Whether a line leads inside the fold to the point at the end of `way`. Where it does not, `squared_exit` becomes the
-// squared distance at which it leaves the fold, or 0 where it does not leave.
-bool SurfaceTree::reaches(const Line& line, const Vec3d& way, double& squared_exit) const {
-    squared_exit = 0;
-    if (dot(way, way) == 0) return true;
+// The squared distance at which a line in the direction of `way` leaves the fold, or 0 where it does not.
+double SurfaceTree::squared_exit(const Line& line, const Vec3d& way) const {
+    const double beyond = 4 * (length(line.p - middle_) + double{most_} / scale_);
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, line.tet, line.p, line.p + line.times * way, out, tets) ||
+    if (!walk_out(solid_, line.tet, line.p, line.p + (beyond / length(way)) * way, out, tets) ||
         has_corner(solid_.topology->triangles[out.triangle], line.vertex))
-        return false;
-    const Vec3d whole = out.point - line.p, rest = whole - way;
-    squared_exit = dot(whole, whole);
-    constexpr double rounding = 1e-12; // squared
-    return dot(rest, rest) <= rounding * squared_exit;
+        return 0;
+    const Vec3d whole = out.point - line.p;
+    return dot(whole, whole);
 }
 
-bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet,
-                               SearchState& state, Closest& out) const {
+// Whether a line leads inside the fold to the point at the end of `way`.
+bool SurfaceTree::reaches(const Line& line, const Vec3d& way) const {
+    if (dot(way, way) == 0) return true;
+    // The walk goes twice as far, so that rounding does not end it too early.
+    SurfacePoint out;
+    std::uint64_t tets = 0;
+    if (!walk_out(solid_, line.tet, line.p, line.p + 2.0 * way, out, tets)) return false;
+    const Vec3d whole = out.point - line.p, rest = whole - way;
+    constexpr double rounding = 1e-12; // squared
+    return !has_corner(solid_.topology->triangles[out.triangle], line.vertex) &&
+           dot(rest, rest) <= rounding * dot(whole, whole);
+}
+
+bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                               Closest& out) const {
     const std::uint32_t part = part_of(tet);
     if (!find_among(p, vertex, part, state, out)) return find(p, vertex, state, out);
-    // The first line leads out of the body. The others go twice as far as the point, so that rounding does
-    // not end them too early.
-    const double beyond = 4 * (length(p - middle_) + double{most_} / scale_);
-    double squared_exit = 0;
-    if (reaches({p, vertex, tet, std::max(2.0, beyond / length(out.way))}, out.way, squared_exit)) return true;
-    constexpr double rounding = 1 + 1e-9;
-    if (NearestPlaces(*this, {p, vertex, tet, 2}, part, out, rounding * squared_exit, state).run(out))
-        return true;
-    return part == all_parts || find(p, vertex, state, out);
+    const Line line{p, vertex, tet};
+    if (reaches(line, out.way)) return true;
+    NearestPlaces places(*this, line, part, state);
+    Closest other;
+    bool found = places.run(other);
+    if (!found) {
+        const double exit = squared_exit(line, out.way);
+        found = exit > 0 && NearestMinima(*this, line, part, places, exit, state).run(other);
+    }
+    if (found) out = other;
+    return found || part == all_parts || find(p, vertex, state, out);
 }
 
 bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
                                   Closest& out, std::uint64_t& visited) {
-    const bool found = self ? find_in_fold(p, vertex, tet, state_, out)
-                            : find(p, no_vertex, state_, out);
+    const bool found =
+        self ? find_in_fold(p, vertex, tet, state_, out) : find(p, no_vertex, state_, out);
     visited += std::exchange(state_.visited, 0);
     return found;
 }

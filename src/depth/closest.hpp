@@ -89,6 +89,7 @@ private:
     class Query;
     class NearestOne;
     class NearestPlaces;
+    class NearestMinima;
 
     void take_frame();
     void sort_along_curve();
@@ -104,13 +105,12 @@ private:
     bool find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
                     Closest& out) const;
 
-    // A straight line from a vertex at p, in `tet`, through a closest point and `times` as far.
-    struct Line {
+    struct Line { // from a vertex at p, in `tet`
         Vec3d p;
         std::uint32_t vertex, tet;
-        double times;
     };
-    bool reaches(const Line& line, const Vec3d& way, double& squared_exit) const;
+    bool reaches(const Line& line, const Vec3d& way) const;
+    double squared_exit(const Line& line, const Vec3d& way) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
