@@ -4,8 +4,8 @@
 //                     [--budget SEARCHES]
 //
 // Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
-// parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of a
-// step of the default grid over that of a grid that finds contacts alone: least times of steps in which the
+// parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of
+// a step of the default grid over that of a grid that finds contacts alone: least times of steps in which the
 // two take turns. Both have to find the same contacts. The last columns are the share of penetrations that
 // needed a closest point, the nanoseconds of the depth stage for each penetration, and a hash of all
 // penetrations, so that two versions of the library can be compared.
@@ -92,7 +92,8 @@ Bodies fling(const Setting& setting, const Parameters& p, Random& random) {
     for (Vec3f& v : mesh.positions) {
         if (random.unit() >= 0.5 * p[0] * p[0]) continue;
         const double far = 3 * radius * p[1];
-        v = {v.x + random.uniform(-far, far), v.y + random.uniform(-far, far), v.z + random.uniform(-far, far)};
+        v = {v.x + random.uniform(-far, far), v.y + random.uniform(-far, far),
+             v.z + random.uniform(-far, far)};
     }
     return {self(std::move(mesh))};
 }
@@ -188,8 +189,8 @@ Bodies points(const Setting& setting, const Parameters& p, Random& random) {
     Mesh body = ball(setting.tets, &radius), cloud;
     const double reach = radius * (0.001 + p[0]);
     for (int i = 0; i < 200 + int(setting.tets * 0.2 * p[1]); ++i)
-        cloud.positions.push_back({random.uniform(-reach, reach), random.uniform(-reach, reach),
-                                   random.uniform(-reach, reach)});
+        cloud.positions.push_back(
+            {random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)});
     return {std::move(body), std::move(cloud)};
 }
 
@@ -342,8 +343,8 @@ Mesh read_mesh([[maybe_unused]] const std::string& path) {
         mesh.positions.push_back({float(view.positions[3 * v]), float(view.positions[3 * v + 1]),
                                   float(view.positions[3 * v + 2])});
     for (std::uint64_t t = 0; t < view.tet_count; ++t)
-        mesh.tets.push_back({{view.tets[4 * t], view.tets[4 * t + 1], view.tets[4 * t + 2],
-                              view.tets[4 * t + 3]}});
+        mesh.tets.push_back(
+            {{view.tets[4 * t], view.tets[4 * t + 1], view.tets[4 * t + 2], view.tets[4 * t + 3]}});
     vox_io_mesh_destroy(file);
     // Around the origin, 1 wide at most.
     vox::Box3f box = vox::empty_box3f();
@@ -384,11 +385,11 @@ void run(const Options& options) {
             Parameters parameters;
             const double reach = 0.3 * std::pow(0.85, i - options.samples);
             for (std::size_t k = 0; k < parameters.size(); ++k)
-                parameters[k] = i == 0                ? 0.5
-                                : i < options.samples ? random.unit()
-                                                      : std::clamp(best.parameters[k] +
-                                                                       double{random.uniform(-reach, reach)},
-                                                                   0.0, 1.0);
+                parameters[k] =
+                    i == 0 ? 0.5
+                    : i < options.samples
+                        ? random.unit()
+                        : std::clamp(best.parameters[k] + double{random.uniform(-reach, reach)}, 0.0, 1.0);
             const Result result = measure(kind, setting, parameters, options.steps, options.budget);
             print(kind.name, result);
             if (result.ratio > best.ratio) best = result;
@@ -429,8 +430,9 @@ int main(int argc, char** argv) {
             known = false;
     }
     if (!known || !(options.tets >= 1000) || options.samples < 1 || options.climb < 0 || options.steps < 2) {
-        std::fprintf(stderr, "usage: bench_depth_worst [--tets N >= 1000] [--samples K] [--climb K] [--steps K >= 2] "
-                             "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
+        std::fprintf(stderr,
+                     "usage: bench_depth_worst [--tets N >= 1000] [--samples K] [--climb K] [--steps K >= 2] "
+                     "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
         return 2;
     }
     return bench::run_program("bench_depth_worst", [&] {

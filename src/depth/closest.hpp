@@ -33,8 +33,8 @@ struct SearchState {
     std::uint64_t visited = 0; // triangles whose closest point was computed
 };
 
-// A tree over the triangles of a surface. It is built once for a topology, and fitted to the positions of each
-// step. Searches only read it.
+// A tree over the triangles of a surface. It is built once for a topology, and fitted to the positions of
+// each step. Searches only read it.
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)

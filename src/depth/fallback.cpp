@@ -1,5 +1,5 @@
-// Points are searched in the order of a Z-shaped curve, in chunks that do not depend on the workers: each search
-// within a chunk begins with the triangle that the last one found.
+// Points are searched in the order of a Z-shaped curve, in chunks that do not depend on the workers: each
+// search within a chunk begins with the triangle that the last one found.
 #include "depth/fallback.hpp"
 
 #include "base/boxes.hpp"
@@ -52,8 +52,7 @@ Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const 
     sort_items(scene);
     list_chunks();
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-        for (std::size_t i = begin; i < end; ++i)
-            search(scene, chunks_[i], workers_[worker]);
+        for (std::size_t i = begin; i < end; ++i) search(scene, chunks_[i], workers_[worker]);
     };
     constexpr std::size_t least = 8; // chunks that are worth a task
     if (workers)
@@ -183,9 +182,8 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     const Vec3d p = scene.position(point);
     const Solid solid = scene.solid(item.body_b);
     Closest closest;
-    const bool found =
-        tree && (item.self ? tree->find_in_fold(p, point.vertex, point.tet, state, closest)
-                           : tree->find(p, SurfaceTree::no_vertex, state, closest));
+    const bool found = tree && (item.self ? tree->find_in_fold(p, point.vertex, point.tet, state, closest)
+                                          : tree->find(p, SurfaceTree::no_vertex, state, closest));
     point.depth = found ? length(closest.way) : 0;
     point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
     if (length(point.direction) > 0) return;

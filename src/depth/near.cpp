@@ -96,14 +96,13 @@ HWY_INLINE unsigned BoundTriangles(const TreeLeaf& leaf, const V3& p, float reac
         set(both(hn::Le(vc, zero), both(hn::Ge(d1, zero), hn::Le(d3, zero))), d1, zero, hn::Sub(d1, d3));
         set(both(hn::Ge(d3, zero), hn::Le(d4, d3)), one, zero, one);
         set(both(hn::Le(d1, zero), hn::Le(d2, zero)), zero, zero, one);
-        const V3 g =
-            Sub3(Sub3(ap, Scale3(hn::Div(b, whole), ab)), Scale3(hn::Div(c, whole), ac));
+        const V3 g = Sub3(Sub3(ap, Scale3(hn::Div(b, whole), ab)), Scale3(hn::Div(c, whole), ac));
         const V squared = Dot3(g, g);
         const V bound = hn::Sub(Dot3(g, ap), hn::Max(zero, hn::Max(Dot3(g, ab), Dot3(g, ac))));
         hn::Store(bound, d, out.bound + lane);
         hn::Store(squared, d, out.squared + lane);
-        const M far = both(hn::Gt(bound, zero),
-                           hn::Gt(hn::Mul(bound, bound), hn::Mul(squared_reach, squared)));
+        const M far =
+            both(hn::Gt(bound, zero), hn::Gt(hn::Mul(bound, bound), hn::Mul(squared_reach, squared)));
         near |= Bits(hn::Not(far)) << lane;
     }
     return near;
@@ -381,8 +380,8 @@ void RefitNodes(const TreeView& tree, const TreeLevel& level, std::size_t begin,
             AxesOf(normal, axes);
             const std::size_t first = (i * tree_width + child) * level.leaves_below;
             const std::size_t rest = tree.leaf_count - first;
-            BoxOfLeaves(tree.leaves + first, rest < level.leaves_below ? rest : level.leaves_below, axes, node,
-                        child);
+            BoxOfLeaves(tree.leaves + first, rest < level.leaves_below ? rest : level.leaves_below, axes,
+                        node, child);
         }
     }
 }

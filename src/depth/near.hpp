@@ -45,9 +45,9 @@ struct TreeView {
 
 // Nodes of one level, or some of them: their children are next to each other.
 struct TreeLevel {
-    std::size_t first, count;             // in nodes
+    std::size_t first, count;              // in nodes
     std::uint32_t first_child, last_child; // numbers
-    std::size_t leaves_below;             // a child, at most
+    std::size_t leaves_below;              // a child, at most
 };
 
 // Makes the nodes of a level from `begin` to `end` from the leaves, and from the nodes below.
@@ -57,9 +57,10 @@ void refit_nodes(const TreeView& tree, const TreeLevel& level, std::size_t begin
 // The receiver of triangles. It returns a new reach, not more than the last one.
 using VisitTriangle = float (*)(void* receiver, std::uint32_t triangle);
 
-// Calls visit for the triangles of a part, or all, that may be within `reach` of p. Where that is infinite, it
-// begins with some that are near. The distances compared are rounded: with coordinates up to M in magnitude, p included,
-// they are too large by at most 2^-19 M and a factor of 1 + 2^-20, which is for the caller to add to `reach`.
+// Calls visit for the triangles of a part, or all, that may be within `reach` of p. Where that is infinite,
+// it begins with some that are near. The distances compared are rounded: with coordinates up to M in
+// magnitude, p included, they are too large by at most 2^-19 M and a factor of 1 + 2^-20, which is for the
+// caller to add to `reach`.
 void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
                VisitTriangle visit, void* receiver);
 

@@ -42,8 +42,8 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     for_each(pairs_, points_.size(),
              [&](const Range& range, Worker& worker) { find_consistent(scene, range, worker); });
     Counts fallback_counts;
-    const auto [searches, unknown] = fallback_.find(bodies, topologies, hits, closest_budget, workers, points_,
-                                                    fallback_counts);
+    const auto [searches, unknown] =
+        fallback_.find(bodies, topologies, hits, closest_budget, workers, points_, fallback_counts);
 
     workers_.level();
 

@@ -30,13 +30,12 @@ public:
     DepthStage& operator=(const DepthStage&) = delete;
 
     // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
-    // order (make_contacts), and `topologies` has one for each body. `closest_budget` as in vox_grid_desc. Sets
-    // the counters from `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be null;
-    // the result does not depend on them.
+    // order (make_contacts), and `topologies` has one for each body. `closest_budget` as in vox_grid_desc.
+    // Sets the counters from `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be
+    // null; the result does not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-              std::span<const Hit> hits, std::span<const vox_contact> contacts,
-              std::uint64_t closest_budget, Workers* workers,
-              std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
+              std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
+              Workers* workers, std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
 
     // What is kept of meshes has to follow them.
     depth::Fallback& fallback() noexcept { return fallback_; }
@@ -51,8 +50,7 @@ private:
         std::size_t place; // index of its penetration
     };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory)
-            : number(memory), queue(memory), normals(memory) {}
+        explicit Worker(std::pmr::memory_resource* memory) : number(memory), queue(memory), normals(memory) {}
 
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
@@ -73,8 +71,8 @@ private:
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);
 
     std::pmr::vector<Start> starts_;
-    std::pmr::vector<depth::Point> points_;      // pair after pair, each in the order of vertices
-    std::pmr::vector<Range> pairs_;              // in points_
+    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
+    std::pmr::vector<Range> pairs_;         // in points_
     PerWorker<Worker> workers_;
     depth::Fallback fallback_;
 };

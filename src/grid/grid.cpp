@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace vox {
@@ -57,9 +58,10 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
+      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size),
+      used_cell_size_(desc.cell_size), meshes_(&memory_), bodies_(&memory_), prepared_(&memory_),
+      fast_engine_(&memory_), reference_(&memory_), topologies_(&memory_), depth_(&memory_), hits_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
       queries_(&memory_) {}
 
@@ -268,17 +270,19 @@ void vox_grid::step() {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
     }
-    if (counters.unknown_penetrations > 0 && log_.write)
-        write_log(VOX_LOG_WARNING,
-                  format("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
-                         static_cast<unsigned long long>(counters.unknown_penetrations),
-                         static_cast<unsigned long long>(counters.penetrations),
-                         static_cast<unsigned long long>(closest_budget_))
-                      .c_str());
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     contacts_hold_ = meshes_hold_ = fast_;
+    if (counters.unknown_penetrations > 0 && log_.write) { // without memory, as the step has succeeded
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
+                      static_cast<unsigned long long>(counters.unknown_penetrations),
+                      static_cast<unsigned long long>(counters.penetrations),
+                      static_cast<unsigned long long>(closest_budget_));
+        write_log(VOX_LOG_WARNING, text);
+    }
 }
 
 void vox_grid::gather_bodies(vox_counters& counters) {

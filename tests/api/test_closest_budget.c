@@ -11,7 +11,8 @@ typedef struct scene {
 } scene;
 
 static scene make_scene(void) {
-    scene s = {make_box(5, 0.25f, 0, 0, 0), make_lattice_ball(&five_cut_exchanged, 4, 3.3), make_box(5, 0.25f, 3, 0, 0)};
+    scene s = {make_box(5, 0.25f, 0, 0, 0), make_lattice_ball(&five_cut_exchanged, 4, 3.3),
+               make_box(5, 0.25f, 3, 0, 0)};
     for (uint32_t i = 0; i < 3 * s.inner.vertex_count; ++i)
         s.inner.positions[i] = 0.12f * s.inner.positions[i] + 0.61f;
     uint64_t random = 3;
@@ -27,7 +28,8 @@ static void free_scene(scene* s) {
 }
 
 static void insert_scene(vox_grid* grid, const scene* s) {
-    vox_mesh_desc tangled = body_desc(&s->tangled), inner = body_desc(&s->inner), outer = body_desc(&s->outer);
+    vox_mesh_desc tangled = body_desc(&s->tangled), inner = body_desc(&s->inner),
+                  outer = body_desc(&s->outer);
     tangled.flags = VOX_MESH_SELF_COLLISION;
     insert_mesh(grid, &inner);
     insert_mesh(grid, &tangled);

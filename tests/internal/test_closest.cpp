@@ -1,5 +1,5 @@
-// The search for the closest point of a surface, against all triangles one by one: in bodies and in folds, with
-// any instruction set, and whatever positions the tree was fitted to before.
+// The search for the closest point of a surface, against all triangles one by one: in bodies and in folds,
+// with any instruction set, and whatever positions the tree was fitted to before.
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/points.hpp"
@@ -177,7 +177,8 @@ bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) 
     return true;
 }
 
-// The rule of docs/depth.md, for a mesh of one part. `squared_exit` is where a line to the closest point leaves the fold.
+// The rule of docs/depth.md, for a mesh of one part. `squared_exit` is where a line to the closest point
+// leaves the fold.
 Closest by_definition(const Solid& solid, std::uint32_t vertex, std::uint32_t tet, const Vec3d& p,
                       const std::vector<Closest>& all) {
     const auto reached = [&](const Vec3d& way) { return is_reached(solid, vertex, tet, p, way); };
@@ -276,7 +277,8 @@ START_TEST(folds_do_not_depend_on_the_past) {
     std::vector<Closest> forwards(contacts.size());
     SearchState state;
     for (std::size_t i = 0; i < contacts.size(); ++i)
-        ck_assert(fresh.find_in_fold(p.at(contacts[i][0]), contacts[i][0], contacts[i][1], state, forwards[i]));
+        ck_assert(
+            fresh.find_in_fold(p.at(contacts[i][0]), contacts[i][0], contacts[i][1], state, forwards[i]));
     state = {};
     for (std::size_t i = contacts.size(); i-- > 0;) {
         Closest found{};
