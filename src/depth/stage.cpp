@@ -21,13 +21,13 @@ Solid DepthStage::Scene::solid(std::uint32_t body) const {
 
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                       std::span<const Hit> hits, std::span<const vox_contact> contacts,
-                      std::uint64_t closest_budget, Workers* workers,
-                      std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters) {
-    penetrations.clear();
-    if (hits.empty()) return;
+                      std::uint64_t closest_budget, Workers* workers, Penetrations& penetrations,
+                      vox_counters& counters) {
+    const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.penetration_mask == 0; });
+    if (hits.empty() || none) return penetrations.clear();
     const Scene scene{bodies, topologies, hits};
     make_room(hits.size(), workers ? workers->count() : 1);
-    list_points(scene, contacts);
+    const std::size_t count = list_points(scene, contacts);
     // The number of points that is worth a task.
     constexpr std::size_t least = 512;
     const auto for_each = [&](std::span<const Range> ranges, std::size_t points, auto&& function) {
@@ -48,19 +48,12 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     workers_.level();
 
     penetrations.reserve(hits.size());
-    penetrations.resize(points_.size());
+    penetrations.carry(bodies, hits, count);
     for (const Point& point : points_) {
         const vox_contact& contact = contacts[point.hit];
-        const double depth = std::min<double>(point.depth, std::numeric_limits<float>::max());
-        penetrations[point.place] = {contact.mesh_a,
-                                     contact.vertex,
-                                     contact.mesh_b,
-                                     point.state,
-                                     point.hit,
-                                     static_cast<float>(depth),
-                                     {static_cast<float>(point.direction.x),
-                                      static_cast<float>(point.direction.y),
-                                      static_cast<float>(point.direction.z)}};
+        penetrations.set(point.place,
+                         {contact.mesh_a, contact.vertex, contact.mesh_b, point.state, point.hit, 0, {}},
+                         point.depth, point.direction);
     }
     counters.closest_searches = searches;
     counters.closest_tests = fallback_counts.closest_tests;
@@ -82,19 +75,23 @@ void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
 }
 
 // Hits are sorted by body_a, vertex and body_b; the points are sorted by body_a, body_b and vertex.
-void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
+std::size_t DepthStage::list_points(const Scene& scene, std::span<const vox_contact> contacts) {
     points_.clear();
     pairs_.clear();
     const std::span<const Hit> hits = scene.hits;
+    std::size_t places = 0;
     const auto before = [](const Start& x, const Start& y) {
         return std::tie(x.body_b, x.place) < std::tie(y.body_b, y.place);
     };
     for (std::size_t first = 0, last; first < hits.size(); first = last) {
         starts_.clear();
         for (last = first; last < hits.size() && hits[last].body_a == hits[first].body_a; ++last)
-            if (last == first || hits[last].vertex != hits[last - 1].vertex ||
-                hits[last].body_b != hits[last - 1].body_b)
-                starts_.push_back({hits[last].body_b, last, points_.size() + starts_.size()});
+            if (is_first_of_vertex(hits, last)) {
+                const Body &a = scene.bodies[hits[last].body_a], &b = scene.bodies[hits[last].body_b];
+                const PenetrationSource source = penetration_source(a, b);
+                if (source == PenetrationSource::found) starts_.push_back({hits[last].body_b, last, places});
+                places += source != PenetrationSource::none;
+            }
         if (!std::is_sorted(starts_.begin(), starts_.end(), before))
             std::sort(starts_.begin(), starts_.end(), before);
         for (std::size_t i = 0; i < starts_.size(); ++i) {
@@ -111,6 +108,7 @@ void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> co
             pairs_.back().last = points_.size();
         }
     }
+    return places;
 }
 
 void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {

@@ -6,6 +6,7 @@
 #include "base/scene.hpp"
 #include "depth/fallback.hpp"
 #include "depth/normals.hpp"
+#include "depth/penetrations.hpp"
 #include "depth/points.hpp"
 #include "mesh/topology.hpp"
 
@@ -29,13 +30,14 @@ public:
     DepthStage(const DepthStage&) = delete;
     DepthStage& operator=(const DepthStage&) = delete;
 
-    // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
-    // order (make_contacts), and `topologies` has one for each body. `closest_budget` as in vox_grid_desc.
-    // Sets the counters from `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be
-    // null; the result does not depend on them.
+    // Replaces `penetrations` by those of `contacts`; those of bodies at rest stay. `hits` are what the
+    // contacts were made of, in the same order (make_contacts), and `topologies` has one for each body.
+    // `closest_budget` as in vox_grid_desc; what stays takes nothing of it. Sets the counters from
+    // `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be null; the result does
+    // not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
               std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
-              Workers* workers, std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
+              Workers* workers, Penetrations& penetrations, vox_counters& counters);
 
     // What is kept of meshes has to follow them.
     depth::Fallback& fallback() noexcept { return fallback_; }
@@ -67,7 +69,8 @@ private:
     };
 
     void make_room(std::size_t contacts, std::size_t worker_count);
-    void list_points(const Scene& scene, std::span<const vox_contact> contacts);
+    // Returns the number of all penetrations, with those that are carried over.
+    std::size_t list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);
 
     std::pmr::vector<Start> starts_;

@@ -1,4 +1,5 @@
-// Contacts are grouped by the mesh that the vertices are in, so that the tree over its surface is built once.
+// First all but the surfaces, contact by contact. Then the surfaces, by the mesh that the vertices are in, so
+// that the tree over its triangles is built once.
 #include "grid/readings.hpp"
 
 #include "base/bits.hpp"
@@ -6,10 +7,10 @@
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace vox {
@@ -32,8 +33,6 @@ Vec3d scaled(const Vec3d& v) noexcept {
 
 // The unit vector along the cross product; zero where that is.
 Vec3d unit_normal(const Vec3d& u, const Vec3d& v) noexcept { return normalised(cross(scaled(u), scaled(v))); }
-
-vox_mesh id_of(const ReadingBody& b) noexcept { return b.body.mesh_id; }
 
 Solid solid_of(const ReadingBody& b) noexcept { return {b.topology, b.body.tets, b.body.positions}; }
 
@@ -71,138 +70,231 @@ void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, v
 } // namespace
 
 Readings::Readings(std::pmr::memory_resource* memory)
-    : bodies_(memory), runs_(memory), groups_(memory), trees_(memory), readings_(memory) {}
+    : ids_(memory), bodies_(memory), chosen_(memory), asks_(memory), asks_of_body_(memory), trees_(memory),
+      readings_(memory), depths_(memory) {}
 
-std::span<const vox_reading> Readings::all() const {
+void Readings::require_prepared() const {
     if (!prepared_)
         throw Error(VOX_ERROR_INVALID_STATE, "the contacts of the last step were not read: call "
                                              "vox_grid_prepare_readings after it");
-    return readings_;
 }
 
-std::span<ReadingBody> Readings::list_meshes(const Events& events) {
-    bodies_.clear();
-    bodies_.reserve(2 * events.pairs().size());
-    for (const vox_pair& pair : events.pairs())
-        for (const vox_mesh mesh : {pair.mesh_a, pair.mesh_b}) bodies_.emplace_back().body.mesh_id = mesh;
-    std::ranges::sort(bodies_, {}, id_of);
-    const auto same = [](const ReadingBody& x, const ReadingBody& y) { return id_of(x) == id_of(y); };
-    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
+const vox_reading* Readings::find(std::uint64_t contact) const noexcept {
+    if (contact < readings_.size() && readings_[contact].contact == contact) return &readings_[contact];
+    const auto at = std::ranges::lower_bound(readings_, contact, {}, &vox_reading::contact);
+    return at != readings_.end() && at->contact == contact ? &*at : nullptr;
+}
+
+// ---- which contacts --------------------------------------------------------------------------------
+
+std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vox_mesh> meshes) {
+    all_ = meshes.empty();
+    ids_.clear();
+    ids_.reserve(2 * events.pairs().size());
+    chosen_.clear();
+    events.for_pairs_of(meshes, [&](const vox_pair& pair) {
+        ids_.insert(ids_.end(), {pair.mesh_a, pair.mesh_b});
+        const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
+        if (!all_) chosen_.insert(chosen_.end(), contacts.begin(), contacts.end());
+    });
+    std::ranges::sort(chosen_);
+    std::ranges::sort(ids_);
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    bodies_.assign(ids_.size(), {});
+    for (std::size_t i = 0; i < ids_.size(); ++i) bodies_[i].body.mesh_id = ids_[i];
+    events.for_pairs_of(meshes, [&](const vox_pair& pair) {
+        ReadingBody &a = bodies_[body_of(pair.mesh_a)], &b = bodies_[body_of(pair.mesh_b)];
+        a.user_data = pair.user_data_a;
+        b.user_data = pair.user_data_b;
+        a.is_entered |= pair.b_in_a > 0;
+        b.is_entered |= pair.a_in_b > 0;
+    });
     return bodies_;
 }
 
-const ReadingBody& Readings::body_of(vox_mesh mesh) const noexcept {
-    return *std::ranges::lower_bound(bodies_, mesh, {}, id_of);
+std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(ids_, mesh) - ids_.begin());
 }
 
-void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
-                       const Events& events, Workers& workers) {
+// ---- all of them -----------------------------------------------------------------------------------
+
+void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts,
+                       const Penetrations& penetrations, Workers& workers) {
+    const Step step{what, contacts, penetrations.all(), penetrations.depths()};
+    const std::size_t count = all_ ? contacts.size() : chosen_.size();
+    const bool surfaces = (what & VOX_READING_SURFACE) != 0;
+    if (what & (VOX_READING_POSITION | VOX_READING_SURFACE)) check_positions(step, count);
     // Room for all comes first: after it only a task system of the caller can fail.
-    std::size_t triangles = 0;
-    for (const ReadingBody& body : bodies_)
-        if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
-    runs_.reserve(2 * events.pairs().size());
-    groups_.reserve(2 * events.pairs().size());
-    trees_.reserve(workers.count());
-    while (trees_.size() < workers.count()) trees_.emplace_back(readings_.get_allocator().resource());
-    for (SurfaceTree& tree : trees_) tree.reserve(triangles);
-    readings_.reserve(contacts.size());
+    if (surfaces) {
+        std::size_t triangles = 0;
+        for (const ReadingBody& body : bodies_)
+            if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
+        trees_.reserve(workers.count());
+        while (trees_.size() < workers.count()) trees_.emplace_back(readings_.get_allocator().resource());
+        for (SurfaceTree& tree : trees_) tree.reserve(triangles);
+        asks_.reserve(count);
+        asks_of_body_.reserve(bodies_.size());
+    }
+    const std::size_t depths = what & VOX_READING_DEPTH ? count : 0;
+    depths_.reserve(depths);
+    readings_.reserve(count);
 
     prepared_ = false;
-    readings_.assign(contacts.size(), {});
-    list_depths(penetrations);
-    list_runs(events);
-    constexpr std::size_t least = 512; // contacts that are worth a task
-    const std::size_t groups = groups_.size();
-    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-        for (std::size_t g = begin; g < end; ++g) read(groups_[g], contacts, trees_[worker]);
+    readings_.resize(count);
+    depths_.resize(depths);
+    const auto share = [&](std::size_t items, std::size_t least, bool is_worth_it, auto&& function) {
+        if (is_worth_it)
+            workers.for_ranges(items, least, function);
+        else
+            function(0, items, 0);
     };
-    if (contacts.size() <= least)
-        run(0, groups, 0);
-    else
-        workers.for_ranges(groups, std::max<std::size_t>(groups * least / contacts.size(), 1), run);
+    // At most one task: that of the surfaces takes longer.
+    constexpr std::size_t least_copies = 8192, least_searches = 512; // that are worth a task
+    share(count, least_copies, !surfaces && count > least_copies,
+          [&](std::size_t begin, std::size_t end, std::uint32_t) {
+              read_range({begin, end}, step);
+          });
+    if (surfaces) {
+        list_asks(step);
+        share(bodies_.size(), std::max<std::size_t>(bodies_.size() * least_searches / (asks_.size() + 1), 1),
+              asks_.size() > least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+                  for (std::size_t b = begin; b < end; ++b)
+                      read_surfaces(asks_of_body_[b], step, trees_[worker]);
+              });
+    }
     prepared_ = true;
 }
 
-// Penetrations are in the order of contacts, one for all of the same vertex and mesh.
-void Readings::list_depths(std::span<const vox_penetration> penetrations) noexcept {
-    for (std::size_t i = 0; i < readings_.size(); ++i) readings_[i].contact = i;
-    for (std::size_t n = 0; n < penetrations.size(); ++n) {
-        const vox_penetration& from = penetrations[n];
-        const std::size_t end = n + 1 < penetrations.size()
-                                    ? static_cast<std::size_t>(penetrations[n + 1].contact)
-                                    : readings_.size();
-        for (auto i = static_cast<std::size_t>(from.contact); i < end; ++i) {
-            vox_reading& to = readings_[i];
-            to.state = from.state;
-            to.depth = from.depth;
-            std::copy_n(from.direction, 3, to.direction);
-            to.known |= VOX_READING_DEPTH;
+// Where a vertex is, and whether that is known.
+bool Readings::has_position(const ReadingBody& a, std::uint32_t vertex) noexcept {
+    return a.is_present && vertex < a.body.vertex_count && !has_bit(a.body.removed_vertices, vertex);
+}
+
+std::size_t Readings::end_of_vertex(std::size_t first, std::size_t last, const Step& step) const noexcept {
+    const vox_contact& contact = step.contacts[contact_of(first)];
+    for (++first; first < last; ++first) {
+        const vox_contact& next = step.contacts[contact_of(first)];
+        if (next.vertex != contact.vertex || next.mesh_a != contact.mesh_a || next.mesh_b != contact.mesh_b)
+            break;
+    }
+    return first;
+}
+
+void Readings::check_positions(const Step& step, std::size_t count) const {
+    const ReadingBody* a = nullptr;
+    for (std::size_t k = 0; k < count; k = end_of_vertex(k, count, step)) {
+        const vox_contact& contact = step.contacts[contact_of(k)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (has_position(*a, contact.vertex)) check_finite(a->body, contact.vertex);
+    }
+}
+
+// ---- all but the surfaces --------------------------------------------------------------------------
+
+// Penetrations are in the order of contacts, one for all of the same vertex and mesh, or none.
+void Readings::read_range(const Range& range, const Step& step) noexcept {
+    const ReadingBody *a = nullptr, *b = nullptr;
+    auto next = step.penetrations.begin(); // the first one after the contact
+    for (std::size_t k = range.first, last; k < range.last; k = last) {
+        last = end_of_vertex(k, range.last, step);
+        const std::uint32_t index = contact_of(k);
+        const vox_contact& contact = step.contacts[index];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (!b || b->body.mesh_id != contact.mesh_b) b = &bodies_[body_of(contact.mesh_b)];
+        vox_reading out{};
+        out.user_data_a = a->user_data;
+        out.user_data_b = b->user_data;
+        if ((step.what & VOX_READING_POSITION) && has_position(*a, contact.vertex)) {
+            write(out.position, a->body.positions.exact(contact.vertex));
+            out.known |= VOX_READING_POSITION;
         }
-    }
-}
-
-void Readings::list_runs(const Events& events) {
-    runs_.clear();
-    groups_.clear();
-    for (const vox_pair& pair : events.pairs()) {
-        const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
-        const ReadingBody *a = &body_of(pair.mesh_a), *b = &body_of(pair.mesh_b);
-        const auto a_in_b = static_cast<std::size_t>(pair.a_in_b);
-        if (pair.a_in_b > 0)
-            runs_.push_back({pair.mesh_b, a, b, contacts.first(a_in_b), pair.user_data_a, pair.user_data_b});
-        if (pair.b_in_a > 0)
-            runs_.push_back(
-                {pair.mesh_a, b, a, contacts.subspan(a_in_b), pair.user_data_b, pair.user_data_a});
-    }
-    std::sort(runs_.begin(), runs_.end(), [](const Run& x, const Run& y) {
-        return std::tuple(x.mesh_b, x.contacts.data()) < std::tuple(y.mesh_b, y.contacts.data());
-    });
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (i == 0 || runs_[i].mesh_b != runs_[i - 1].mesh_b) groups_.push_back({i, i});
-        groups_.back().last = i + 1;
-    }
-}
-
-void Readings::read(const Group& group, std::span<const vox_contact> contacts, SurfaceTree& tree) {
-    const ReadingBody& b = *runs_[group.first].b;
-    const bool has_surface = b.topology && !b.topology->triangles.empty();
-    if (has_surface) tree.build(solid_of(b));
-    for (std::size_t r = group.first; r < group.last; ++r) {
-        const std::span<const std::uint32_t> all = runs_[r].contacts;
-        for (std::size_t first = 0, last; first < all.size(); first = last) {
-            last = first + 1;
-            while (last < all.size() && contacts[all[last]].vertex == contacts[all[first]].vertex) ++last;
-            vox_reading& out = readings_[all[first]];
-            read_vertex(runs_[r], all.subspan(first, last - first), contacts, has_surface ? &tree : nullptr,
-                        out);
-            for (std::size_t i = first + 1; i < last; ++i) { // in several tetrahedra
-                readings_[all[i]] = out;
-                readings_[all[i]].contact = all[i];
+        vox_depth depth{};
+        if (step.what & VOX_READING_DEPTH) {
+            const auto end = step.penetrations.end();
+            if (next != end && next->contact <= index) ++next; // as a rule it is the next one
+            if (next != end && next->contact <= index)
+                next = std::upper_bound(next, end, index, [](std::uint32_t i, const vox_penetration& p) {
+                    return i < p.contact;
+                });
+            if (next != step.penetrations.begin()) {
+                const vox_penetration& from = next[-1];
+                if (from.vertex == contact.vertex && from.mesh_a == contact.mesh_a &&
+                    from.mesh_b == contact.mesh_b) {
+                    out.state = from.state;
+                    out.depth = from.depth;
+                    std::copy_n(from.direction, 3, out.direction);
+                    out.known |= VOX_READING_DEPTH;
+                    depth = step.depths[static_cast<std::size_t>(&from - step.penetrations.data())];
+                }
             }
         }
+        for (std::size_t same = k; same < last; ++same) { // in several tetrahedra
+            out.contact = contact_of(same);
+            readings_[same] = out;
+            if (step.what & VOX_READING_DEPTH) depths_[same] = depth;
+        }
     }
 }
 
-void Readings::read_vertex(const Run& run, std::span<const std::uint32_t> same,
-                           std::span<const vox_contact> contacts, SurfaceTree* tree, vox_reading& out) {
-    const Body &a = run.a->body, &b = run.b->body;
-    const std::uint32_t vertex = contacts[same[0]].vertex;
-    out.user_data_a = run.user_data_a;
-    out.user_data_b = run.user_data_b;
-    if (!run.a->topology || vertex >= a.vertex_count || has_bit(a.removed_vertices, vertex)) return;
-    const Vec3d p = a.positions.exact(vertex);
-    write(out.position, p);
-    out.known |= VOX_READING_POSITION;
-    // The first of the tetrahedra with the vertex that is still on.
-    const auto tet = std::find_if(same.begin(), same.end(), [&](std::uint32_t contact) {
-        return contacts[contact].tet < b.tets.size() && !has_bit(b.off, contacts[contact].tet);
+// ---- surfaces --------------------------------------------------------------------------------------
+
+// A counting sort by the mesh that is asked.
+void Readings::list_asks(const Step& step) noexcept {
+    asks_.clear();
+    asks_of_body_.assign(bodies_.size(), {0, 0});
+    const auto for_each = [&](auto&& visit) {
+        const ReadingBody* a = nullptr;
+        std::uint32_t b = 0;
+        for (std::size_t k = 0, last; k < readings_.size(); k = last) {
+            last = end_of_vertex(k, readings_.size(), step);
+            const vox_contact& contact = step.contacts[contact_of(k)];
+            if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+            if (ids_[b] != contact.mesh_b) b = body_of(contact.mesh_b);
+            if (bodies_[b].topology && has_position(*a, contact.vertex)) visit(b, k);
+        }
+    };
+    for_each([&](std::uint32_t b, std::size_t) { ++asks_of_body_[b].last; });
+    std::size_t placed = 0;
+    for (Range& range : asks_of_body_) {
+        placed += std::exchange(range.last, placed);
+        range.first = range.last;
+    }
+    asks_.resize(placed);
+    for_each([&](std::uint32_t b, std::size_t k) {
+        asks_[asks_of_body_[b].last++] = static_cast<std::uint32_t>(k);
     });
-    if (!tree || tet == same.end()) return;
-    Closest closest;
-    std::uint64_t visited = 0;
-    if (tree->find_of_contact(p, vertex, contacts[*tet].tet, run.a == run.b, closest, visited))
-        write_surface(solid_of(*run.b), p, closest, out);
+}
+
+void Readings::read_surfaces(const Range& asks, const Step& step, SurfaceTree& tree) {
+    if (asks.first == asks.last) return;
+    const ReadingBody* a = nullptr;
+    const ReadingBody& b = bodies_[body_of(step.contacts[contact_of(asks_[asks.first])].mesh_b)];
+    const Solid solid = solid_of(b);
+    tree.build(solid);
+    for (std::size_t i = asks.first; i < asks.last; ++i) {
+        const std::size_t first = asks_[i], last = end_of_vertex(first, readings_.size(), step);
+        const vox_contact& contact = step.contacts[contact_of(first)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        // The first of the tetrahedra with the vertex that is still on.
+        std::size_t at = first;
+        const auto is_on = [&](std::size_t k) {
+            const std::uint32_t tet = step.contacts[contact_of(k)].tet;
+            return tet < b.body.tets.size() && !has_bit(b.body.off, tet);
+        };
+        while (at < last && !is_on(at)) ++at;
+        if (at == last) continue;
+        const Vec3d p = a->body.positions.exact(contact.vertex);
+        Closest closest;
+        std::uint64_t visited = 0;
+        if (!tree.find_of_contact(p, contact.vertex, step.contacts[contact_of(at)].tet, a == &b, closest,
+                                  visited))
+            continue;
+        write_surface(solid, p, closest, readings_[first]);
+        for (std::size_t k = first + 1; k < last; ++k) {
+            readings_[k] = readings_[first];
+            readings_[k].contact = contact_of(k);
+        }
+    }
 }
 
 } // namespace vox

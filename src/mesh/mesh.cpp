@@ -39,6 +39,11 @@ void Mesh::make_topology() {
     has_topology_ = true;
 }
 
+void Mesh::drop_topology() noexcept {
+    topology_ = Topology(memory());
+    has_topology_ = false;
+}
+
 // From the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
@@ -91,6 +96,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .tets = tets_,
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},
+            .penetration_mask = filter_.penetration_mask,
             .exceptions = exceptions_,
             .self_filter =
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,

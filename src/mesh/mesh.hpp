@@ -39,6 +39,9 @@ public:
     // Makes the topology, unless that is done.
     void make_topology();
     const Topology& topology() const noexcept { return topology_; }
+    bool has_topology() const noexcept { return has_topology_; }
+    // Gives its memory back.
+    void drop_topology() noexcept;
 
     // What suggestions of a cell size look at, made at the first call, from the topology where that is made.
     const MeshSample& sample() const;
