@@ -11,12 +11,14 @@ namespace vox {
 void Penetrations::clear() noexcept {
     all_.clear();
     depths_.clear();
+    closest_.clear();
     carried_ = 0;
 }
 
 void Penetrations::reserve(std::uint64_t count) {
     reserve_exactly(all_, count);
     reserve_exactly(depths_, count);
+    reserve_exactly(closest_, count);
 }
 
 void Penetrations::carry(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t count) {
@@ -25,6 +27,7 @@ void Penetrations::carry(std::span<const Body> bodies, std::span<const Hit> hits
     if (std::ranges::any_of(bodies, &Body::carried)) keep_carried(bodies, hits);
     all_.resize(count);
     depths_.resize(count);
+    closest_.resize(count);
     if (carried_ > 0) spread_carried(bodies, hits);
 }
 
@@ -39,6 +42,7 @@ void Penetrations::keep_carried(std::span<const Body> bodies, std::span<const Hi
         while (key(all_[old]) != std::tuple(a.mesh_id, hits[i].vertex, b.mesh_id)) ++old;
         all_[carried_] = all_[old];
         depths_[carried_] = depths_[old];
+        closest_[carried_] = closest_[old];
         ++carried_;
     }
 }
@@ -57,17 +61,19 @@ void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const 
         all_[place] = all_[left];
         all_[place].contact = i - 1;
         depths_[place] = depths_[left];
+        closest_[place] = closest_[left];
     }
 }
 
 void Penetrations::set(std::size_t place, const vox_penetration& penetration, double depth,
-                       const Vec3d& direction) noexcept {
+                       const Vec3d& direction, std::uint32_t closest) noexcept {
     all_[place] = penetration;
     all_[place].depth = static_cast<float>(std::min<double>(depth, std::numeric_limits<float>::max()));
     all_[place].direction[0] = static_cast<float>(direction.x);
     all_[place].direction[1] = static_cast<float>(direction.y);
     all_[place].direction[2] = static_cast<float>(direction.z);
     depths_[place] = {depth, {direction.x, direction.y, direction.z}};
+    closest_[place] = closest;
 }
 
 } // namespace vox

@@ -31,7 +31,8 @@ inline bool is_first_of_vertex(std::span<const Hit> hits, std::size_t i) noexcep
 
 class Penetrations {
 public:
-    explicit Penetrations(std::pmr::memory_resource* memory) : all_(memory), depths_(memory) {}
+    explicit Penetrations(std::pmr::memory_resource* memory)
+        : all_(memory), depths_(memory), closest_(memory) {}
 
     void clear() noexcept;
     // Never gives room back. Throws what the memory throws.
@@ -40,11 +41,13 @@ public:
     // Keeps those of the last step that are carried over, and moves them to their places among the
     // penetrations of `hits`, of which there are `count`. The rest is to be set.
     void carry(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t count);
-    void set(std::size_t place, const vox_penetration& penetration, double depth,
-             const Vec3d& direction) noexcept;
+    void set(std::size_t place, const vox_penetration& penetration, double depth, const Vec3d& direction,
+             std::uint32_t closest) noexcept;
 
     std::span<const vox_penetration> all() const noexcept { return all_; }
     std::span<const vox_depth> depths() const noexcept { return depths_; } // of each
+    // For each the triangle of mesh_b's surface that is closest, where that was searched (depth/points.hpp).
+    std::span<const std::uint32_t> closest() const noexcept { return closest_; }
 
     // How many carry() kept.
     std::size_t carried() const noexcept { return carried_; }
@@ -55,6 +58,7 @@ private:
 
     std::pmr::vector<vox_penetration> all_;
     std::pmr::vector<vox_depth> depths_;
+    std::pmr::vector<std::uint32_t> closest_;
     std::size_t carried_ = 0;
 };
 

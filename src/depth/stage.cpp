@@ -53,7 +53,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
         const vox_contact& contact = contacts[point.hit];
         penetrations.set(point.place,
                          {contact.mesh_a, contact.vertex, contact.mesh_b, point.state, point.hit, 0, {}},
-                         point.depth, point.direction);
+                         point.depth, point.direction, point.closest);
     }
     counters.closest_searches = searches;
     counters.closest_tests = fallback_counts.closest_tests;

@@ -365,6 +365,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             body.off_count = 0;
         }
         topologies_.push_back(&mesh.topology());
+        slot.topology_version = mesh.topology_version();
         if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
     });
 }
@@ -505,6 +506,7 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
         check_finite(reading.body);
         mesh.make_topology();
         if (!mesh.topology().triangles.empty()) reading.topology = &mesh.topology();
+        reading.is_as_stepped = mesh.topology_version() == meshes_[id].topology_version;
     }
     readings_.prepare(desc.what, contacts_, penetrations_, workers_);
 }

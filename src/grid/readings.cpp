@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
+#include "depth/points.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/check.hpp"
 
@@ -120,7 +121,7 @@ std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
 
 void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts,
                        const Penetrations& penetrations, Workers& workers) {
-    const Step step{what, contacts, penetrations.all(), penetrations.depths()};
+    const Step step{what, contacts, penetrations};
     const std::size_t count = all_ ? contacts.size() : chosen_.size();
     const bool surfaces = (what & VOX_READING_SURFACE) != 0;
     if (what & (VOX_READING_POSITION | VOX_READING_SURFACE)) check_positions(step, count);
@@ -191,14 +192,46 @@ void Readings::check_positions(const Step& step, std::size_t count) const {
 
 // ---- all but the surfaces --------------------------------------------------------------------------
 
-// Penetrations are in the order of contacts, one for all of the same vertex and mesh, or none.
+// Goes through the penetrations along with contacts, which ascend. They are in the same order, one for all of
+// the same vertex and mesh, or none.
+class Readings::PenetrationOf {
+public:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    explicit PenetrationOf(const Step& step) : all_(step.penetrations.all()), contacts_(step.contacts) {}
+
+    // The place of that of a contact, or none.
+    std::size_t operator()(std::uint32_t index) noexcept {
+        if (is_reached(index)) ++next_; // as a rule that is all
+        if (is_reached(index))
+            next_ = static_cast<std::size_t>(
+                std::upper_bound(all_.begin() + static_cast<std::ptrdiff_t>(next_), all_.end(), index,
+                                 [](std::uint32_t i, const vox_penetration& p) { return i < p.contact; }) -
+                all_.begin());
+        if (next_ == 0) return none;
+        const vox_penetration& last = all_[next_ - 1];
+        const vox_contact& contact = contacts_[index];
+        const bool same =
+            last.vertex == contact.vertex && last.mesh_a == contact.mesh_a && last.mesh_b == contact.mesh_b;
+        return same ? next_ - 1 : none;
+    }
+
+private:
+    bool is_reached(std::uint32_t index) const noexcept {
+        return next_ < all_.size() && all_[next_].contact <= index;
+    }
+
+    std::span<const vox_penetration> all_;
+    std::span<const vox_contact> contacts_;
+    std::size_t next_ = 0; // the first one after the contact
+};
+
 void Readings::read_range(const Range& range, const Step& step) noexcept {
     const ReadingBody *a = nullptr, *b = nullptr;
-    auto next = step.penetrations.begin(); // the first one after the contact
+    PenetrationOf penetration_of(step);
     for (std::size_t k = range.first, last; k < range.last; k = last) {
         last = end_of_vertex(k, range.last, step);
-        const std::uint32_t index = contact_of(k);
-        const vox_contact& contact = step.contacts[index];
+        const vox_contact& contact = step.contacts[contact_of(k)];
         if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
         if (!b || b->body.mesh_id != contact.mesh_b) b = &bodies_[body_of(contact.mesh_b)];
         vox_reading out{};
@@ -209,24 +242,15 @@ void Readings::read_range(const Range& range, const Step& step) noexcept {
             out.known |= VOX_READING_POSITION;
         }
         vox_depth depth{};
-        if (step.what & VOX_READING_DEPTH) {
-            const auto end = step.penetrations.end();
-            if (next != end && next->contact <= index) ++next; // as a rule it is the next one
-            if (next != end && next->contact <= index)
-                next = std::upper_bound(next, end, index, [](std::uint32_t i, const vox_penetration& p) {
-                    return i < p.contact;
-                });
-            if (next != step.penetrations.begin()) {
-                const vox_penetration& from = next[-1];
-                if (from.vertex == contact.vertex && from.mesh_a == contact.mesh_a &&
-                    from.mesh_b == contact.mesh_b) {
-                    out.state = from.state;
-                    out.depth = from.depth;
-                    std::copy_n(from.direction, 3, out.direction);
-                    out.known |= VOX_READING_DEPTH;
-                    depth = step.depths[static_cast<std::size_t>(&from - step.penetrations.data())];
-                }
-            }
+        const std::size_t place =
+            step.what & VOX_READING_DEPTH ? penetration_of(contact_of(k)) : PenetrationOf::none;
+        if (place != PenetrationOf::none) {
+            const vox_penetration& from = step.penetrations.all()[place];
+            out.state = from.state;
+            out.depth = from.depth;
+            std::copy_n(from.direction, 3, out.direction);
+            out.known |= VOX_READING_DEPTH;
+            depth = step.penetrations.depths()[place];
         }
         for (std::size_t same = k; same < last; ++same) { // in several tetrahedra
             out.contact = contact_of(same);
@@ -260,19 +284,24 @@ void Readings::list_asks(const Step& step) noexcept {
         range.first = range.last;
     }
     asks_.resize(placed);
+    PenetrationOf penetration_of(step);
     for_each([&](std::uint32_t b, std::size_t k) {
-        asks_[asks_of_body_[b].last++] = static_cast<std::uint32_t>(k);
+        const std::size_t place =
+            bodies_[b].is_as_stepped ? penetration_of(contact_of(k)) : PenetrationOf::none;
+        const std::uint32_t closest =
+            place != PenetrationOf::none ? step.penetrations.closest()[place] : no_triangle;
+        asks_[asks_of_body_[b].last++] = {static_cast<std::uint32_t>(k), closest};
     });
 }
 
 void Readings::read_surfaces(const Range& asks, const Step& step, SurfaceTree& tree) {
     if (asks.first == asks.last) return;
     const ReadingBody* a = nullptr;
-    const ReadingBody& b = bodies_[body_of(step.contacts[contact_of(asks_[asks.first])].mesh_b)];
+    const ReadingBody& b = bodies_[body_of(step.contacts[contact_of(asks_[asks.first].first)].mesh_b)];
     const Solid solid = solid_of(b);
-    tree.build(solid);
+    bool has_tree = false;
     for (std::size_t i = asks.first; i < asks.last; ++i) {
-        const std::size_t first = asks_[i], last = end_of_vertex(first, readings_.size(), step);
+        const std::size_t first = asks_[i].first, last = end_of_vertex(first, readings_.size(), step);
         const vox_contact& contact = step.contacts[contact_of(first)];
         if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
         // The first of the tetrahedra with the vertex that is still on.
@@ -285,10 +314,16 @@ void Readings::read_surfaces(const Range& asks, const Step& step, SurfaceTree& t
         if (at == last) continue;
         const Vec3d p = a->body.positions.exact(contact.vertex);
         Closest closest;
-        std::uint64_t visited = 0;
-        if (!tree.find_of_contact(p, contact.vertex, step.contacts[contact_of(at)].tet, a == &b, closest,
-                                  visited))
-            continue;
+        if (asks_[i].closest != no_triangle) { // the depth stage has found it
+            closest = closest_point(solid, asks_[i].closest, p);
+        } else {
+            if (!has_tree) tree.build(solid);
+            has_tree = true;
+            std::uint64_t visited = 0;
+            if (!tree.find_of_contact(p, contact.vertex, step.contacts[contact_of(at)].tet, a == &b, closest,
+                                      visited))
+                continue;
+        }
         write_surface(solid, p, closest, readings_[first]);
         for (std::size_t k = first + 1; k < last; ++k) {
             readings_[k] = readings_[first];

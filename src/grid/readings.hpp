@@ -24,8 +24,9 @@ struct ReadingBody {
     Body body{};
     const Topology* topology = nullptr; // null: its surface is not read, or it has none
     std::uint64_t user_data = 0;
-    bool is_present = false; // else it was removed since the step
-    bool is_entered = false; // by vertices whose contacts are read
+    bool is_present = false;    // else it was removed since the step
+    bool is_entered = false;    // by vertices whose contacts are read
+    bool is_as_stepped = false; // its topology is that of the step
 };
 
 class Readings {
@@ -56,9 +57,13 @@ private:
     struct Step {
         std::uint32_t what;
         std::span<const vox_contact> contacts;
-        std::span<const vox_penetration> penetrations;
-        std::span<const vox_depth> depths; // of the penetrations
+        const Penetrations& penetrations;
     };
+    // The readings of a vertex with a surface: the first, and the triangle closest to it, if that is known.
+    struct Ask {
+        std::uint32_t first, closest;
+    };
+    class PenetrationOf;
     struct Range {
         std::size_t first, last;
     };
@@ -80,7 +85,7 @@ private:
     std::pmr::vector<ReadingBody> bodies_;
     bool all_ = true;                            // all contacts are read, else those
     std::pmr::vector<std::uint32_t> chosen_;     // ascending
-    std::pmr::vector<std::uint32_t> asks_;       // by mesh_b, the first reading of each vertex with a surface
+    std::pmr::vector<Ask> asks_;                 // by mesh_b
     std::pmr::vector<Range> asks_of_body_;       // in asks_
     std::pmr::vector<depth::SurfaceTree> trees_; // of each worker
     std::pmr::vector<vox_reading> readings_;

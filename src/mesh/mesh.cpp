@@ -37,11 +37,13 @@ void Mesh::make_topology() {
     if (has_topology_) return;
     vox::make_topology(tets_, vertex_count_, topology_);
     has_topology_ = true;
+    ++topology_version_;
 }
 
 void Mesh::drop_topology() noexcept {
     topology_ = Topology(memory());
     has_topology_ = false;
+    ++topology_version_;
 }
 
 // From the heap, as a const call must not use the memory of the grid.

@@ -40,6 +40,8 @@ public:
     void make_topology();
     const Topology& topology() const noexcept { return topology_; }
     bool has_topology() const noexcept { return has_topology_; }
+    // Grows when the topology is made, changed or dropped.
+    std::uint32_t topology_version() const noexcept { return topology_version_; }
     // Gives its memory back.
     void drop_topology() noexcept;
 
@@ -145,6 +147,7 @@ private:
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
+    std::uint32_t topology_version_ = 0;
     bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
