@@ -13,7 +13,6 @@ namespace vox::depth {
 
 namespace {
 
-constexpr std::uint32_t no_tree = ~0u;
 constexpr std::size_t chunk_size = 64;
 
 bool needs_search(const Point& point) {
@@ -22,18 +21,9 @@ bool needs_search(const Point& point) {
 
 } // namespace
 
-Fallback::Fallback(std::pmr::memory_resource* memory)
-    : trees_(memory), tree_of_body_(memory), used_(memory), items_(memory), places_(memory), chunks_(memory),
+Fallback::Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees)
+    : trees_(trees), tree_of_body_(memory), used_(memory), items_(memory), places_(memory), chunks_(memory),
       workers_(memory) {}
-
-void Fallback::topology_changed(std::uint32_t mesh_id) noexcept {
-    for (Tree& tree : trees_)
-        if (tree.mesh_id == mesh_id) tree.tree.invalidate();
-}
-
-void Fallback::forget(std::uint32_t mesh_id) noexcept {
-    std::erase_if(trees_, [mesh_id](const Tree& tree) { return tree.mesh_id == mesh_id; });
-}
 
 Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                                   std::span<const Hit> hits, std::uint64_t budget, Workers* workers,
@@ -95,40 +85,29 @@ std::uint64_t Fallback::spend(const Scene& scene, std::uint64_t budget) {
 
 // The trees of all bodies that points are searched in, fitted to their positions.
 void Fallback::update_trees(const Scene& scene, Workers* workers) {
-    constexpr std::uint32_t wanted = no_tree - 1, wanted_with_folds = no_tree - 2;
-    tree_of_body_.assign(scene.bodies.size(), no_tree);
+    tree_of_body_.assign(scene.bodies.size(), {});
     for (const Item& item : items_) {
         if (scene.topologies[item.body_b]->triangles.empty()) continue;
-        std::uint32_t& tree = tree_of_body_[item.body_b];
-        if (tree != wanted_with_folds) tree = item.self ? wanted_with_folds : wanted;
+        BodyTree& tree = tree_of_body_[item.body_b];
+        tree.is_wanted = true;
+        tree.folds |= item.self;
     }
-    for (std::uint32_t b = 0; b < tree_of_body_.size(); ++b) {
-        if (tree_of_body_[b] == no_tree) continue;
-        const std::uint32_t id = scene.bodies[b].mesh_id;
-        const auto place = std::ranges::lower_bound(trees_, id, {}, &Tree::mesh_id);
-        if (place == trees_.end() || place->mesh_id != id)
-            trees_.insert(place, {id, SurfaceTree(trees_.get_allocator().resource()), false});
-    }
-    // Bodies and trees are both in the order of ids.
     used_.clear();
     used_.reserve(scene.bodies.size());
+    for (std::uint32_t b = 0; b < tree_of_body_.size(); ++b)
+        if (tree_of_body_[b].is_wanted) {
+            trees_.add(scene.bodies[b].mesh_id);
+            used_.push_back(b);
+        }
+    for (const std::uint32_t b : used_) tree_of_body_[b].tree = &trees_[scene.bodies[b].mesh_id];
     std::size_t large = 0;
-    std::uint32_t t = 0;
-    for (std::uint32_t b = 0; b < tree_of_body_.size(); ++b) {
-        if (tree_of_body_[b] == no_tree) continue;
-        while (trees_[t].mesh_id != scene.bodies[b].mesh_id) ++t;
-        trees_[t].folds = tree_of_body_[b] == wanted_with_folds;
-        tree_of_body_[b] = t;
-        used_.push_back(b);
-    }
     // Workers share a large tree, and each takes some of the small ones.
     constexpr std::size_t least_shared = 4096; // triangles
     const auto is_large = [&](std::uint32_t b) {
         return scene.topologies[b]->triangles.size() >= least_shared;
     };
     const auto update = [&](std::uint32_t b, Workers* shared) {
-        Tree& tree = trees_[tree_of_body_[b]];
-        tree.tree.update(scene.solid(b), tree.folds, shared);
+        tree_of_body_[b].tree->update(scene.solid(b), tree_of_body_[b].folds, shared);
     };
     for (const std::uint32_t b : used_)
         if (is_large(b)) {
@@ -147,11 +126,11 @@ void Fallback::update_trees(const Scene& scene, Workers* workers) {
 
 void Fallback::sort_items(const Scene& scene) {
     for (Item& item : items_) {
-        if (tree_of_body_[item.body_b] == no_tree) continue;
-        const SurfaceTree& tree = trees_[tree_of_body_[item.body_b]].tree;
+        const SurfaceTree* tree = tree_of_body_[item.body_b].tree;
+        if (!tree) continue;
         const Point& point = scene.points[item.point];
-        if (item.self) item.part = tree.part_of(point.tet);
-        item.code = tree.place_on_curve(scene.position(point));
+        if (item.self) item.part = tree->part_of(point.tet);
+        item.code = tree->place_on_curve(scene.position(point));
     }
     std::sort(items_.begin(), items_.end(), [](const Item& x, const Item& y) {
         return std::tie(x.body_b, x.part, x.code, x.point) < std::tie(y.body_b, y.part, y.code, y.point);
@@ -169,10 +148,9 @@ void Fallback::list_chunks() {
 }
 
 void Fallback::search(const Scene& scene, const Chunk& chunk, Worker& worker) const {
-    const std::uint32_t t = tree_of_body_[items_[chunk.first].body_b];
+    const SurfaceTree* tree = tree_of_body_[items_[chunk.first].body_b].tree;
     SearchState state;
-    for (std::size_t i = chunk.first; i < chunk.last; ++i)
-        search_one(scene, items_[i], t == no_tree ? nullptr : &trees_[t].tree, state, worker);
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) search_one(scene, items_[i], tree, state, worker);
     worker.counts.closest_tests += state.visited;
 }
 
@@ -184,6 +162,7 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     Closest closest;
     const bool found = tree && (item.self ? tree->find_in_fold(p, point.vertex, point.tet, state, closest)
                                           : tree->find(p, SurfaceTree::no_vertex, state, closest));
+    if (found) point.closest = closest.at.triangle;
     point.depth = found ? length(closest.way) : 0;
     point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
     if (length(point.direction) > 0) return;

@@ -3,9 +3,9 @@
 
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
-#include "depth/closest.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
+#include "depth/surface_trees.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,15 +19,10 @@ class Workers;
 
 namespace vox::depth {
 
-// Keeps a tree of each mesh that needed one, and buffers, from step to step.
+// Keeps buffers from step to step.
 class Fallback {
 public:
-    explicit Fallback(std::pmr::memory_resource* memory);
-
-    // The topology of a mesh has changed, or it was removed; or all were.
-    void topology_changed(std::uint32_t mesh_id) noexcept;
-    void forget(std::uint32_t mesh_id) noexcept;
-    void forget_all() noexcept { trees_.clear(); }
+    Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees);
 
     // Depth and direction of all points that are ENCLOSED or CROSSING, or, where there are more than
     // `budget`, of the first ones by their place; the others become UNKNOWN. A budget of 0 is no limit.
@@ -41,10 +36,9 @@ public:
                   Counts& counts);
 
 private:
-    struct Tree {
-        std::uint32_t mesh_id;
-        SurfaceTree tree;
-        bool folds; // whether they are searched in this step
+    struct BodyTree { // of a body that is searched
+        SurfaceTree* tree = nullptr;
+        bool is_wanted = false, folds = false;
     };
     struct Item { // a point that is searched
         std::uint32_t body_b, part, code;
@@ -84,9 +78,9 @@ private:
     void search_one(const Scene& scene, const Item& item, const SurfaceTree* tree, SearchState& state,
                     Worker& worker) const;
 
-    std::pmr::vector<Tree> trees_;                 // by mesh id
-    std::pmr::vector<std::uint32_t> tree_of_body_; // index in trees_, or none
-    std::pmr::vector<std::uint32_t> used_;         // indices in trees_ of this step
+    SurfaceTrees& trees_;
+    std::pmr::vector<BodyTree> tree_of_body_;
+    std::pmr::vector<std::uint32_t> used_; // bodies with a tree in this step
     std::pmr::vector<Item> items_;
     std::pmr::vector<std::size_t> places_; // for the budget
     std::pmr::vector<Chunk> chunks_;

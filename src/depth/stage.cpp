@@ -5,15 +5,14 @@
 #include "depth/consistent.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 namespace vox {
 
 using namespace depth;
 
-DepthStage::DepthStage(std::pmr::memory_resource* memory)
-    : starts_(memory), points_(memory), pairs_(memory), workers_(memory), fallback_(memory) {}
+DepthStage::DepthStage(std::pmr::memory_resource* memory, SurfaceTrees& trees)
+    : starts_(memory), points_(memory), pairs_(memory), workers_(memory), fallback_(memory, trees) {}
 
 Solid DepthStage::Scene::solid(std::uint32_t body) const {
     return {topologies[body], bodies[body].tets, bodies[body].positions};

@@ -26,7 +26,8 @@ class Workers;
 // workers.
 class DepthStage {
 public:
-    explicit DepthStage(std::pmr::memory_resource* memory);
+    // `trees` has to live as long.
+    DepthStage(std::pmr::memory_resource* memory, depth::SurfaceTrees& trees);
     DepthStage(const DepthStage&) = delete;
     DepthStage& operator=(const DepthStage&) = delete;
 
@@ -38,9 +39,6 @@ public:
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
               std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
               Workers* workers, Penetrations& penetrations, vox_counters& counters);
-
-    // What is kept of meshes has to follow them.
-    depth::Fallback& fallback() noexcept { return fallback_; }
 
 private:
     struct Range {

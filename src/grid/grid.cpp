@@ -62,12 +62,13 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
+      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size),
+      used_cell_size_(desc.cell_size), meshes_(&memory_), bodies_(&memory_), prepared_(&memory_),
+      fast_engine_(&memory_), reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
       queries_(&memory_) {
-    if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_);
+    if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -99,13 +100,13 @@ void vox_grid::scene_changed() noexcept {
 
 void vox_grid::remove(vox_mesh id) {
     meshes_.remove(id);
-    depth_->fallback().forget(id);
+    trees_.forget(id);
     scene_changed();
 }
 
 void vox_grid::clear() {
     meshes_.clear();
-    depth_->fallback().forget_all();
+    trees_.forget_all();
     scene_changed();
     contacts_.clear();
     penetrations_.clear();
@@ -131,7 +132,10 @@ void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
         if (!had_topology) filtered.drop_topology();
         throw;
     }
-    if (needed_it && !needs_topology(filter)) filtered.drop_topology();
+    if (needed_it && !needs_topology(filter)) {
+        filtered.drop_topology();
+        trees_.forget(id);
+    }
     mark_moved(id);
 }
 
@@ -162,7 +166,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
     mark_moved(id);
-    depth_->fallback().topology_changed(id);
+    trees_.topology_changed(id);
     adaptive_.scene_changed();
 }
 
@@ -173,7 +177,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     fast::MeshState state(&memory_);
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
-    depth_->fallback().topology_changed(id);
+    trees_.topology_changed(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
 }
@@ -241,7 +245,7 @@ void vox_grid::set_flags(std::uint32_t flags) {
 
 // All meshes get what the depth stage needs, or none.
 void vox_grid::find_penetrations() {
-    depth_.emplace(&memory_);
+    depth_.emplace(&memory_, trees_);
     std::pmr::vector<Mesh*> prepared(&memory_);
     try {
         prepared.reserve(meshes_.slot_count());
@@ -260,6 +264,7 @@ void vox_grid::find_penetrations() {
 void vox_grid::stop_finding_penetrations() noexcept {
     meshes_.for_each([](vox_mesh, MeshSlot& slot) { slot.mesh.drop_topology(); });
     depth_.reset();
+    trees_.forget_all();
     penetrations_ = Penetrations(&memory_);
 }
 
@@ -508,7 +513,7 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
         if (!mesh.topology().triangles.empty()) reading.topology = &mesh.topology();
         reading.is_as_stepped = mesh.topology_version() == meshes_[id].topology_version;
     }
-    readings_.prepare(desc.what, contacts_, penetrations_, workers_);
+    readings_.prepare(desc.what, contacts_, penetrations_, trees_, workers_);
 }
 
 // ---- queries ---------------------------------------------------------------------------------------

@@ -126,9 +126,9 @@ private:
     bool fast_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
     std::uint64_t closest_budget_;
-    double requested_cell_size_;      // 0: the library chooses it; the fast engine itself, for each window
-    double used_cell_size_;           // in the last step; before the first one the requested one
-    vox::AdaptiveCellSize adaptive_;  // chooses for the reference engine
+    double requested_cell_size_;     // 0: the library chooses it; the fast engine itself, for each window
+    double used_cell_size_;          // in the last step; before the first one the requested one
+    vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
 
     vox::MeshTable meshes_;
 
@@ -138,6 +138,7 @@ private:
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage
+    vox::depth::SurfaceTrees trees_;                    // that depths and readings search
     std::optional<vox::DepthStage> depth_;              // while it finds penetrations
     std::pmr::vector<vox::Hit> hits_;
 

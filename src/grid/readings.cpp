@@ -1,5 +1,5 @@
-// First all but the surfaces, contact by contact. Then the surfaces, by the mesh that the vertices are in, so
-// that the tree over its triangles is built once.
+// First all but the surfaces, contact by contact. Then the surfaces, by the mesh that the vertices are in, in
+// the order of a curve, so that each search begins next to the one before.
 #include "grid/readings.hpp"
 
 #include "base/bits.hpp"
@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 namespace vox {
 
@@ -71,8 +71,7 @@ void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, v
 } // namespace
 
 Readings::Readings(std::pmr::memory_resource* memory)
-    : ids_(memory), bodies_(memory), chosen_(memory), asks_(memory), asks_of_body_(memory), trees_(memory),
-      readings_(memory), depths_(memory) {}
+    : ids_(memory), bodies_(memory), chosen_(memory), asks_(memory), readings_(memory), depths_(memory) {}
 
 void Readings::require_prepared() const {
     if (!prepared_)
@@ -120,21 +119,16 @@ std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
 // ---- all of them -----------------------------------------------------------------------------------
 
 void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts,
-                       const Penetrations& penetrations, Workers& workers) {
+                       const Penetrations& penetrations, SurfaceTrees& trees, Workers& workers) {
     const Step step{what, contacts, penetrations};
     const std::size_t count = all_ ? contacts.size() : chosen_.size();
     const bool surfaces = (what & VOX_READING_SURFACE) != 0;
+    // First all that can fail, but for a task system of the caller.
     if (what & (VOX_READING_POSITION | VOX_READING_SURFACE)) check_positions(step, count);
-    // Room for all comes first: after it only a task system of the caller can fail.
     if (surfaces) {
-        std::size_t triangles = 0;
-        for (const ReadingBody& body : bodies_)
-            if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
-        trees_.reserve(workers.count());
-        while (trees_.size() < workers.count()) trees_.emplace_back(readings_.get_allocator().resource());
-        for (SurfaceTree& tree : trees_) tree.reserve(triangles);
-        asks_.reserve(count);
-        asks_of_body_.reserve(bodies_.size());
+        list_asks(step, count);
+        fit_trees(trees);
+        sort_asks(step);
     }
     const std::size_t depths = what & VOX_READING_DEPTH ? count : 0;
     depths_.reserve(depths);
@@ -143,26 +137,18 @@ void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts
     prepared_ = false;
     readings_.resize(count);
     depths_.resize(depths);
-    const auto share = [&](std::size_t items, std::size_t least, bool is_worth_it, auto&& function) {
-        if (is_worth_it)
-            workers.for_ranges(items, least, function);
-        else
-            function(0, items, 0);
-    };
     // At most one task: that of the surfaces takes longer.
-    constexpr std::size_t least_copies = 8192, least_searches = 512; // that are worth a task
-    share(count, least_copies, !surfaces && count > least_copies,
-          [&](std::size_t begin, std::size_t end, std::uint32_t) {
-              read_range({begin, end}, step);
-          });
-    if (surfaces) {
-        list_asks(step);
-        share(bodies_.size(), std::max<std::size_t>(bodies_.size() * least_searches / (asks_.size() + 1), 1),
-              asks_.size() > least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-                  for (std::size_t b = begin; b < end; ++b)
-                      read_surfaces(asks_of_body_[b], step, trees_[worker]);
-              });
-    }
+    constexpr std::size_t least_copies = 8192, least_searches = 256; // that are worth a task
+    const auto share = [&](bool is_task, std::size_t items, std::size_t least, auto&& function) {
+        const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { function({begin, end}); };
+        if (is_task && items > least)
+            workers.for_ranges(items, least, run);
+        else
+            run(0, items, 0);
+    };
+    share(!surfaces, count, least_copies, [&](const Range& range) { read_range(range, step); });
+    if (surfaces)
+        share(true, asks_.size(), least_searches, [&](const Range& asks) { read_surfaces(asks, step); });
     prepared_ = true;
 }
 
@@ -262,71 +248,82 @@ void Readings::read_range(const Range& range, const Step& step) noexcept {
 
 // ---- surfaces --------------------------------------------------------------------------------------
 
-// A counting sort by the mesh that is asked.
-void Readings::list_asks(const Step& step) noexcept {
+void Readings::list_asks(const Step& step, std::size_t count) {
     asks_.clear();
-    asks_of_body_.assign(bodies_.size(), {0, 0});
-    const auto for_each = [&](auto&& visit) {
-        const ReadingBody* a = nullptr;
-        std::uint32_t b = 0;
-        for (std::size_t k = 0, last; k < readings_.size(); k = last) {
-            last = end_of_vertex(k, readings_.size(), step);
-            const vox_contact& contact = step.contacts[contact_of(k)];
-            if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
-            if (ids_[b] != contact.mesh_b) b = body_of(contact.mesh_b);
-            if (bodies_[b].topology && has_position(*a, contact.vertex)) visit(b, k);
-        }
-    };
-    for_each([&](std::uint32_t b, std::size_t) { ++asks_of_body_[b].last; });
-    std::size_t placed = 0;
-    for (Range& range : asks_of_body_) {
-        placed += std::exchange(range.last, placed);
-        range.first = range.last;
-    }
-    asks_.resize(placed);
+    asks_.reserve(count);
+    const ReadingBody* a = nullptr;
+    std::uint32_t b = 0;
     PenetrationOf penetration_of(step);
-    for_each([&](std::uint32_t b, std::size_t k) {
+    for (std::size_t k = 0, last; k < count; k = last) {
+        last = end_of_vertex(k, count, step);
+        const vox_contact& contact = step.contacts[contact_of(k)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (ids_[b] != contact.mesh_b) b = body_of(contact.mesh_b);
+        if (!bodies_[b].topology || !has_position(*a, contact.vertex)) continue;
+        bodies_[b].is_in_itself |= a == &bodies_[b];
         const std::size_t place =
             bodies_[b].is_as_stepped ? penetration_of(contact_of(k)) : PenetrationOf::none;
         const std::uint32_t closest =
             place != PenetrationOf::none ? step.penetrations.closest()[place] : no_triangle;
-        asks_[asks_of_body_[b].last++] = {static_cast<std::uint32_t>(k), closest};
+        asks_.push_back({b, 0, static_cast<std::uint32_t>(k), closest});
+    }
+}
+
+// Of the meshes whose surfaces are searched, for the depth stage has not found all closest points.
+void Readings::fit_trees(SurfaceTrees& trees) {
+    const auto is_searched = [](const Ask& ask) { return ask.closest == no_triangle; };
+    for (const Ask& ask : asks_)
+        if (is_searched(ask)) trees.add(ids_[ask.body_b]);
+    for (const Ask& ask : asks_)
+        if (is_searched(ask)) bodies_[ask.body_b].tree = &trees[ids_[ask.body_b]];
+    for (const ReadingBody& body : bodies_)
+        if (body.tree) body.tree->update(solid_of(body), body.is_in_itself, nullptr);
+}
+
+// So that each search begins next to the one before.
+void Readings::sort_asks(const Step& step) noexcept {
+    const ReadingBody* a = nullptr;
+    for (Ask& ask : asks_) {
+        const SurfaceTree* tree = bodies_[ask.body_b].tree;
+        if (!tree) continue;
+        const vox_contact& contact = step.contacts[contact_of(ask.first)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        ask.code = tree->place_on_curve(a->body.positions.exact(contact.vertex));
+    }
+    std::sort(asks_.begin(), asks_.end(), [](const Ask& x, const Ask& y) {
+        return std::tie(x.body_b, x.code, x.first) < std::tie(y.body_b, y.code, y.first);
     });
 }
 
-void Readings::read_surfaces(const Range& asks, const Step& step, SurfaceTree& tree) {
-    if (asks.first == asks.last) return;
+void Readings::read_surfaces(const Range& asks, const Step& step) noexcept {
     const ReadingBody* a = nullptr;
-    const ReadingBody& b = bodies_[body_of(step.contacts[contact_of(asks_[asks.first].first)].mesh_b)];
-    const Solid solid = solid_of(b);
-    bool has_tree = false;
+    SearchState state;
     for (std::size_t i = asks.first; i < asks.last; ++i) {
-        const std::size_t first = asks_[i].first, last = end_of_vertex(first, readings_.size(), step);
-        const vox_contact& contact = step.contacts[contact_of(first)];
+        const Ask& ask = asks_[i];
+        const ReadingBody& b = bodies_[ask.body_b];
+        const std::size_t last = end_of_vertex(ask.first, readings_.size(), step);
+        const vox_contact& contact = step.contacts[contact_of(ask.first)];
         if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (i > asks.first && asks_[i - 1].body_b != ask.body_b) state.near = SearchState::none;
         // The first of the tetrahedra with the vertex that is still on.
-        std::size_t at = first;
+        std::size_t at = ask.first;
         const auto is_on = [&](std::size_t k) {
             const std::uint32_t tet = step.contacts[contact_of(k)].tet;
             return tet < b.body.tets.size() && !has_bit(b.body.off, tet);
         };
         while (at < last && !is_on(at)) ++at;
         if (at == last) continue;
+        const std::uint32_t tet = step.contacts[contact_of(at)].tet;
         const Vec3d p = a->body.positions.exact(contact.vertex);
         Closest closest;
-        if (asks_[i].closest != no_triangle) { // the depth stage has found it
-            closest = closest_point(solid, asks_[i].closest, p);
-        } else {
-            if (!has_tree) tree.build(solid);
-            has_tree = true;
-            std::uint64_t visited = 0;
-            if (!tree.find_of_contact(p, contact.vertex, step.contacts[contact_of(at)].tet, a == &b, closest,
-                                      visited))
-                continue;
-        }
-        write_surface(solid, p, closest, readings_[first]);
-        for (std::size_t k = first + 1; k < last; ++k) {
-            readings_[k] = readings_[first];
+        if (ask.closest != no_triangle) // the depth stage has found it
+            closest = closest_point(solid_of(b), ask.closest, p);
+        else if (!(a == &b ? b.tree->find_in_fold(p, contact.vertex, tet, state, closest)
+                           : b.tree->find(p, SurfaceTree::no_vertex, state, closest)))
+            continue;
+        write_surface(solid_of(b), p, closest, readings_[ask.first]);
+        for (std::size_t k = ask.first + 1; k < last; ++k) {
+            readings_[k] = readings_[ask.first];
             readings_[k].contact = contact_of(k);
         }
     }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/scene.hpp"
-#include "depth/closest.hpp"
 #include "depth/penetrations.hpp"
+#include "depth/surface_trees.hpp"
 #include "grid/events.hpp"
 
 #include <vox/vox.h>
@@ -24,9 +24,11 @@ struct ReadingBody {
     Body body{};
     const Topology* topology = nullptr; // null: its surface is not read, or it has none
     std::uint64_t user_data = 0;
-    bool is_present = false;    // else it was removed since the step
-    bool is_entered = false;    // by vertices whose contacts are read
-    bool is_as_stepped = false; // its topology is that of the step
+    bool is_present = false;            // else it was removed since the step
+    bool is_entered = false;            // by vertices whose contacts are read
+    bool is_as_stepped = false;         // its topology is that of the step
+    bool is_in_itself = false;          // has vertices in its own tetrahedra, set by prepare()
+    depth::SurfaceTree* tree = nullptr; // where it is searched; set by prepare()
 };
 
 class Readings {
@@ -43,7 +45,7 @@ public:
     // vertex, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
     // no readings then. Positions of meshes with a topology have to be finite.
     void prepare(std::uint32_t what, std::span<const vox_contact> contacts, const Penetrations& penetrations,
-                 Workers& workers);
+                 depth::SurfaceTrees& trees, Workers& workers);
     void invalidate() noexcept { prepared_ = false; }
 
     // Throws Error(INVALID_STATE) unless they are prepared.
@@ -59,9 +61,10 @@ private:
         std::span<const vox_contact> contacts;
         const Penetrations& penetrations;
     };
-    // The readings of a vertex with a surface: the first, and the triangle closest to it, if that is known.
+    // A vertex that asks for a surface: whose, its place on a curve, the first of its readings, and the
+    // closest triangle, if that is known.
     struct Ask {
-        std::uint32_t first, closest;
+        std::uint32_t body_b, code, first, closest;
     };
     class PenetrationOf;
     struct Range {
@@ -78,16 +81,16 @@ private:
     static bool has_position(const ReadingBody& a, std::uint32_t vertex) noexcept;
     void check_positions(const Step& step, std::size_t count) const;
     void read_range(const Range& range, const Step& step) noexcept;
-    void list_asks(const Step& step) noexcept;
-    void read_surfaces(const Range& asks, const Step& step, depth::SurfaceTree& tree);
+    void list_asks(const Step& step, std::size_t count);
+    void fit_trees(depth::SurfaceTrees& trees);
+    void sort_asks(const Step& step) noexcept;
+    void read_surfaces(const Range& asks, const Step& step) noexcept;
 
     std::pmr::vector<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
     std::pmr::vector<ReadingBody> bodies_;
-    bool all_ = true;                            // all contacts are read, else those
-    std::pmr::vector<std::uint32_t> chosen_;     // ascending
-    std::pmr::vector<Ask> asks_;                 // by mesh_b
-    std::pmr::vector<Range> asks_of_body_;       // in asks_
-    std::pmr::vector<depth::SurfaceTree> trees_; // of each worker
+    bool all_ = true;                        // all contacts are read, else those
+    std::pmr::vector<std::uint32_t> chosen_; // ascending
+    std::pmr::vector<Ask> asks_;             // by mesh_b, neighbours next to each other
     std::pmr::vector<vox_reading> readings_;
     std::pmr::vector<vox_depth> depths_;
     bool prepared_ = false;
