@@ -743,8 +743,8 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 /* Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* missing if the vertex or its mesh was removed after the step */
-    VOX_READING_SURFACE = 2,  /* missing if POSITION is, if mesh_b was removed or has no surface, or if all of its
-                                 tetrahedra that contained the vertex were removed or disabled */
+    VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if mesh_b was removed or has no surface, or if
+                                 all of its tetrahedra that contained the vertex were removed or disabled */
     VOX_READING_DEPTH = 4,    /* missing on grids without VOX_GRID_PENETRATIONS, and where
                                  vox_filter.penetration_mask rules it out */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
@@ -959,8 +959,9 @@ VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3]
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
- * over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra. `skipped_degenerate` counts tetrahedra of exactly zero
- * volume: with the reference engine all of them, with the fast engine those that had a vertex to test. */
+ * over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
+ * `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
+ * engine those that had a vertex to test. */
 typedef struct vox_counters {
     uint32_t struct_size;
     uint32_t meshes;
