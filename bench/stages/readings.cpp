@@ -49,6 +49,7 @@ public:
             desc.vertex_count = body.positions.size();
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
+            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
             vox_mesh id = VOX_NULL_MESH;
             must(vox_mesh_insert(grid_, &desc, &id));
             ids_.push_back(id);
@@ -142,6 +143,7 @@ private:
         }
         must(vox_grid_prepare_queries(grid_));
         for (std::size_t i = 0; i < all.size() && ids_.size() <= 64; i += 1 + all.size() / 200) {
+            if (contacts.data[i].mesh_a == contacts.data[i].mesh_b) continue; // another rule
             const auto b = std::find(ids_.begin(), ids_.end(), contacts.data[i].mesh_b) - ids_.begin();
             vox_surface_hit hit{};
             must(vox_grid_query_closest(grid_, all[i].position, std::numeric_limits<double>::infinity(),
@@ -164,6 +166,15 @@ std::unique_ptr<Scene> two_balls(const char* name, double tets, double overlap, 
                                  double radius = 1) {
     std::vector<Mesh> bodies{smooth_ball(tets / 2, 1), smooth_ball(tets / 2 * factor, radius)};
     vox::test::move(bodies[1], 1, 1 + radius - overlap, 0.0123, 0.0271);
+    return std::make_unique<Scene>(name, std::move(bodies));
+}
+
+// A ball whose vertices are moved at random by up to an edge: most of it lies in itself.
+std::unique_ptr<Scene> tangled_ball(const char* name, double tets) {
+    vox::test::Random random{7};
+    std::vector<Mesh> bodies{vox::test::ball(tets)};
+    vox::test::jitter(bodies[0], 1, random);
+    bodies[0].self_collision = true;
     return std::make_unique<Scene>(name, std::move(bodies));
 }
 
@@ -227,6 +238,7 @@ int run(double tets, int rounds) {
     scenes.push_back(two_balls("enclosed", tets, 1, 0.064, 0.4));
     scenes.push_back(two_balls("coincident", tets, 1.999));
     scenes.push_back(many_balls("many", tets, 4));
+    scenes.push_back(tangled_ball("tangled", tets / 6));
     for (int round = 0; round < rounds; ++round)
         for (const std::unique_ptr<Scene>& scene : scenes) scene->run();
     std::printf("%-10s %9s %9s %8s %8s %8s %8s %8s %8s %8s\n", "scene", "contacts", "step us", "all",
