@@ -72,7 +72,8 @@ Json counters_json(const vox_counters& counters) {
             {"leaving_edges", counters.leaving_edges},
             {"edge_tests", counters.edge_tests},
             {"closest_searches", counters.closest_searches},
-            {"closest_tests", counters.closest_tests}};
+            {"closest_tests", counters.closest_tests},
+            {"unknown_penetrations", counters.unknown_penetrations}};
 }
 
 Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
@@ -106,6 +107,7 @@ const char* state_name(vox_penetration_state state) {
         return "crossing";
     case VOX_PENETRATION_COINCIDENT:
         return "coincident";
+    case VOX_PENETRATION_UNKNOWN:
     case VOX_PENETRATION_STATE_FORCE_32_BITS:
         break;
     }

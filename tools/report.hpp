@@ -28,7 +28,7 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
-// Returns "surface", "propagated", "enclosed", "crossing" or "coincident".
+// Returns "surface", "propagated", "enclosed", "crossing", "coincident" or "unknown".
 const char* state_name(vox_penetration_state state);
 
 // Adds the results of a step other than contacts: hash, cell_size, profile, counters.

@@ -9,6 +9,7 @@
 // than in a simulation.
 #include "internal/fast_scenes.hpp"
 #include "program.hpp"
+#include "stages/smooth_ball.hpp"
 #include "timing.h"
 
 #include <vox/vox.h>
@@ -33,21 +34,6 @@ struct Row {
     double readings_ns = 1e18; // vox_grid_prepare_readings
     vox_counters counters{};
 };
-
-// A lattice cube pushed onto the ball of that radius around the origin.
-Mesh smooth_ball(double tets, double radius) {
-    const int n = std::max(2, int(std::lround(std::cbrt(tets / 5))));
-    Mesh mesh = block(n, n, n);
-    for (vox::Vec3f& p : mesh.positions) {
-        const double x = 2.0 * double{p.x} / n - 1, y = 2.0 * double{p.y} / n - 1,
-                     z = 2.0 * double{p.z} / n - 1;
-        const double length = std::sqrt(x * x + y * y + z * z);
-        const double scale =
-            length > 0 ? radius * std::max({std::abs(x), std::abs(y), std::abs(z)}) / length : 0;
-        p = {float(scale * x), float(scale * y), float(scale * z)};
-    }
-    return mesh;
-}
 
 vox_mesh insert(vox_grid* grid, const Mesh& mesh) {
     vox_mesh_desc desc = vox_default_mesh_desc();

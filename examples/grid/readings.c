@@ -40,6 +40,19 @@ int main(void) {
     must(vox_pair_copy_readings(grid, a, b, kept, 16, &count));
     printf("%" PRIu64 " contacts between the two, around (%g, %g, %g)\n", count, middle[0], middle[1],
            middle[2]);
+
+    /* Parts of them, for one pair: without its surface, a reading costs little more than a copy of it. */
+    vox_readings_desc part = vox_default_readings_desc();
+    part.what = VOX_READING_POSITION | VOX_READING_DEPTH;
+    part.mesh_a = a;
+    part.mesh_b = b;
+    must(vox_grid_prepare_readings_of(grid, &part));
+    vox_depth_view depths; /* in double */
+    must(vox_grid_reading_depths(grid, &depths));
+    double deepest = 0;
+    for (uint64_t i = 0; i < depths.count; ++i)
+        if (depths.data[i].depth > deepest) deepest = depths.data[i].depth;
+    printf("the deepest is %.4g inside\n", deepest);
     vox_grid_destroy(grid);
     return 0;
 }

@@ -129,7 +129,7 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
  * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
  * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
  * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, and at most
- * once by vox_grid_prepare_readings. If not all items were run, or a worker index was out of range, the step or
+ * once when readings are prepared. If not all items were run, or a worker index was out of range, the step or
  * vox_grid_prepare_readings fails with INVALID_ARGUMENT and leaves no contacts, or no readings. If both are null, the
  * built-in scheduler is used. */
 typedef struct vox_task_system {
@@ -174,7 +174,7 @@ typedef enum vox_engine {
 
 typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
-                                  than 357913941 tets then gives VOX_ERROR_LIMIT */
+                                  than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
@@ -213,6 +213,11 @@ typedef struct vox_grid_desc {
      * own, so its built-in scheduler is serial, too. */
     uint32_t worker_count;
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
+    /* Most searches for a closest point that the depth stage makes in one step, for penetrations that would be ENCLOSED
+     * or CROSSING. The first ones, in the order of the penetrations, get them; the others become
+     * VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. 0 (the default): no
+     * limit. */
+    uint64_t closest_budget;
 } vox_grid_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -251,6 +256,18 @@ VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_siz
 /* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and for 0
  * if the grid has a task system of the caller's. */
 VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
+
+/* Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of the
+ * last step's results end.
+ * VOX_GRID_PENETRATIONS switched on prepares all meshes at once, as their insertion would have done, in time and memory
+ * proportional to them; vox_grid_penetrations is empty until the next step. Switched off, it releases all that memory.
+ * VOX_GRID_CONTACT_EVENTS switched on lets the next step report each vertex in contact as one that began, as a first
+ * step does. Switched off, it releases the memory of these events.
+ * Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were. */
+VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
+
+/* The flags in use. */
+VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags);
 
 /* ---- meshes ----------------------------------------------------------------------------------- */
 
@@ -295,6 +312,11 @@ typedef struct vox_filter {
      * (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
      * vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set. */
     double self_rest_distance;
+    /* Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have them
+     * if each of the two accepts the other: its penetration_mask has a bit in common with the other's category, or has
+     * all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh with
+     * the mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a tetrahedron. */
+    uint64_t penetration_mask;
 } vox_filter;
 
 /* Fills `filter` with the defaults for the fields that `struct_size` covers. */
@@ -361,8 +383,9 @@ VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const 
 VOX_API vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh);
 
 /* Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision, which
- * replaces the flag given at insertion. The tables of the self-contact filters are built in the call, in time and
- * memory proportional to the mesh. Errors: INVALID_ARGUMENT, LIMIT (self_rings), INVALID_STATE (a rest distance
+ * replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need if their
+ * mask was 0 before, are built in the call, in time and memory proportional to the mesh.
+ * Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
  * without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter);
 
@@ -489,9 +512,10 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const
 /* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
  * failure they are gone and the grid stays usable.
  * A mesh is at rest if its positions are bit for bit those of the last step; the fast engine keeps a copy to compare.
- * Contacts between meshes at rest, and of a mesh at rest with itself, are carried over from the last step, so such
- * meshes cost little more than reading their positions. (When a moving mesh comes to rest, it is processed in one more
- * step, in which the copy is made.) A step after a failed one, or after a change of a setting, processes all meshes.
+ * Contacts between meshes at rest, and of a mesh at rest with itself, are carried over from the last step with their
+ * penetrations, so such meshes cost little more than reading their positions. (When a moving mesh comes to rest, it is
+ * processed in one more step, in which the copy is made.) A step after a failed one, or after a change of a setting,
+ * processes all meshes.
  * In the steady state (same meshes, no more work than before) it allocates nothing, with any number of workers. The
  * memory of the built-in scheduler belongs to oneTBB and is not counted.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
@@ -513,8 +537,8 @@ typedef struct vox_contact {
     float barycentric[4];
 } vox_contact;
 
-/* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the
- * next step, clear, reserve or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
+/* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the next step,
+ * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
 typedef struct vox_contact_view {
     const vox_contact* data;
     size_t byte_stride;
@@ -525,7 +549,8 @@ typedef struct vox_contact_view {
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
 VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
 
-/* Number of steps, clears and reserves so far, failed steps included. A view is valid while its epoch equals it. */
+/* Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while its
+ * epoch equals it. */
 VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
 
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
@@ -550,6 +575,8 @@ typedef enum vox_penetration_state {
                                        crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
                                        case for all vertices that p is connected with */
     VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface; depth is 0, direction the surface's normal at p */
+    VOX_PENETRATION_UNKNOWN = 5,    /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
+                                       the normal of a facet of the contact's tetrahedron */
     VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
 } vox_penetration_state;
 
@@ -568,8 +595,9 @@ typedef struct vox_penetration {
     float direction[3]; /* in the frame of the positions, out of mesh_b */
 } vox_penetration;
 
-/* `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order.
- * A vertex inside two meshes has two. The data lives as long as that of the contacts' view. */
+/* `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order,
+ * unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
+ * of the contacts' view. */
 typedef struct vox_penetration_view {
     const vox_penetration* data;
     size_t byte_stride;
@@ -578,8 +606,26 @@ typedef struct vox_penetration_view {
 } vox_penetration_view;
 
 /* The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one and
- * after a clear. Errors: INVALID_STATE if the grid was created without VOX_GRID_PENETRATIONS. */
+ * after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS. */
 VOX_API vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view);
+
+/* Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
+ * vox_penetration. */
+typedef struct vox_depth {
+    double depth;
+    double direction[3];
+} vox_depth;
+
+/* `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to. */
+typedef struct vox_depth_view {
+    const vox_depth* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_depth_view;
+
+/* The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations. */
+VOX_API vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view);
 
 /* ---- touching pairs and events ---------------------------------------------------------------- */
 
@@ -600,7 +646,7 @@ typedef struct vox_pair {
 #define VOX_MAX_CONTACTS 4294967295u /* contacts of one step; a step with more fails with VOX_ERROR_LIMIT */
 
 /* `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts` holds the index of every contact of
- * vox_grid_contacts() once, pair by pair. Both live until the next step, clear, reserve or destroy of the grid. */
+ * vox_grid_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
 typedef struct vox_pair_view {
     const vox_pair* data;
     size_t byte_stride;
@@ -673,7 +719,7 @@ typedef struct vox_contact_event {
 } vox_contact_event;
 
 /* All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b). `data` lives until the
- * next step or destroy of the grid. */
+ * next step, change of the flags or destroy of the grid. */
 typedef struct vox_contact_event_view {
     const vox_contact_event* data;
     size_t byte_stride;
@@ -690,15 +736,17 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 /* ---- readings --------------------------------------------------------------------------------- */
 
 /* What a program that responds to contacts, draws or reports them needs for each contact: where the vertex is, the
- * closest part of the surface, and how deep the vertex is. vox_grid_prepare_readings computes this once after a step,
- * so programs that do not need it pay nothing. That call changes the grid; the functions after it only read. */
+ * closest part of the surface, and how deep the vertex is. vox_grid_prepare_readings, or vox_grid_prepare_readings_of
+ * for a part of it, computes this once after a step, so programs that do not need it pay nothing. These two calls
+ * change the grid; the functions after them only read. */
 
-/* Which parts of a vox_reading are present; all fields of the other parts are zero. */
+/* Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* missing if the vertex or its mesh was removed after the step */
-    VOX_READING_SURFACE = 2,  /* missing if POSITION is, if mesh_b was removed or has no surface, or if all of its
-                                 tetrahedra that contained the vertex were removed or disabled */
-    VOX_READING_DEPTH = 4,    /* missing on grids without VOX_GRID_PENETRATIONS */
+    VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if mesh_b was removed or has no surface, or if
+                                 all of its tetrahedra that contained the vertex were removed or disabled */
+    VOX_READING_DEPTH = 4,    /* missing on grids without VOX_GRID_PENETRATIONS, and where
+                                 vox_filter.penetration_mask rules it out */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_reading_flags;
 
@@ -728,9 +776,9 @@ typedef struct vox_reading {
     uint64_t user_data_b;
 } vox_reading;
 
-/* `count` readings, `byte_stride` apart, one for each contact, in the order of the contacts. With that stride a single
- * field, e.g. position, can be used as an array. `data` lives until the next step, clear, vox_grid_prepare_readings or
- * destroy of the grid. */
+/* `count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the order of the
+ * contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
+ * prepared again or the next step, clear or destroy of the grid. */
 typedef struct vox_reading_view {
     const vox_reading* data;
     size_t byte_stride;
@@ -740,23 +788,52 @@ typedef struct vox_reading_view {
 
 /* Computes the readings of the last step's contacts from the meshes as they are now, so borrowed positions must still
  * be those of the step. vox_reading.known shows what is missing because it was removed or changed since. May be called
- * repeatedly. Takes time proportional to the contacts, and to the vertices and surfaces of the meshes in contact. The
- * memory for contacts and triangles is kept until the grid is destroyed, so a call that needs no more of it than an
- * earlier one allocates nothing. Enqueues at most one task.
- * Errors: NON_FINITE and LIMIT (positions that changed since the step, or a mesh of more tetrahedra than
- * VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; after these the earlier readings stay. INVALID_ARGUMENT (see
- * vox_task_system); after that there are none. */
+ * repeatedly; each call replaces what was prepared before. Takes time proportional to the contacts and, for
+ * VOX_READING_SURFACE, to the vertices and surfaces of the meshes that the vertices are in. The memory for contacts and
+ * triangles is kept until the grid is destroyed, so a call that needs no more of it than an earlier one allocates
+ * nothing. Enqueues at most one task.
+ * Errors: NON_FINITE and LIMIT (positions that changed since the step, where they are read, or a mesh of more
+ * tetrahedra than VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; after these the earlier readings stay.
+ * INVALID_ARGUMENT (see vox_task_system); after that there are none. */
 VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
+
+/* What to read. */
+typedef struct vox_readings_desc {
+    uint32_t struct_size;
+    uint32_t what; /* vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as
+                      copying it. The other fields of vox_reading, such as user data, are always set */
+    vox_mesh mesh_a; /* VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies */
+    vox_mesh mesh_b; /* VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it */
+} vox_readings_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_readings_desc_init(vox_readings_desc* desc, uint32_t struct_size);
+
+static inline vox_readings_desc vox_default_readings_desc(void) {
+    vox_readings_desc desc;
+    (void)vox_readings_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
+ * readings of some contacts. All others are missing from the views and copies of the following functions.
+ * Errors: as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
+ * earlier readings stay. */
+VOX_API vox_result vox_grid_prepare_readings_of(vox_grid* grid, const vox_readings_desc* desc);
 
 /* The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear. */
 VOX_API vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view);
 
-/* As vox_mesh_copy_contacts, but copies the readings of those contacts, in the same order.
+/* Depth and direction of the prepared readings in double, one for each, in that order; zero where vox_reading.known
+ * lacks VOX_READING_DEPTH. Count 0 if that part was not asked for. Errors: as vox_grid_readings. */
+VOX_API vox_result vox_grid_reading_depths(const vox_grid* grid, vox_depth_view* out_view);
+
+/* As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
 VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings, uint64_t capacity,
                                           uint64_t* out_count);
 
-/* As vox_pair_copy_contacts, but copies the readings of those contacts, in the same order.
+/* As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
 VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, vox_reading* readings,
                                           uint64_t capacity, uint64_t* out_count);
@@ -765,7 +842,7 @@ VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a,
 
 /* Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings,
  * meshes with their ids, positions (borrowed ones too, read during the call), and the state that the next events are
- * derived from. Allocator, log, task system, worker count, byte budget, and the results of the last step are not saved.
+ * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not saved.
  * *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first. Allocates
  * nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
 VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size);
@@ -773,8 +850,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t cap
 /* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
  * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
  * contacts until the first step. The meshes own their positions; to move them, bind others.
- * Of `desc` only allocator, log, tasks, worker_count, byte_budget, and an engine other than AUTO are used; null: the
- * defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * Of `desc` only allocator, log, tasks, worker_count, byte_budget, closest_budget, and an engine other than AUTO are
+ * used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
  * The bytes need not be trusted: everything in them is checked, no memory is reserved for a count before the bytes it
  * stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
@@ -882,8 +959,9 @@ VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3]
 /* ---- measurements ----------------------------------------------------------------------------- */
 
 /* What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
- * over from the step before. `tets` counts enabled tetrahedra. `skipped_degenerate` counts tetrahedra of exactly zero
- * volume: with the reference engine all of them, with the fast engine those that had a vertex to test. */
+ * over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
+ * `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
+ * engine those that had a vertex to test. */
 typedef struct vox_counters {
     uint32_t struct_size;
     uint32_t meshes;
@@ -910,6 +988,8 @@ typedef struct vox_counters {
     uint64_t disabled_meshes;    /* not included in `meshes` (see vox_mesh_set_enabled) */
     uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
     uint64_t cell_size_changes;  /* how often the reference engine chose another cell size (see vox_grid_desc) */
+    uint64_t unknown_penetrations; /* part of `penetrations` for which closest_budget left no search */
+    uint64_t carried_penetrations; /* part of `penetrations` carried over with their contacts */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */

@@ -1,6 +1,7 @@
 // The C border of pairs, events, contacts of a mesh or a pair, and their readings.
 
 #include "base/border.hpp"
+#include "base/structs.hpp"
 #include "grid/grid.hpp"
 
 #include <cstddef>
@@ -11,31 +12,33 @@ using namespace vox;
 
 namespace {
 
-std::span<const vox_contact> contacts_of(const vox_grid& grid) noexcept {
-    const vox_contact_view view = grid.contacts();
-    return {view.data, static_cast<std::size_t>(view.count)};
-}
-
-std::span<const vox_reading> readings_of(const vox_grid& grid) { return grid.readings(); }
-
-// Copies items of contacts, of which all_of(grid) has one for each: those of one mesh, or those between two
-// meshes. `name` is that of the parameter `items`.
-template <class Item>
+// Copies items of the contacts of one mesh, or of those between two meshes. items_of(grid) gives a function
+// from the index of a contact to its item, or null if it has none. `name` is that of the parameter `items`.
+template <class Item, class ItemsOf>
 vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_mesh> meshes, Item* items,
                       const char* name, std::uint64_t capacity, std::uint64_t* out_count,
-                      std::span<const Item> (*all_of)(const vox_grid&)) {
+                      ItemsOf&& items_of) {
     return border(grid, "grid", out_count, "out_count", [&] {
         if (capacity > 0) require(items, name);
         for (const vox_mesh mesh : meshes) (void)grid->mesh(mesh); // throws for an id that names no mesh
-        const std::span<const Item> all = all_of(*grid);
+        const auto item_of = items_of(*grid);
         std::uint64_t count = 0;
         grid->events().for_contacts_of(meshes, [&](std::uint32_t index) {
-            if (count < capacity) items[count] = all[index];
-            ++count;
+            const Item* item = item_of(index);
+            if (item && count < capacity) items[count] = *item;
+            count += item != nullptr;
         });
         return count;
     });
 }
+
+constexpr auto contacts_of = [](const vox_grid& grid) {
+    return [all = grid.contacts().data](std::uint32_t index) { return all + index; };
+};
+
+constexpr auto readings_of = [](const vox_grid& grid) {
+    return [&readings = grid.readings()](std::uint32_t index) { return readings.find(index); };
+};
 
 } // namespace
 
@@ -68,14 +71,40 @@ vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view*
 
 // ---- readings -------------------------------------------------------------------------------------
 
+namespace {
+
+vox_readings_desc readings_defaults() noexcept {
+    return {sizeof(vox_readings_desc), VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH,
+            VOX_NULL_MESH, VOX_NULL_MESH};
+}
+
+} // namespace
+
+vox_result vox_readings_desc_init(vox_readings_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, readings_defaults(), "desc"); });
+}
+
 vox_result vox_grid_prepare_readings(vox_grid* grid) {
-    return border(grid, "grid", [&] { grid->prepare_readings(); });
+    return border(grid, "grid", [&] { grid->prepare_readings(readings_defaults()); });
+}
+
+vox_result vox_grid_prepare_readings_of(vox_grid* grid, const vox_readings_desc* desc) {
+    return border(grid, "grid", [&] {
+        grid->prepare_readings(desc ? read_struct(desc, readings_defaults(), "desc") : readings_defaults());
+    });
 }
 
 vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&]() -> vox_reading_view {
-        const std::span<const vox_reading> readings = grid->readings();
+        const std::span<const vox_reading> readings = grid->readings().all();
         return {readings.data(), sizeof(vox_reading), readings.size(), grid->epoch()};
+    });
+}
+
+vox_result vox_grid_reading_depths(const vox_grid* grid, vox_depth_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&]() -> vox_depth_view {
+        const std::span<const vox_depth> depths = grid->readings().depths();
+        return {depths.data(), sizeof(vox_depth), depths.size(), grid->epoch()};
     });
 }
 

@@ -127,6 +127,14 @@ vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count) {
     return border(grid, "grid", [&] { grid->set_worker_count(worker_count); });
 }
 
+vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags) {
+    return border(grid, "grid", [&] { grid->set_flags(flags); });
+}
+
+vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags) {
+    return border(grid, "grid", out_flags, "out_flags", [&] { return grid->flags(); });
+}
+
 // ---- meshes ---------------------------------------------------------------------------------------
 
 vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size) {
@@ -206,6 +214,10 @@ vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
 
 vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->penetrations(); });
+}
+
+vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->depths(); });
 }
 
 vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch) {

@@ -90,6 +90,7 @@ struct Body {
     std::span<const Tet> tets{};
     bool self_collision = false;
     PairFilter filter{};
+    std::uint64_t penetration_mask = ~std::uint64_t{0}; // vox_filter
     // Ids of the meshes that it never collides with, ascending. Their lists have its id, too.
     std::span<const std::uint32_t> exceptions{};
     const SelfFilter* self_filter = nullptr; // null without a filter
@@ -98,6 +99,8 @@ struct Body {
     std::span<const std::uint64_t> off{};
     std::uint64_t off_count = 0;
     std::span<const std::uint64_t> removed_vertices{}; // vertices that are in no tetrahedron, as bits
+    // Set once contacts are found: those with others that are carried, too, are those of the last step.
+    bool carried = false;
 };
 
 // Barycentric coordinates of a point in a tetrahedron.

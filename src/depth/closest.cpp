@@ -1,16 +1,13 @@
-// A tree of boxes over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH
-// construction on GPUs", Computer Graphics Forum 28, 2009), and searched nearest box first (Roussopoulos,
-// Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995).
+// What depth/near.* finds near a point is decided in double: the closest point, and in a fold the closest
+// that a straight line reaches.
 #include "depth/closest.hpp"
 
-#include "base/bits.hpp"
 #include "base/vectors.hpp"
 #include "depth/points.hpp"
 #include "exact/closest_point.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -19,26 +16,8 @@ namespace vox::depth {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
-constexpr int digit_bits = 10;
-constexpr Box3d empty_box3d{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-// The cell of x on an axis from min to max, which may be equal.
-std::uint32_t cell_of(double x, double min, double max) {
-    constexpr double cells = 1 << axis_bits;
-    const double cell = max > min ? (x - min) / (max - min) * cells : 0;
-    return static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1));
-}
-
-// Whether the plane of a triangle, and so the triangle, is farther from p than the root of `squared`.
-bool is_beyond_plane(const Solid& solid, std::uint32_t triangle, const Vec3d& p, double squared) {
-    constexpr double rounding = 1 + 0x1p-40;
-    const std::uint32_t* v = solid.topology->triangles[triangle].v;
-    const Vec3d a = solid.at(v[0]), b = solid.at(v[1]), c = solid.at(v[2]);
-    const Vec3d normal = cross(b - a, c - a);
-    const double height = dot(normal, p - a);
-    return height * height > rounding * squared * dot(normal, normal);
-}
+float most_of(const float (&p)[3]) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); }
 
 } // namespace
 
@@ -49,170 +28,343 @@ Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p
     return {{triangle, {at.weight[0], at.weight[1], at.weight[2]}, p + way}, way, at.squared_distance};
 }
 
-Box3d SurfaceTree::box_of(std::uint32_t triangle) const {
-    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
-    const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-}
+// ---- searches ---------------------------------------------------------------------------------------
 
-void SurfaceTree::sort_along_curve() {
-    const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    Box3d all = empty_box3d;
-    for (std::uint32_t t = 0; t < count; ++t) extend(all, box_of(t));
-    order_.resize(count);
-    scratch_.resize(count);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const Box3d box = box_of(t);
-        order_[t] = {morton_code(cell_of((box.min.x + box.max.x) / 2, all.min.x, all.max.x),
-                                 cell_of((box.min.y + box.max.y) / 2, all.min.y, all.max.y),
-                                 cell_of((box.min.z + box.max.z) / 2, all.min.z, all.max.z)),
-                     t};
-    }
-    std::array<std::uint32_t, 1 << digit_bits> place;
-    for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
-        const auto digit = [shift](const Key& key) { return key.code >> shift & ((1u << digit_bits) - 1); };
-        place.fill(0);
-        for (const Key& key : order_) ++place[digit(key)];
-        std::uint32_t sum = 0;
-        for (std::uint32_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : order_) scratch_[place[digit(key)]++] = key;
-        order_.swap(scratch_);
-    }
-}
-
-std::uint32_t SurfaceTree::leaves_of(std::size_t triangles) {
-    return static_cast<std::uint32_t>(
-        std::bit_ceil(std::max<std::size_t>((triangles + leaf_size - 1) / leaf_size, 1)));
-}
-
-void SurfaceTree::reserve(std::size_t triangles) {
-    order_.reserve(triangles);
-    scratch_.reserve(triangles);
-    boxes_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
-    slabs_.reserve(2 * std::size_t{leaves_of(triangles)} - 1);
-}
-
-void SurfaceTree::build(const Solid& solid) {
-    solid_ = solid;
-    reserve(solid.topology->triangles.size());
-    sort_along_curve();
-    const auto count = static_cast<std::uint32_t>(order_.size());
-    leaves_ = leaves_of(count);
-    boxes_.assign(2 * std::size_t{leaves_} - 1, empty_box3d);
-    for (std::uint32_t i = 0; i < count; ++i)
-        extend(boxes_[std::size_t{leaves_} - 1 + i / leaf_size], box_of(order_[i].triangle));
-    for (std::size_t i = leaves_ - 1; i-- > 0;) {
-        boxes_[i] = boxes_[2 * i + 1];
-        extend(boxes_[i], boxes_[2 * i + 2]);
-    }
-    slabs_.assign(boxes_.size(), {});
-    last_ = order_[0].triangle;
-    middle_ = 0.5 * (boxes_[0].min + boxes_[0].max);
-    size_ = length(boxes_[0].max - boxes_[0].min);
-}
-
-// Whether the slab of a node shows that all its triangles are farther from p than `distance`.
-bool SurfaceTree::is_beyond_slab(std::size_t node, const Vec3d& p, double distance) {
-    // Only for nodes with few triangles. With many, a slab is as thick as their box, and takes long to make.
-    constexpr std::size_t most_leaves = 16;
-    if (most_leaves * (node + 1) < leaves_) return false;
-    std::size_t first = node, leaves = 1; // of the node's subtree
-    for (; first < leaves_ - 1; leaves *= 2) first = 2 * first + 1;
-    first = (first - (leaves_ - 1)) * leaf_size;
-    const std::size_t last = std::min(first + leaves * leaf_size, order_.size());
-    Slab& slab = slabs_[node];
-    if (!slab.is_made) {
-        slab.is_made = true;
-        Vec3d areas{0, 0, 0};
-        for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t* v = solid_.topology->triangles[order_[i].triangle].v;
-            const Vec3d a = solid_.at(v[0]), b = solid_.at(v[1]), c = solid_.at(v[2]);
-            const Vec3d area = cross(b - a, c - a);
-            areas = dot(areas, area) < 0 ? areas - area : areas + area; // whatever their winding
+// A point in the frame of the tree, and how far a search has to look for points up to some distance.
+class SurfaceTree::Query {
+public:
+    Query(const SurfaceTree& tree, const Vec3d& p) : scale_(tree.scale_) {
+        const Vec3d at = tree.scale_ * (p - tree.middle_);
+        p_[0] = static_cast<float>(at.x);
+        p_[1] = static_cast<float>(at.y);
+        p_[2] = static_cast<float>(at.z);
+        const float most = most_of(p_);
+        constexpr float far = 0x1p40f; // beyond it, squares might overflow
+        if (most < far) {
+            slack_ = 0x1p-18 * double{most + tree.most_};
+        } else {
+            for (float& x : p_) x = 0;
+            slack_ = infinity;
         }
-        slab.normal = normalised(areas);
-        slab.low = infinity;
-        slab.high = -infinity;
-        for (std::size_t i = first; i < last; ++i)
-            for (const std::uint32_t v : solid_.topology->triangles[order_[i].triangle].v) {
-                const double height = dot(slab.normal, solid_.at(v) - middle_);
-                slab.low = std::min(slab.low, height);
-                slab.high = std::max(slab.high, height);
-            }
     }
-    const Vec3d from_middle = p - middle_;
-    const double height = dot(slab.normal, from_middle);
-    const double rounding = 0x1p-48 * (size_ + length(from_middle));
-    return std::max(slab.low - height, height - slab.high) > distance + rounding;
+    const float (&point() const)[3] { return p_; }
+    float reach(double squared) const {
+        constexpr double rounding = 1 + 0x1p-19;
+        return static_cast<float>(rounding * (std::sqrt(squared) * scale_ + slack_));
+    }
+
+private:
+    float p_[3];
+    double scale_, slack_;
+};
+
+// Receives the triangles near a point, and keeps the closest.
+class SurfaceTree::NearestOne {
+public:
+    NearestOne(const SurfaceTree& tree, const Vec3d& p, std::uint32_t left_out, std::uint32_t part,
+               SearchState& state, Closest& out)
+        : tree_(tree), query_(tree, p), p_(p), left_out_(left_out), part_(part), state_(state), out_(out) {}
+
+    bool run() {
+        if (state_.near != SearchState::none) look_at(state_.near);
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestOne*>(self);
+            nearest.look_at(triangle);
+            return nearest.reach_;
+        };
+        find_near(tree_.view_, part_, query_.point(), reach_, visit, this);
+        if (found_) state_.near = out_.at.triangle;
+        return found_;
+    }
+
+private:
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, left_out_) || !tree_.is_in(part_, corners)) return;
+        if (found_ && triangle == out_.at.triangle) return;
+        ++state_.visited;
+        const Closest candidate = closest_point(tree_.solid_, triangle, p_);
+        if (found_ && (candidate.squared > out_.squared ||
+                       (candidate.squared == out_.squared &&
+                        !tree_.solid_.topology->before(candidate.at.triangle, out_.at.triangle))))
+            return;
+        found_ = true;
+        out_ = candidate;
+        reach_ = query_.reach(candidate.squared);
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Vec3d p_;
+    const std::uint32_t left_out_, part_;
+    SearchState& state_;
+    Closest& out_;
+    float reach_ = std::numeric_limits<float>::infinity();
+    bool found_ = false;
+};
+
+bool SurfaceTree::find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
+                             Closest& out) const {
+    return NearestOne(*this, p, left_out, part, state, out).run();
 }
 
-bool SurfaceTree::accept(const Vec3d& p, const Fold& fold, const Closest& found) const {
-    if (has_corner(solid_.topology->triangles[found.at.triangle], fold.vertex)) return false;
-    if (!fold.only_straight || found.squared == 0) return true;
+// ---- folds ------------------------------------------------------------------------------------------
+
+namespace {
+
+// Where a closest point lies: inside a triangle, inside an edge or at a vertex, by the corners with a weight.
+struct Place {
+    std::uint32_t vertex[3] = {SurfaceTree::no_vertex, SurfaceTree::no_vertex, SurfaceTree::no_vertex};
+    std::uint32_t count = 0;
+
+    Place() = default;
+    Place(const Topology& topology, const SurfacePoint& at) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (at.weight[i] == 0) continue;
+            std::size_t k = count++;
+            const std::uint32_t corner = topology.triangles[at.triangle].v[i];
+            for (; k > 0 && vertex[k - 1] > corner; --k) vertex[k] = vertex[k - 1];
+            vertex[k] = corner;
+        }
+    }
+    bool operator==(const Place&) const = default;
+};
+
+// The way from p to the closest point there, the same for all triangles that meet there.
+Vec3d way_to(const Solid& solid, const Place& place, const Vec3d& p, const Closest& found) {
+    if (place.count == 3) return found.way;
+    const Vec3d a = solid.at(place.vertex[0]);
+    if (place.count == 1) return a - p;
+    const Vec3d along = solid.at(place.vertex[1]) - a;
+    const double squared = dot(along, along);
+    const double t = squared > 0 ? std::clamp(dot(p - a, along) / squared, 0.0, 1.0) : 0;
+    return (a - p) + t * along;
+}
+
+// Whether no point of the surface next to the place is nearer than the place is, which is at the end of
+// `way`.
+bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) {
+    if (place.count == 3) return true;
+    const Vec3d origin = solid.at(place.vertex[0]);
+    const Vec3d along = place.count == 2 ? solid.at(place.vertex[1]) - origin : Vec3d{0, 0, 0};
+    const double squared = dot(along, along);
+    for (const std::uint32_t t : solid.topology->ring_of(place.vertex[0])) {
+        const Triangle& triangle = solid.topology->triangles[t];
+        if (place.count == 2 && !has_corner(triangle, place.vertex[1])) continue;
+        for (const std::uint32_t v : triangle.v) {
+            if (v == place.vertex[0] || v == place.vertex[1]) continue;
+            // The way into the triangle, at right angles to the edge.
+            Vec3d into = solid.at(v) - origin;
+            if (squared > 0) into = into - (dot(into, along) / squared) * along;
+            constexpr double rounding = 1e-12, squared_rounding = rounding * rounding;
+            const double nearer = -dot(way, into);
+            if (nearer > 0 && nearer * nearer > squared_rounding * dot(way, way) * dot(into, into))
+                return false;
+        }
+    }
+    return true;
+}
+
+struct FoundPlace {
+    Place place;
+    Closest found;
+};
+
+// The nearest of different places, in order.
+template <std::size_t capacity>
+class Nearest {
+public:
+    explicit Nearest(const Topology& topology) : topology_(topology) {}
+
+    bool before(const Closest& a, const Closest& b) const {
+        return a.squared != b.squared ? a.squared < b.squared
+                                      : topology_.before(a.at.triangle, b.at.triangle);
+    }
+    // To be asked before add().
+    bool wants(const Closest& found) const {
+        return size_ < capacity || before(found, list_[size_ - 1].found);
+    }
+    void add(const Place& place, const Closest& found) {
+        std::size_t last = 0;
+        while (last < size_ && !(list_[last].place == place)) ++last;
+        if (last < size_ && !before(found, list_[last].found)) return;
+        if (last == size_) {
+            if (size_ < capacity) ++size_;
+            last = size_ - 1;
+        }
+        for (; last > 0 && before(found, list_[last - 1].found); --last) list_[last] = list_[last - 1];
+        list_[last] = {place, found};
+    }
+    bool has(const Place& place) const {
+        return std::any_of(begin(), end(), [&](const FoundPlace& known) { return known.place == place; });
+    }
+    // The squared distance within which another is wanted.
+    double squared() const { return size_ < capacity ? infinity : list_[size_ - 1].found.squared; }
+
+    const FoundPlace* begin() const { return list_; }
+    const FoundPlace* end() const { return list_ + size_; }
+
+private:
+    const Topology& topology_;
+    FoundPlace list_[capacity];
+    std::size_t size_ = 0;
+};
+
+} // namespace
+
+// Receives the triangles near a vertex that is in a fold, and keeps the nearest places.
+class SurfaceTree::NearestPlaces {
+public:
+    NearestPlaces(const SurfaceTree& tree, const Line& line, std::uint32_t part, SearchState& state)
+        : tree_(tree), query_(tree, line.p), line_(line), part_(part), state_(state),
+          places_(*tree.solid_.topology) {}
+
+    // Returns whether a straight line reaches one of them, not the first, which was tried before.
+    bool run(Closest& out) {
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestPlaces*>(self);
+            nearest.look_at(triangle);
+            return nearest.query_.reach(nearest.places_.squared());
+        };
+        find_nearest_first(tree_.view_, part_, query_.point(), query_.reach(infinity), visit, this);
+        for (const FoundPlace* next = places_.begin() + 1; next < places_.end(); ++next) {
+            const Vec3d way = way_to(tree_.solid_, next->place, line_.p, next->found);
+            if (!tree_.reaches(line_, way)) continue;
+            out = next->found;
+            return true;
+        }
+        return false;
+    }
+
+    bool has(const Place& place) const { return places_.has(place); }
+
+private:
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
+        ++state_.visited;
+        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
+        if (places_.wants(found)) places_.add(Place(*tree_.solid_.topology, found.at), found);
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Line line_;
+    const std::uint32_t part_;
+    SearchState& state_;
+    Nearest<4> places_;
+};
+
+// Receives the triangles near a vertex that is in a fold, and tries the nearest places where the distance has
+// a local minimum.
+class SurfaceTree::NearestMinima {
+public:
+    // Those in `tried` are known not to be reached. None is tried at a greater squared distance than
+    // `squared_exit`.
+    NearestMinima(const SurfaceTree& tree, const Line& line, std::uint32_t part, const NearestPlaces& tried,
+                  double squared_exit, SearchState& state)
+        : tree_(tree), query_(tree, line.p), line_(line), part_(part), tried_(tried),
+          squared_exit_(squared_exit), state_(state), minima_(*tree.solid_.topology) {}
+
+    // Returns whether a straight line reaches one of them.
+    bool run(Closest& out) {
+        const auto visit = [](void* self, std::uint32_t triangle) {
+            auto& nearest = *static_cast<NearestMinima*>(self);
+            nearest.look_at(triangle);
+            return nearest.reach();
+        };
+        find_nearest_first(tree_.view_, part_, query_.point(), reach(), visit, this);
+        if (!is_reached_ || !minima_.has(reached_.place)) return false;
+        out = reached_.found;
+        return true;
+    }
+
+private:
+    float reach() const {
+        const double squared = std::min(squared_exit_, minima_.squared());
+        return query_.reach(is_reached_ ? std::min(squared, reached_.found.squared) : squared);
+    }
+
+    // Each is tried at once, since one that is reached makes the search short.
+    void look_at(std::uint32_t triangle) {
+        const Triangle& corners = tree_.solid_.topology->triangles[triangle];
+        if (has_corner(corners, line_.vertex) || !tree_.is_in(part_, corners)) return;
+        ++state_.visited;
+        const Closest found = closest_point(tree_.solid_, triangle, line_.p);
+        if (found.squared > squared_exit_ || !minima_.wants(found)) return;
+        if (is_reached_ && !minima_.before(found, reached_.found)) return;
+        const Place place(*tree_.solid_.topology, found.at);
+        const Vec3d way = way_to(tree_.solid_, place, line_.p, found);
+        const bool is_known = minima_.has(place);
+        if (!is_known && !is_local_minimum(tree_.solid_, place, way)) return;
+        minima_.add(place, found);
+        // A place is tried once, and belongs to the first of the triangles that meet there.
+        if (is_known ? !(is_reached_ && reached_.place == place)
+                     : tried_.has(place) || !tree_.reaches(line_, way))
+            return;
+        is_reached_ = true;
+        reached_ = {place, found};
+    }
+
+    const SurfaceTree& tree_;
+    const Query query_;
+    const Line line_;
+    const std::uint32_t part_;
+    const NearestPlaces& tried_;
+    const double squared_exit_;
+    SearchState& state_;
+    Nearest<8> minima_;
+    FoundPlace reached_;
+    bool is_reached_ = false;
+};
+
+// The squared distance at which a line in the direction of `way` leaves the fold, or 0 where it does not.
+double SurfaceTree::squared_exit(const Line& line, const Vec3d& way) const {
+    const double beyond = 4 * (length(line.p - middle_) + double{most_} / scale_);
+    SurfacePoint out;
+    std::uint64_t tets = 0;
+    if (!walk_out(solid_, line.tet, line.p, line.p + (beyond / length(way)) * way, out, tets) ||
+        has_corner(solid_.topology->triangles[out.triangle], line.vertex))
+        return 0;
+    const Vec3d whole = out.point - line.p;
+    return dot(whole, whole);
+}
+
+// Whether a line leads inside the fold to the point at the end of `way`.
+bool SurfaceTree::reaches(const Line& line, const Vec3d& way) const {
+    if (dot(way, way) == 0) return true;
     // The walk goes twice as far, so that rounding does not end it too early.
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, fold.tet, p, p + 2.0 * found.way, out, tets)) return false;
-    const Vec3d way = out.point - p, rest = out.point - found.at.point;
+    if (!walk_out(solid_, line.tet, line.p, line.p + 2.0 * way, out, tets)) return false;
+    const Vec3d whole = out.point - line.p, rest = whole - way;
     constexpr double rounding = 1e-12; // squared
-    return !has_corner(solid_.topology->triangles[out.triangle], fold.vertex) &&
-           dot(rest, rest) <= rounding * dot(way, way);
+    return !has_corner(solid_.topology->triangles[out.triangle], line.vertex) &&
+           dot(rest, rest) <= rounding * dot(whole, whole);
 }
 
-bool SurfaceTree::find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited) {
-    struct Node {
-        double squared; // a bound of the squared distance to the box
-        std::size_t box;
-    };
-    bool found = false;
-    double best = infinity, best_distance = infinity;
-    const auto look_at = [&](std::uint32_t triangle) {
-        ++visited;
-        if (is_beyond_plane(solid_, triangle, p, best)) return;
-        const Closest candidate = closest_point(solid_, triangle, p);
-        if (candidate.squared > best || (candidate.squared == best && found &&
-                                         !solid_.topology->before(candidate.at.triangle, out.at.triangle)))
-            return;
-        if (fold && !accept(p, *fold, candidate)) return;
-        found = true;
-        best = candidate.squared;
-        best_distance = std::sqrt(best);
-        out = candidate;
-    };
-    look_at(last_);
-    std::array<Node, 64> stack; // one box waits at each level
-    std::size_t waiting = 0;
-    for (Node node{squared_distance_bound(p, boxes_[0]), 0};; node = stack[--waiting]) {
-        while (node.squared <= best && node.squared < infinity &&
-               !is_beyond_slab(node.box, p, best_distance)) {
-            const std::size_t child = 2 * node.box + 1;
-            if (child < boxes_.size()) {
-                Node near{squared_distance_bound(p, boxes_[child]), child},
-                    far{squared_distance_bound(p, boxes_[child + 1]), child + 1};
-                if (far.squared < near.squared) std::swap(near, far);
-                stack[waiting++] = far;
-                node = near;
-                continue;
-            }
-            const std::size_t first = (node.box - (leaves_ - 1)) * leaf_size;
-            for (std::size_t i = first; i < std::min(first + leaf_size, order_.size()); ++i)
-                look_at(order_[i].triangle);
-            break;
-        }
-        if (waiting == 0) break;
+bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                               Closest& out) const {
+    const std::uint32_t part = part_of(tet);
+    if (!find_among(p, vertex, part, state, out)) return find(p, vertex, state, out);
+    const Line line{p, vertex, tet};
+    if (reaches(line, out.way)) return true;
+    NearestPlaces places(*this, line, part, state);
+    Closest other;
+    bool found = places.run(other);
+    if (!found) {
+        const double exit = squared_exit(line, out.way);
+        found = exit > 0 && NearestMinima(*this, line, part, places, exit, state).run(other);
     }
-    if (found) last_ = out.at.triangle;
-    return found;
+    if (found) out = other;
+    return found || part == all_parts || find(p, vertex, state, out);
 }
 
 bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
                                   Closest& out, std::uint64_t& visited) {
-    if (!self) return find(p, nullptr, out, visited);
-    Fold fold{vertex, tet, true};
-    if (find(p, &fold, out, visited)) return true;
-    fold.only_straight = false;
-    return find(p, &fold, out, visited);
+    const bool found = self ? find_in_fold(p, vertex, tet, state_, out) : find(p, no_vertex, state_, out);
+    visited += std::exchange(state_.visited, 0);
+    return found;
 }
 
 } // namespace vox::depth

@@ -1,7 +1,7 @@
 // The search for the closest point of a surface.
 #pragma once
 
-#include "base/boxes.hpp"
+#include "depth/near.hpp"
 #include "depth/walk.hpp"
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 #include <memory_resource>
 #include <vector>
 
-namespace vox::depth {
+namespace vox {
+class Workers;
+}
 
-struct Box3d {
-    Vec3d min, max;
-};
+namespace vox::depth {
 
 struct Closest {
     SurfacePoint at;
@@ -25,63 +25,109 @@ struct Closest {
 // The closest point of one triangle.
 Closest closest_point(const Solid& solid, std::uint32_t triangle, const Vec3d& p);
 
-// For self-contact, the vertex of the query and a tetrahedron of the fold that it has entered.
-struct Fold {
-    std::uint32_t vertex;
-    std::uint32_t tet;
-    bool only_straight; // accept only points to which a straight line leads from `tet` inside the mesh
+// What one search leaves to the next, and what searches count. The answers do not depend on it.
+struct SearchState {
+    static constexpr std::uint32_t none = ~0u;
+
+    std::uint32_t near = none; // a triangle that is probably close to the next point, of the same tree
+    std::uint64_t visited = 0; // triangles whose closest point was computed
 };
 
+// A tree over the triangles of a surface. It is built once for a topology, and fitted to the positions of
+// each step. Searches only read it.
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
-        : order_(memory), scratch_(memory), boxes_(memory), slabs_(memory) {}
+        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory),
+          levels_(memory), part_(memory), part_of_nodes_(memory) {}
 
     // Makes room for surfaces of that many triangles.
     void reserve(std::size_t triangles);
-    // The number of triangles for which there certainly is room.
-    std::size_t capacity() const noexcept { return std::min(order_.capacity(), scratch_.capacity()); }
 
-    // Builds the tree over all triangles of the solid, in time linear in their number.
+    // Sorts the triangles of the solid, in time linear in their number, and fits the tree to its positions.
     void build(const Solid& solid);
 
-    // Finds the closest point to p; of points equally far, that of the first triangle (Topology::before).
-    // `fold` may be null; else triangles with its vertex are left out. Returns false when there is no point.
-    // Adds the number of triangles it has examined to `visited`.
-    bool find(const Vec3d& p, const Fold* fold, Closest& out, std::uint64_t& visited);
+    // Fits the tree to the positions of the solid, in time linear in the number of triangles. Where that was
+    // not done for its topology, the tree is built, and with `folds` the parts of the mesh are found, in time
+    // linear in its size. `workers` may be null.
+    void update(const Solid& solid, bool folds, Workers* workers);
 
-    // The same for a vertex at p that is in `tet`. With `self`, the tetrahedron is of the vertex's own mesh,
-    // and the point is one of the fold that the vertex has entered, straight ahead if there is one.
+    // To be called when the topology has changed.
+    void invalidate() noexcept;
+
+    // Vertices connected by edges make a part of the mesh. This is the name of the one with a tetrahedron, or
+    // all_parts where there is only one, or they were not found.
+    std::uint32_t part_of(std::uint32_t tet) const noexcept {
+        return part_.empty() ? all_parts : part_[solid_.tets[tet].v[0]];
+    }
+    static constexpr std::uint32_t all_parts = TreeView::mixed;
+
+    // A number that is close for points close to each other.
+    std::uint32_t place_on_curve(const Vec3d& p) const noexcept;
+
+    // Finds the closest point to p; of points equally far, that of the first triangle (Topology::before).
+    // Triangles with the vertex `left_out` are left out. Returns false when there is no point.
+    bool find(const Vec3d& p, std::uint32_t left_out, SearchState& state, Closest& out) const {
+        return find_among(p, left_out, all_parts, state, out);
+    }
+
+    // Finds the point of the fold that a vertex at p has entered, which is in `tet` of the vertex's own mesh.
+    // docs/depth.md has the rule. Returns false when all triangles have the vertex.
+    bool find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                      Closest& out) const;
+
+    // One of the two, the second where `self` is set, with a state of the tree's own. Adds to `visited`.
     bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
                          std::uint64_t& visited);
 
+    static constexpr std::uint32_t no_vertex = ~0u;
+
 private:
-    // All points between two planes. Where a surface is nearly flat and p is far away, a box many edges long
-    // is a poor bound of the distance, and a slab is a good one.
-    struct Slab {
-        bool is_made = false;
-        Vec3d normal{}; // unit, or zero
-        double low = 0, high = 0;
-    };
     struct Key {
         std::uint32_t code, triangle;
     };
-    static constexpr std::uint32_t leaf_size = 4;
+    class Query;
+    class NearestOne;
+    class NearestPlaces;
+    class NearestMinima;
 
-    static std::uint32_t leaves_of(std::size_t triangles);
-    Box3d box_of(std::uint32_t triangle) const;
+    void take_frame();
     void sort_along_curve();
-    bool is_beyond_slab(std::size_t node, const Vec3d& p, double distance);
-    bool accept(const Vec3d& p, const Fold& fold, const Closest& found) const;
+    void lay_out();
+    void name_parts_of_nodes();
+    void fit(Workers* workers);
+    void fit_leaves(std::size_t begin, std::size_t end);
+    bool fits_frame();
+    void find_parts();
+    bool is_in(std::uint32_t part, const Triangle& triangle) const noexcept {
+        return part == all_parts || part_[triangle.v[0]] == part;
+    }
+    bool find_among(const Vec3d& p, std::uint32_t left_out, std::uint32_t part, SearchState& state,
+                    Closest& out) const;
+
+    struct Line { // from a vertex at p, in `tet`
+        Vec3d p;
+        std::uint32_t vertex, tet;
+    };
+    bool reaches(const Line& line, const Vec3d& way) const;
+    double squared_exit(const Line& line, const Vec3d& way) const;
 
     Solid solid_{};
     std::pmr::vector<Key> order_, scratch_;
-    std::pmr::vector<Box3d> boxes_; // a complete binary tree, where i has the children 2i + 1 and 2i + 2
-    std::pmr::vector<Slab> slabs_;  // of the same nodes, each made when it is first needed
-    std::uint32_t leaves_ = 0;      // their number; they are the last boxes, with leaf_size triangles each
-    std::uint32_t last_ = 0;        // the triangle found last, which mostly is close to the next one
-    Vec3d middle_{};                // of the box of all triangles, the origin of slabs
-    double size_ = 0;               // the diagonal of that box
+    std::pmr::vector<std::uint32_t> triangles_; // of the lanes of leaves_
+    std::pmr::vector<TreeLeaf> leaves_;
+    std::pmr::vector<TreeNode> nodes_;
+    std::pmr::vector<TreeLevel> levels_; // the root's is the last
+    TreeView view_{};
+    // The tree's coordinates are scale_ * (x - middle_), mostly at most 1 in magnitude.
+    Vec3d middle_{};
+    double scale_ = 1;
+    float most_ = 0; // the largest coordinate, in magnitude
+    // Of each vertex, the lowest vertex of its part; empty when there is only one part, or folds were not
+    // asked for. And of each leaf and node the part of its triangles, as TreeView has it.
+    std::pmr::vector<std::uint32_t> part_, part_of_nodes_;
+    bool is_built_ = false, has_parts_ = false;
+    SearchState state_{};
 };
 
 } // namespace vox::depth

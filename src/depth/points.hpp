@@ -10,6 +10,8 @@
 
 namespace vox::depth {
 
+constexpr std::uint32_t no_triangle = 0xffffffffu;
+
 // A colliding vertex of one body, and what is found for it.
 struct Point {
     static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
@@ -23,6 +25,7 @@ struct Point {
     bool interior; // certainly in the interior of `tet`; else it may be on its boundary
     double depth = 0;
     Vec3d direction{0, 0, 0};
+    std::uint32_t closest = no_triangle; // the triangle of b's surface that was found to be closest
 };
 
 // Vertices of body a in tetrahedra of body b.

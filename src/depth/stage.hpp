@@ -4,8 +4,9 @@
 
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
-#include "depth/closest.hpp"
+#include "depth/fallback.hpp"
 #include "depth/normals.hpp"
+#include "depth/penetrations.hpp"
 #include "depth/points.hpp"
 #include "mesh/topology.hpp"
 
@@ -25,16 +26,19 @@ class Workers;
 // workers.
 class DepthStage {
 public:
-    explicit DepthStage(std::pmr::memory_resource* memory);
+    // `trees` has to live as long.
+    DepthStage(std::pmr::memory_resource* memory, depth::SurfaceTrees& trees);
     DepthStage(const DepthStage&) = delete;
     DepthStage& operator=(const DepthStage&) = delete;
 
-    // Replaces `penetrations` by those of `contacts`. `hits` are what the contacts were made of, in the same
-    // order (make_contacts), and `topologies` has one for each body. Sets the counters from `leaving_edges`
-    // to `closest_tests`. `workers` may be null; the result does not depend on them.
+    // Replaces `penetrations` by those of `contacts`; those of bodies at rest stay. `hits` are what the
+    // contacts were made of, in the same order (make_contacts), and `topologies` has one for each body.
+    // `closest_budget` as in vox_grid_desc; what stays takes nothing of it. Sets the counters from
+    // `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be null; the result does
+    // not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-              std::span<const Hit> hits, std::span<const vox_contact> contacts, Workers* workers,
-              std::pmr::vector<vox_penetration>& penetrations, vox_counters& counters);
+              std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
+              Workers* workers, Penetrations& penetrations, vox_counters& counters);
 
 private:
     struct Range {
@@ -45,20 +49,14 @@ private:
         std::size_t hit;
         std::size_t place; // index of its penetration
     };
-    struct Unresolved { // a point that needs the closest point of the surface
-        std::uint32_t body_b;
-        std::size_t point;
-    };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory)
-            : number(memory), queue(memory), normals(memory), tree(memory) {}
+        explicit Worker(std::pmr::memory_resource* memory) : number(memory), queue(memory), normals(memory) {}
 
         std::pmr::vector<std::uint32_t> number, queue;
         depth::Normals normals;
-        depth::SurfaceTree tree;
         depth::Counts counts;
 
-        auto buffers() { return std::tie(number, queue, normals, tree); }
+        auto buffers() { return std::tie(number, queue, normals); }
     };
     struct Scene {
         std::span<const Body> bodies;
@@ -69,17 +67,15 @@ private:
     };
 
     void make_room(std::size_t contacts, std::size_t worker_count);
-    void list_points(const Scene& scene, std::span<const vox_contact> contacts);
-    void list_unresolved(const Scene& scene);
+    // Returns the number of all penetrations, with those that are carried over.
+    std::size_t list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);
-    void find_closest(const Scene& scene, const Range& range, Worker& worker);
 
     std::pmr::vector<Start> starts_;
-    std::pmr::vector<depth::Point> points_;      // pair after pair, each in the order of vertices
-    std::pmr::vector<Range> pairs_;              // in points_
-    std::pmr::vector<Unresolved> unresolved_;    // sorted by body_b
-    std::pmr::vector<Range> unresolved_by_body_; // in unresolved_, one for each body_b
+    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
+    std::pmr::vector<Range> pairs_;         // in points_
     PerWorker<Worker> workers_;
+    depth::Fallback fallback_;
 };
 
 } // namespace vox

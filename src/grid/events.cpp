@@ -49,6 +49,15 @@ void Events::hide_events() noexcept {
     began_ = persisted_ = contacts_began_ = 0;
 }
 
+void Events::set_of_contacts(bool of_contacts) noexcept {
+    if (of_contacts == of_contacts_) return;
+    of_contacts_ = of_contacts;
+    std::pmr::memory_resource* memory = contact_events_.get_allocator().resource();
+    for (std::pmr::vector<Inside>& inside : inside_) inside = std::pmr::vector<Inside>(memory);
+    contact_events_ = std::pmr::vector<vox_contact_event>(memory);
+    contacts_began_ = 0;
+}
+
 void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
     const std::size_t pairs = std::min(8 * mesh_count, contact_count);
     reserve_growing(buffers_.last_of_slot, mesh_count);
@@ -139,7 +148,7 @@ std::span<const vox_pair> Events::pairs() const noexcept {
 }
 
 std::span<const vox_pair> Events::pairs_of(std::span<const vox_mesh> meshes) const noexcept {
-    if (meshes.size() == 1) return pairs();
+    if (meshes.size() < 2) return pairs();
     vox_pair wanted{};
     std::tie(wanted.mesh_a, wanted.mesh_b) = std::minmax(meshes[0], meshes[1]);
     const auto [first, last] = std::equal_range(pairs().begin(), pairs().end(), wanted, pair_before);
@@ -159,8 +168,7 @@ vox_touch_view Events::touch_events(std::uint64_t epoch) const noexcept {
 
 vox_contact_event_view Events::contact_events(std::uint64_t epoch) const {
     if (!of_contacts_)
-        throw Error(VOX_ERROR_INVALID_STATE,
-                    "the grid was created without VOX_GRID_CONTACT_EVENTS in its flags");
+        throw Error(VOX_ERROR_INVALID_STATE, "the flags of the grid lack VOX_GRID_CONTACT_EVENTS");
     const std::uint64_t count = contact_events_.size();
     return {.data = contact_events_.data(),
             .byte_stride = sizeof(vox_contact_event),

@@ -50,14 +50,24 @@ public:
     std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
         return {pair_contacts() + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
     }
-    // Calls visit(index) for each contact of one mesh, in the order of its pairs, or between two meshes.
+    // Calls visit(pair) for all pairs, in order, those of one mesh, or that of two meshes.
+    template <class Visit>
+    void for_pairs_of(std::span<const vox_mesh> meshes, Visit&& visit) const {
+        for (const vox_pair& pair : pairs_of(meshes))
+            if (meshes.empty() || pair.mesh_a == meshes[0] || pair.mesh_b == meshes[0]) visit(pair);
+    }
+    // Calls visit(index) for each contact of these pairs, pair by pair.
     template <class Visit>
     void for_contacts_of(std::span<const vox_mesh> meshes, Visit&& visit) const {
-        for (const vox_pair& pair : pairs_of(meshes))
-            if (pair.mesh_a == meshes[0] || pair.mesh_b == meshes[0])
-                for (const std::uint32_t index : contacts_of(pair)) visit(index);
+        for_pairs_of(meshes, [&](const vox_pair& pair) {
+            for (const std::uint32_t index : contacts_of(pair)) visit(index);
+        });
     }
     vox_touch_view touch_events(std::uint64_t epoch) const noexcept;
+    // Whether there are events of single vertices. Where that changes, all of them begin in the next step, or
+    // their memory is given back.
+    bool of_contacts() const noexcept { return of_contacts_; }
+    void set_of_contacts(bool of_contacts) noexcept;
     // Throws Error(INVALID_STATE) without `of_contacts`.
     vox_contact_event_view contact_events(std::uint64_t epoch) const;
 
@@ -73,7 +83,7 @@ private:
         auto operator<=>(const Inside&) const = default;
     };
 
-    // All pairs where one mesh is given; the pair of two meshes, in either order, if they touch.
+    // The pair of two meshes, in either order, if they touch; all pairs where less are given.
     std::span<const vox_pair> pairs_of(std::span<const vox_mesh> meshes) const noexcept;
 
     Touching& next() noexcept { return touching_[1 - current_]; }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace vox {
@@ -37,9 +38,14 @@ void check_grid_desc(const vox_grid_desc& desc) {
     if (!desc.allocator.allocate != !desc.allocator.release)
         refuse("grid allocator has one of allocate and release, expected both or none");
     check_workers(desc.tasks, desc.worker_count);
+    check_flags(desc.flags);
+}
+
+void check_flags(std::uint32_t flags) {
     constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
-    if (desc.flags & ~known_flags)
-        refuse(format("grid flags is 0x%x, of which 0x%x is unknown", desc.flags, desc.flags & ~known_flags));
+    if (flags & ~known_flags)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
 }
 
 } // namespace vox
@@ -51,24 +57,26 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       tasks_(desc.tasks), workers_(desc.tasks, desc.worker_count),
       fast_(desc.engine == VOX_ENGINE_FAST ||
             (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
-      find_penetrations_((desc.flags & VOX_GRID_PENETRATIONS) != 0),
       settings_{.storage = desc.storage,
                 .hash = desc.hash,
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
+      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size),
+      used_cell_size_(desc.cell_size), meshes_(&memory_), bodies_(&memory_), prepared_(&memory_),
+      fast_engine_(&memory_), reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
+      contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
-      queries_(&memory_) {}
+      queries_(&memory_) {
+    if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
+}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
 // What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its
 // facets.
 void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
-    if (find_penetrations_) mesh.make_topology();
+    if (needs_topology(mesh.filter())) mesh.make_topology();
     if (!fast_ || !mesh.has_positions()) return;
     mesh.make_tiles();
     state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
@@ -92,11 +100,13 @@ void vox_grid::scene_changed() noexcept {
 
 void vox_grid::remove(vox_mesh id) {
     meshes_.remove(id);
+    trees_.forget(id);
     scene_changed();
 }
 
 void vox_grid::clear() {
     meshes_.clear();
+    trees_.forget_all();
     scene_changed();
     contacts_.clear();
     penetrations_.clear();
@@ -113,7 +123,19 @@ void vox_grid::mark_moved(vox_mesh id) {
 }
 
 void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
-    mesh(id).set_filter(filter);
+    Mesh& filtered = mesh(id);
+    const bool had_topology = filtered.has_topology(), needed_it = needs_topology(filtered.filter());
+    if (needs_topology(filter)) filtered.make_topology();
+    try {
+        filtered.set_filter(filter);
+    } catch (...) {
+        if (!had_topology) filtered.drop_topology();
+        throw;
+    }
+    if (needed_it && !needs_topology(filter)) {
+        filtered.drop_topology();
+        trees_.forget(id);
+    }
     mark_moved(id);
 }
 
@@ -144,6 +166,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
     mark_moved(id);
+    trees_.topology_changed(id);
     adaptive_.scene_changed();
 }
 
@@ -154,6 +177,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     fast::MeshState state(&memory_);
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
+    trees_.topology_changed(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
 }
@@ -161,7 +185,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     const Mesh& grown = mesh(id);
     meshes_.check_growth(0, corners.size());
-    if (find_penetrations_) check_tet_count(grown.tet_count() + corners.size());
+    if (needs_topology(grown.filter())) check_tet_count(grown.tet_count() + corners.size());
     const std::uint32_t first = meshes_.append_tets(id, corners);
     was_edited(id, corners.size());
     return first;
@@ -183,7 +207,7 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     reserve_exactly(prepared_, mesh_count);
     reserve_exactly(hits_, contact_count);
     reserve_exactly(contacts_, contact_count);
-    if (find_penetrations_) reserve_exactly(penetrations_, contact_count);
+    if (finds_penetrations()) penetrations_.reserve(contact_count);
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
@@ -201,6 +225,47 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
     check_workers(tasks_, worker_count);
     workers_.set_count(worker_count);
     contacts_hold_ = false; // as in set_cell_size()
+}
+
+std::uint32_t vox_grid::flags() const noexcept {
+    return (finds_penetrations() ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u) |
+           (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u);
+}
+
+void vox_grid::set_flags(std::uint32_t flags) {
+    check_flags(flags);
+    if (flags == this->flags()) return;
+    const bool find = (flags & VOX_GRID_PENETRATIONS) != 0;
+    if (find && !finds_penetrations()) find_penetrations();
+    if (!find && finds_penetrations()) stop_finding_penetrations();
+    events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
+    contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
+    ++epoch_;
+}
+
+// All meshes get what the depth stage needs, or none.
+void vox_grid::find_penetrations() {
+    depth_.emplace(&memory_, trees_);
+    std::pmr::vector<Mesh*> prepared(&memory_);
+    try {
+        prepared.reserve(meshes_.slot_count());
+        meshes_.for_each([&](vox_mesh, MeshSlot& slot) {
+            if (slot.mesh.has_topology() || !needs_topology(slot.mesh.filter())) return;
+            slot.mesh.make_topology();
+            prepared.push_back(&slot.mesh);
+        });
+    } catch (...) {
+        for (Mesh* mesh : prepared) mesh->drop_topology();
+        depth_.reset();
+        throw;
+    }
+}
+
+void vox_grid::stop_finding_penetrations() noexcept {
+    meshes_.for_each([](vox_mesh, MeshSlot& slot) { slot.mesh.drop_topology(); });
+    depth_.reset();
+    trees_.forget_all();
+    penetrations_ = Penetrations(&memory_);
 }
 
 // ---- step -----------------------------------------------------------------------------------------
@@ -234,8 +299,11 @@ void vox_grid::step() {
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
 
-        if (find_penetrations_ && !all_carried) {
-            depth_.find(bodies_, topologies_, hits_, contacts_, &workers_, penetrations_, counters);
+        if (all_carried) counters.carried_penetrations = penetrations_.all().size();
+        if (depth_ && !all_carried) {
+            depth_->find(bodies_, topologies_, hits_, contacts_, closest_budget_, &workers_, penetrations_,
+                         counters);
+            counters.carried_penetrations = penetrations_.carried();
             profile.depth_ns = nanoseconds() - contacts_made;
             contacts_made += profile.depth_ns;
         }
@@ -258,7 +326,7 @@ void vox_grid::step() {
         counters.tets += body.tets.size() - body.off_count;
     }
     counters.contacts = contacts_.size();
-    counters.penetrations = penetrations_.size();
+    counters.penetrations = penetrations_.all().size();
     if (chooses_cell_size() && !fast_) {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
@@ -267,6 +335,15 @@ void vox_grid::step() {
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     contacts_hold_ = meshes_hold_ = fast_;
+    if (counters.unknown_penetrations > 0 && log_.write) { // without memory, as the step has succeeded
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
+                      static_cast<unsigned long long>(counters.unknown_penetrations),
+                      static_cast<unsigned long long>(counters.penetrations),
+                      static_cast<unsigned long long>(closest_budget_));
+        write_log(VOX_LOG_WARNING, text);
+    }
 }
 
 void vox_grid::gather_bodies(vox_counters& counters) {
@@ -293,6 +370,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             body.off_count = 0;
         }
         topologies_.push_back(&mesh.topology());
+        slot.topology_version = mesh.topology_version();
         if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
     });
 }
@@ -318,10 +396,11 @@ void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& prof
 // same contacts again.
 std::uint64_t vox_grid::carry_contacts() {
     const std::size_t found = hits_.size();
+    for (std::uint32_t b = 0; b < bodies_.size(); ++b) bodies_[b].carried = !fast_engine_.moved(b);
     const auto resting_body = [this](vox_mesh id) {
         const MeshSlot* slot = meshes_.find(id);
-        return slot && slot->body != MeshSlot::none && !fast_engine_.moved(slot->body) ? slot->body
-                                                                                       : MeshSlot::none;
+        return slot && slot->body != MeshSlot::none && bodies_[slot->body].carried ? slot->body
+                                                                                   : MeshSlot::none;
     };
     for (const vox_contact& contact : contacts_) {
         Hit hit{};
@@ -409,17 +488,32 @@ void vox_grid::write_log(vox_log_level level, const char* text) const {
 
 // ---- readings --------------------------------------------------------------------------------------
 
-void vox_grid::prepare_readings() {
-    for (ReadingBody& reading : readings_.list_meshes(events_)) {
+void vox_grid::prepare_readings(const vox_readings_desc& desc) {
+    constexpr std::uint32_t known = VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH;
+    if (desc.what & ~known)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("desc.what is 0x%x, of which 0x%x is unknown", desc.what, desc.what & ~known));
+    if (desc.mesh_a == VOX_NULL_MESH && desc.mesh_b != VOX_NULL_MESH)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("desc.mesh_b is %u, but there is no mesh_a", desc.mesh_b));
+    const vox_mesh meshes[2] = {desc.mesh_a, desc.mesh_b};
+    const std::size_t named = desc.mesh_a == VOX_NULL_MESH ? 0 : desc.mesh_b == VOX_NULL_MESH ? 1 : 2;
+    for (std::size_t i = 0; i < named; ++i) (void)mesh(meshes[i]); // throws for an id that names no mesh
+
+    for (ReadingBody& reading : readings_.choose(events_, {meshes, named})) {
         const vox_mesh id = reading.body.mesh_id;
         if (!is_valid(id)) continue;
         Mesh& mesh = this->mesh(id);
         if (!mesh.has_positions()) continue;
-        mesh.make_topology();
-        reading = {mesh.body(id), &mesh.topology()};
+        reading.body = mesh.body(id);
+        reading.is_present = true;
+        if (!reading.is_entered || !(desc.what & VOX_READING_SURFACE)) continue;
         check_finite(reading.body);
+        mesh.make_topology();
+        if (!mesh.topology().triangles.empty()) reading.topology = &mesh.topology();
+        reading.is_as_stepped = mesh.topology_version() == meshes_[id].topology_version;
     }
-    readings_.prepare(contacts_, penetrations_, events_, workers_);
+    readings_.prepare(desc.what, contacts_, penetrations_, trees_, workers_);
 }
 
 // ---- queries ---------------------------------------------------------------------------------------
@@ -448,9 +542,20 @@ vox_contact_view vox_grid::contacts() const noexcept {
 }
 
 vox_penetration_view vox_grid::penetrations() const {
-    if (!find_penetrations_)
-        throw Error(VOX_ERROR_INVALID_STATE, "the grid was created without VOX_GRID_PENETRATIONS");
-    return {penetrations_.data(), sizeof(vox_penetration), penetrations_.size(), epoch_};
+    require_penetrations();
+    const std::span<const vox_penetration> all = penetrations_.all();
+    return {all.data(), sizeof(vox_penetration), all.size(), epoch_};
+}
+
+vox_depth_view vox_grid::depths() const {
+    require_penetrations();
+    const std::span<const vox_depth> depths = penetrations_.depths();
+    return {depths.data(), sizeof(vox_depth), depths.size(), epoch_};
+}
+
+void vox_grid::require_penetrations() const {
+    if (!finds_penetrations())
+        throw Error(VOX_ERROR_INVALID_STATE, "the flags of the grid lack VOX_GRID_PENETRATIONS");
 }
 
 std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }

@@ -17,14 +17,16 @@
 #include <vox/vox.h>
 
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 namespace vox {
 
 class Snapshot;
 
-// Throws Error(INVALID_ARGUMENT) naming the field and its value.
+// Throw Error(INVALID_ARGUMENT) naming the field and its value.
 void check_grid_desc(const vox_grid_desc& desc);
+void check_flags(std::uint32_t flags);
 
 } // namespace vox
 
@@ -42,6 +44,8 @@ public:
     void reserve(std::uint32_t mesh_count, std::uint64_t contact_count);
     void set_cell_size(double cell_size);
     void set_worker_count(std::uint32_t worker_count);
+    void set_flags(std::uint32_t flags);
+    std::uint32_t flags() const noexcept;
     double cell_size() const noexcept { return used_cell_size_; }
 
     // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and
@@ -68,8 +72,11 @@ public:
 
     void step();
 
-    void prepare_readings();
-    std::span<const vox_reading> readings() const { return readings_.all(); }
+    void prepare_readings(const vox_readings_desc& desc);
+    const vox::Readings& readings() const {
+        readings_.require_prepared();
+        return readings_;
+    }
 
     void prepare_queries();
     const vox::Queries& queries() const {
@@ -79,6 +86,7 @@ public:
 
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
+    vox_depth_view depths() const;
     std::uint64_t epoch() const noexcept { return epoch_; }
     const vox::Events& events() const noexcept { return events_; }
     std::uint64_t hash() const noexcept;
@@ -89,7 +97,14 @@ public:
 private:
     friend class vox::Snapshot;
 
+    bool finds_penetrations() const noexcept { return depth_.has_value(); }
+    bool needs_topology(const vox_filter& filter) const noexcept {
+        return finds_penetrations() && filter.penetration_mask != 0;
+    }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state) const;
+    void find_penetrations();
+    void stop_finding_penetrations() noexcept;
+    void require_penetrations() const;
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
     void gather_bodies(vox_counters& counters);
@@ -109,11 +124,11 @@ private:
 
     // settings
     bool fast_;
-    bool find_penetrations_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
-    double requested_cell_size_;      // 0: the library chooses it; the fast engine itself, for each window
-    double used_cell_size_;           // in the last step; before the first one the requested one
-    vox::AdaptiveCellSize adaptive_;  // chooses for the reference engine
+    std::uint64_t closest_budget_;
+    double requested_cell_size_;     // 0: the library chooses it; the fast engine itself, for each window
+    double used_cell_size_;          // in the last step; before the first one the requested one
+    vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
 
     vox::MeshTable meshes_;
 
@@ -123,7 +138,8 @@ private:
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage
-    vox::DepthStage depth_;
+    vox::depth::SurfaceTrees trees_;                    // that depths and readings search
+    std::optional<vox::DepthStage> depth_;              // while it finds penetrations
     std::pmr::vector<vox::Hit> hits_;
 
     // results
@@ -133,7 +149,7 @@ private:
     bool contacts_hold_ = false;
     // Whether the meshes, positions aside, are those of the last step of the fast engine.
     bool meshes_hold_ = false;
-    std::pmr::vector<vox_penetration> penetrations_;
+    vox::Penetrations penetrations_;
     vox::Events events_;
     vox::Readings readings_;
     vox::Queries queries_;

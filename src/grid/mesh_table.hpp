@@ -28,7 +28,8 @@ struct MeshSlot {
     std::uint32_t generation; // of the mesh that lives here, or of the last one that did; 0: there was none
     bool live = false;
     static constexpr std::uint32_t none = ~0u;
-    std::uint32_t body = none; // index in the last step; none when it took no part
+    std::uint32_t body = none;          // index in the last step; none when it took no part
+    std::uint32_t topology_version = 0; // of the mesh in the last step
 };
 
 class MeshTable {

@@ -1,16 +1,18 @@
-// Contacts are grouped by the mesh that the vertices are in, so that the tree over its surface is built once.
+// First all but the surfaces, contact by contact. Then the surfaces, by the mesh that the vertices are in, in
+// the order of a curve, so that each search begins next to the one before.
 #include "grid/readings.hpp"
 
 #include "base/bits.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
+#include "depth/points.hpp"
 #include "exact/predicates.hpp"
+#include "mesh/check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 namespace vox {
 
@@ -32,8 +34,6 @@ Vec3d scaled(const Vec3d& v) noexcept {
 
 // The unit vector along the cross product; zero where that is.
 Vec3d unit_normal(const Vec3d& u, const Vec3d& v) noexcept { return normalised(cross(scaled(u), scaled(v))); }
-
-vox_mesh id_of(const ReadingBody& b) noexcept { return b.body.mesh_id; }
 
 Solid solid_of(const ReadingBody& b) noexcept { return {b.topology, b.body.tets, b.body.positions}; }
 
@@ -71,138 +71,262 @@ void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, v
 } // namespace
 
 Readings::Readings(std::pmr::memory_resource* memory)
-    : bodies_(memory), runs_(memory), groups_(memory), trees_(memory), readings_(memory) {}
+    : ids_(memory), bodies_(memory), chosen_(memory), asks_(memory), readings_(memory), depths_(memory) {}
 
-std::span<const vox_reading> Readings::all() const {
+void Readings::require_prepared() const {
     if (!prepared_)
         throw Error(VOX_ERROR_INVALID_STATE, "the contacts of the last step were not read: call "
                                              "vox_grid_prepare_readings after it");
-    return readings_;
 }
 
-std::span<ReadingBody> Readings::list_meshes(const Events& events) {
-    bodies_.clear();
-    bodies_.reserve(2 * events.pairs().size());
-    for (const vox_pair& pair : events.pairs())
-        for (const vox_mesh mesh : {pair.mesh_a, pair.mesh_b}) bodies_.emplace_back().body.mesh_id = mesh;
-    std::ranges::sort(bodies_, {}, id_of);
-    const auto same = [](const ReadingBody& x, const ReadingBody& y) { return id_of(x) == id_of(y); };
-    bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
+const vox_reading* Readings::find(std::uint64_t contact) const noexcept {
+    if (contact < readings_.size() && readings_[contact].contact == contact) return &readings_[contact];
+    const auto at = std::ranges::lower_bound(readings_, contact, {}, &vox_reading::contact);
+    return at != readings_.end() && at->contact == contact ? &*at : nullptr;
+}
+
+// ---- which contacts --------------------------------------------------------------------------------
+
+std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vox_mesh> meshes) {
+    all_ = meshes.empty();
+    ids_.clear();
+    ids_.reserve(2 * events.pairs().size());
+    chosen_.clear();
+    events.for_pairs_of(meshes, [&](const vox_pair& pair) {
+        ids_.insert(ids_.end(), {pair.mesh_a, pair.mesh_b});
+        const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
+        if (!all_) chosen_.insert(chosen_.end(), contacts.begin(), contacts.end());
+    });
+    std::ranges::sort(chosen_);
+    std::ranges::sort(ids_);
+    ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+    bodies_.assign(ids_.size(), {});
+    for (std::size_t i = 0; i < ids_.size(); ++i) bodies_[i].body.mesh_id = ids_[i];
+    events.for_pairs_of(meshes, [&](const vox_pair& pair) {
+        ReadingBody &a = bodies_[body_of(pair.mesh_a)], &b = bodies_[body_of(pair.mesh_b)];
+        a.user_data = pair.user_data_a;
+        b.user_data = pair.user_data_b;
+        a.is_entered |= pair.b_in_a > 0;
+        b.is_entered |= pair.a_in_b > 0;
+    });
     return bodies_;
 }
 
-const ReadingBody& Readings::body_of(vox_mesh mesh) const noexcept {
-    return *std::ranges::lower_bound(bodies_, mesh, {}, id_of);
+std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(ids_, mesh) - ids_.begin());
 }
 
-void Readings::prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
-                       const Events& events, Workers& workers) {
-    // Room for all comes first: after it only a task system of the caller can fail.
-    std::size_t triangles = 0;
-    for (const ReadingBody& body : bodies_)
-        if (body.topology) triangles = std::max(triangles, body.topology->triangles.size());
-    runs_.reserve(2 * events.pairs().size());
-    groups_.reserve(2 * events.pairs().size());
-    trees_.reserve(workers.count());
-    while (trees_.size() < workers.count()) trees_.emplace_back(readings_.get_allocator().resource());
-    for (SurfaceTree& tree : trees_) tree.reserve(triangles);
-    readings_.reserve(contacts.size());
+// ---- all of them -----------------------------------------------------------------------------------
+
+void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts,
+                       const Penetrations& penetrations, SurfaceTrees& trees, Workers& workers) {
+    const Step step{what, contacts, penetrations};
+    const std::size_t count = all_ ? contacts.size() : chosen_.size();
+    const bool surfaces = (what & VOX_READING_SURFACE) != 0;
+    // First all that can fail, but for a task system of the caller.
+    if (what & (VOX_READING_POSITION | VOX_READING_SURFACE)) check_positions(step, count);
+    if (surfaces) {
+        list_asks(step, count);
+        fit_trees(trees);
+        sort_asks(step);
+    }
+    const std::size_t depths = what & VOX_READING_DEPTH ? count : 0;
+    depths_.reserve(depths);
+    readings_.reserve(count);
 
     prepared_ = false;
-    readings_.assign(contacts.size(), {});
-    list_depths(penetrations);
-    list_runs(events);
-    constexpr std::size_t least = 512; // contacts that are worth a task
-    const std::size_t groups = groups_.size();
-    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-        for (std::size_t g = begin; g < end; ++g) read(groups_[g], contacts, trees_[worker]);
+    readings_.resize(count);
+    depths_.resize(depths);
+    // At most one task: that of the surfaces takes longer.
+    constexpr std::size_t least_copies = 8192, least_searches = 256; // that are worth a task
+    const auto share = [&](bool is_task, std::size_t items, std::size_t least, auto&& function) {
+        const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { function({begin, end}); };
+        if (is_task && items > least)
+            workers.for_ranges(items, least, run);
+        else
+            run(0, items, 0);
     };
-    if (contacts.size() <= least)
-        run(0, groups, 0);
-    else
-        workers.for_ranges(groups, std::max<std::size_t>(groups * least / contacts.size(), 1), run);
+    share(!surfaces, count, least_copies, [&](const Range& range) { read_range(range, step); });
+    if (surfaces)
+        share(true, asks_.size(), least_searches, [&](const Range& asks) { read_surfaces(asks, step); });
     prepared_ = true;
 }
 
-// Penetrations are in the order of contacts, one for all of the same vertex and mesh.
-void Readings::list_depths(std::span<const vox_penetration> penetrations) noexcept {
-    for (std::size_t i = 0; i < readings_.size(); ++i) readings_[i].contact = i;
-    for (std::size_t n = 0; n < penetrations.size(); ++n) {
-        const vox_penetration& from = penetrations[n];
-        const std::size_t end = n + 1 < penetrations.size()
-                                    ? static_cast<std::size_t>(penetrations[n + 1].contact)
-                                    : readings_.size();
-        for (auto i = static_cast<std::size_t>(from.contact); i < end; ++i) {
-            vox_reading& to = readings_[i];
-            to.state = from.state;
-            to.depth = from.depth;
-            std::copy_n(from.direction, 3, to.direction);
-            to.known |= VOX_READING_DEPTH;
+// Where a vertex is, and whether that is known.
+bool Readings::has_position(const ReadingBody& a, std::uint32_t vertex) noexcept {
+    return a.is_present && vertex < a.body.vertex_count && !has_bit(a.body.removed_vertices, vertex);
+}
+
+std::size_t Readings::end_of_vertex(std::size_t first, std::size_t last, const Step& step) const noexcept {
+    const vox_contact& contact = step.contacts[contact_of(first)];
+    for (++first; first < last; ++first) {
+        const vox_contact& next = step.contacts[contact_of(first)];
+        if (next.vertex != contact.vertex || next.mesh_a != contact.mesh_a || next.mesh_b != contact.mesh_b)
+            break;
+    }
+    return first;
+}
+
+void Readings::check_positions(const Step& step, std::size_t count) const {
+    const ReadingBody* a = nullptr;
+    for (std::size_t k = 0; k < count; k = end_of_vertex(k, count, step)) {
+        const vox_contact& contact = step.contacts[contact_of(k)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (has_position(*a, contact.vertex)) check_finite(a->body, contact.vertex);
+    }
+}
+
+// ---- all but the surfaces --------------------------------------------------------------------------
+
+// Goes through the penetrations along with contacts, which ascend. They are in the same order, one for all of
+// the same vertex and mesh, or none.
+class Readings::PenetrationOf {
+public:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    explicit PenetrationOf(const Step& step) : all_(step.penetrations.all()), contacts_(step.contacts) {}
+
+    // The place of that of a contact, or none.
+    std::size_t operator()(std::uint32_t index) noexcept {
+        if (is_reached(index)) ++next_; // as a rule that is all
+        if (is_reached(index))
+            next_ = static_cast<std::size_t>(
+                std::upper_bound(all_.begin() + static_cast<std::ptrdiff_t>(next_), all_.end(), index,
+                                 [](std::uint32_t i, const vox_penetration& p) { return i < p.contact; }) -
+                all_.begin());
+        if (next_ == 0) return none;
+        const vox_penetration& last = all_[next_ - 1];
+        const vox_contact& contact = contacts_[index];
+        const bool same =
+            last.vertex == contact.vertex && last.mesh_a == contact.mesh_a && last.mesh_b == contact.mesh_b;
+        return same ? next_ - 1 : none;
+    }
+
+private:
+    bool is_reached(std::uint32_t index) const noexcept {
+        return next_ < all_.size() && all_[next_].contact <= index;
+    }
+
+    std::span<const vox_penetration> all_;
+    std::span<const vox_contact> contacts_;
+    std::size_t next_ = 0; // the first one after the contact
+};
+
+void Readings::read_range(const Range& range, const Step& step) noexcept {
+    const ReadingBody *a = nullptr, *b = nullptr;
+    PenetrationOf penetration_of(step);
+    for (std::size_t k = range.first, last; k < range.last; k = last) {
+        last = end_of_vertex(k, range.last, step);
+        const vox_contact& contact = step.contacts[contact_of(k)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (!b || b->body.mesh_id != contact.mesh_b) b = &bodies_[body_of(contact.mesh_b)];
+        vox_reading out{};
+        out.user_data_a = a->user_data;
+        out.user_data_b = b->user_data;
+        if ((step.what & VOX_READING_POSITION) && has_position(*a, contact.vertex)) {
+            write(out.position, a->body.positions.exact(contact.vertex));
+            out.known |= VOX_READING_POSITION;
+        }
+        vox_depth depth{};
+        const std::size_t place =
+            step.what & VOX_READING_DEPTH ? penetration_of(contact_of(k)) : PenetrationOf::none;
+        if (place != PenetrationOf::none) {
+            const vox_penetration& from = step.penetrations.all()[place];
+            out.state = from.state;
+            out.depth = from.depth;
+            std::copy_n(from.direction, 3, out.direction);
+            out.known |= VOX_READING_DEPTH;
+            depth = step.penetrations.depths()[place];
+        }
+        for (std::size_t same = k; same < last; ++same) { // in several tetrahedra
+            out.contact = contact_of(same);
+            readings_[same] = out;
+            if (step.what & VOX_READING_DEPTH) depths_[same] = depth;
         }
     }
 }
 
-void Readings::list_runs(const Events& events) {
-    runs_.clear();
-    groups_.clear();
-    for (const vox_pair& pair : events.pairs()) {
-        const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
-        const ReadingBody *a = &body_of(pair.mesh_a), *b = &body_of(pair.mesh_b);
-        const auto a_in_b = static_cast<std::size_t>(pair.a_in_b);
-        if (pair.a_in_b > 0)
-            runs_.push_back({pair.mesh_b, a, b, contacts.first(a_in_b), pair.user_data_a, pair.user_data_b});
-        if (pair.b_in_a > 0)
-            runs_.push_back(
-                {pair.mesh_a, b, a, contacts.subspan(a_in_b), pair.user_data_b, pair.user_data_a});
-    }
-    std::sort(runs_.begin(), runs_.end(), [](const Run& x, const Run& y) {
-        return std::tuple(x.mesh_b, x.contacts.data()) < std::tuple(y.mesh_b, y.contacts.data());
-    });
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-        if (i == 0 || runs_[i].mesh_b != runs_[i - 1].mesh_b) groups_.push_back({i, i});
-        groups_.back().last = i + 1;
+// ---- surfaces --------------------------------------------------------------------------------------
+
+void Readings::list_asks(const Step& step, std::size_t count) {
+    asks_.clear();
+    asks_.reserve(count);
+    const ReadingBody* a = nullptr;
+    std::uint32_t b = 0;
+    PenetrationOf penetration_of(step);
+    for (std::size_t k = 0, last; k < count; k = last) {
+        last = end_of_vertex(k, count, step);
+        const vox_contact& contact = step.contacts[contact_of(k)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (ids_[b] != contact.mesh_b) b = body_of(contact.mesh_b);
+        if (!bodies_[b].topology || !has_position(*a, contact.vertex)) continue;
+        bodies_[b].is_in_itself |= a == &bodies_[b];
+        const std::size_t place =
+            bodies_[b].is_as_stepped ? penetration_of(contact_of(k)) : PenetrationOf::none;
+        const std::uint32_t closest =
+            place != PenetrationOf::none ? step.penetrations.closest()[place] : no_triangle;
+        asks_.push_back({b, 0, static_cast<std::uint32_t>(k), closest});
     }
 }
 
-void Readings::read(const Group& group, std::span<const vox_contact> contacts, SurfaceTree& tree) {
-    const ReadingBody& b = *runs_[group.first].b;
-    const bool has_surface = b.topology && !b.topology->triangles.empty();
-    if (has_surface) tree.build(solid_of(b));
-    for (std::size_t r = group.first; r < group.last; ++r) {
-        const std::span<const std::uint32_t> all = runs_[r].contacts;
-        for (std::size_t first = 0, last; first < all.size(); first = last) {
-            last = first + 1;
-            while (last < all.size() && contacts[all[last]].vertex == contacts[all[first]].vertex) ++last;
-            vox_reading& out = readings_[all[first]];
-            read_vertex(runs_[r], all.subspan(first, last - first), contacts, has_surface ? &tree : nullptr,
-                        out);
-            for (std::size_t i = first + 1; i < last; ++i) { // in several tetrahedra
-                readings_[all[i]] = out;
-                readings_[all[i]].contact = all[i];
-            }
+// Of the meshes whose surfaces are searched, for the depth stage has not found all closest points.
+void Readings::fit_trees(SurfaceTrees& trees) {
+    const auto is_searched = [](const Ask& ask) { return ask.closest == no_triangle; };
+    for (const Ask& ask : asks_)
+        if (is_searched(ask)) trees.add(ids_[ask.body_b]);
+    for (const Ask& ask : asks_)
+        if (is_searched(ask)) bodies_[ask.body_b].tree = &trees[ids_[ask.body_b]];
+    for (const ReadingBody& body : bodies_)
+        if (body.tree) body.tree->update(solid_of(body), body.is_in_itself, nullptr);
+}
+
+// So that each search begins next to the one before.
+void Readings::sort_asks(const Step& step) noexcept {
+    const ReadingBody* a = nullptr;
+    for (Ask& ask : asks_) {
+        const SurfaceTree* tree = bodies_[ask.body_b].tree;
+        if (!tree) continue;
+        const vox_contact& contact = step.contacts[contact_of(ask.first)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        ask.code = tree->place_on_curve(a->body.positions.exact(contact.vertex));
+    }
+    std::sort(asks_.begin(), asks_.end(), [](const Ask& x, const Ask& y) {
+        return std::tie(x.body_b, x.code, x.first) < std::tie(y.body_b, y.code, y.first);
+    });
+}
+
+void Readings::read_surfaces(const Range& asks, const Step& step) noexcept {
+    const ReadingBody* a = nullptr;
+    SearchState state;
+    for (std::size_t i = asks.first; i < asks.last; ++i) {
+        const Ask& ask = asks_[i];
+        const ReadingBody& b = bodies_[ask.body_b];
+        const std::size_t last = end_of_vertex(ask.first, readings_.size(), step);
+        const vox_contact& contact = step.contacts[contact_of(ask.first)];
+        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (i > asks.first && asks_[i - 1].body_b != ask.body_b) state.near = SearchState::none;
+        // The first of the tetrahedra with the vertex that is still on.
+        std::size_t at = ask.first;
+        const auto is_on = [&](std::size_t k) {
+            const std::uint32_t tet = step.contacts[contact_of(k)].tet;
+            return tet < b.body.tets.size() && !has_bit(b.body.off, tet);
+        };
+        while (at < last && !is_on(at)) ++at;
+        if (at == last) continue;
+        const std::uint32_t tet = step.contacts[contact_of(at)].tet;
+        const Vec3d p = a->body.positions.exact(contact.vertex);
+        Closest closest;
+        if (ask.closest != no_triangle) // the depth stage has found it
+            closest = closest_point(solid_of(b), ask.closest, p);
+        else if (!(a == &b ? b.tree->find_in_fold(p, contact.vertex, tet, state, closest)
+                           : b.tree->find(p, SurfaceTree::no_vertex, state, closest)))
+            continue;
+        write_surface(solid_of(b), p, closest, readings_[ask.first]);
+        for (std::size_t k = ask.first + 1; k < last; ++k) {
+            readings_[k] = readings_[ask.first];
+            readings_[k].contact = contact_of(k);
         }
     }
-}
-
-void Readings::read_vertex(const Run& run, std::span<const std::uint32_t> same,
-                           std::span<const vox_contact> contacts, SurfaceTree* tree, vox_reading& out) {
-    const Body &a = run.a->body, &b = run.b->body;
-    const std::uint32_t vertex = contacts[same[0]].vertex;
-    out.user_data_a = run.user_data_a;
-    out.user_data_b = run.user_data_b;
-    if (!run.a->topology || vertex >= a.vertex_count || has_bit(a.removed_vertices, vertex)) return;
-    const Vec3d p = a.positions.exact(vertex);
-    write(out.position, p);
-    out.known |= VOX_READING_POSITION;
-    // The first of the tetrahedra with the vertex that is still on.
-    const auto tet = std::find_if(same.begin(), same.end(), [&](std::uint32_t contact) {
-        return contacts[contact].tet < b.tets.size() && !has_bit(b.off, contacts[contact].tet);
-    });
-    if (!tree || tet == same.end()) return;
-    Closest closest;
-    std::uint64_t visited = 0;
-    if (tree->find_of_contact(p, vertex, contacts[*tet].tet, run.a == run.b, closest, visited))
-        write_surface(solid_of(*run.b), p, closest, out);
 }
 
 } // namespace vox

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "base/scene.hpp"
-#include "depth/closest.hpp"
+#include "depth/penetrations.hpp"
+#include "depth/surface_trees.hpp"
 #include "grid/events.hpp"
 
 #include <vox/vox.h>
@@ -18,10 +19,16 @@ namespace vox {
 
 class Workers;
 
-// A mesh as it is now.
+// A mesh that touches others, as it is now.
 struct ReadingBody {
     Body body{};
-    const Topology* topology = nullptr; // null: the mesh was removed
+    const Topology* topology = nullptr; // null: its surface is not read, or it has none
+    std::uint64_t user_data = 0;
+    bool is_present = false;            // else it was removed since the step
+    bool is_entered = false;            // by vertices whose contacts are read
+    bool is_as_stepped = false;         // its topology is that of the step
+    bool is_in_itself = false;          // has vertices in its own tetrahedra, set by prepare()
+    depth::SurfaceTree* tree = nullptr; // where it is searched; set by prepare()
 };
 
 class Readings {
@@ -30,45 +37,62 @@ public:
     Readings(const Readings&) = delete;
     Readings& operator=(const Readings&) = delete;
 
-    // Lists the meshes that touch, ascending, with their ids alone. The caller fills in the rest before
-    // prepare(); positions have to be finite.
-    std::span<ReadingBody> list_meshes(const Events& events);
-    // Makes the readings from the results of a step; meshes may have changed since. Throws what the memory
-    // throws, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
-    // no readings then.
-    void prepare(std::span<const vox_contact> contacts, std::span<const vox_penetration> penetrations,
-                 const Events& events, Workers& workers);
+    // Chooses contacts: all, those of one mesh, or those between two. Lists the meshes in them by ids; the
+    // caller completes body, topology and is_present before prepare(). Throws what the memory throws.
+    std::span<ReadingBody> choose(const Events& events, std::span<const vox_mesh> meshes);
+    // Makes the parts `what` of the readings of these contacts from the results of a step; meshes may have
+    // changed since. Throws what the memory throws, or Error(NON_FINITE or LIMIT) for the position of a
+    // vertex, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
+    // no readings then. Positions of meshes with a topology have to be finite.
+    void prepare(std::uint32_t what, std::span<const vox_contact> contacts, const Penetrations& penetrations,
+                 depth::SurfaceTrees& trees, Workers& workers);
     void invalidate() noexcept { prepared_ = false; }
 
-    // One for each contact. Throws Error(INVALID_STATE) unless they are prepared.
-    std::span<const vox_reading> all() const;
+    // Throws Error(INVALID_STATE) unless they are prepared.
+    void require_prepared() const;
+    std::span<const vox_reading> all() const noexcept { return readings_; } // in the order of contacts
+    std::span<const vox_depth> depths() const noexcept { return depths_; }  // of each, or of none
+    const vox_reading* find(std::uint64_t contact) const noexcept;          // null when it was not chosen
 
 private:
-    // Contacts of vertices of mesh_a in tetrahedra of mesh_b, in canonical order: indices of contacts.
-    struct Run {
-        vox_mesh mesh_b;
-        const ReadingBody *a, *b;
-        std::span<const std::uint32_t> contacts;
-        std::uint64_t user_data_a, user_data_b;
+    // What all parts of prepare() read.
+    struct Step {
+        std::uint32_t what;
+        std::span<const vox_contact> contacts;
+        const Penetrations& penetrations;
     };
-    // The runs with one mesh_b, in runs_.
-    struct Group {
+    // A vertex that asks for a surface: whose, its place on a curve, the first of its readings, and the
+    // closest triangle, if that is known.
+    struct Ask {
+        std::uint32_t body_b, code, first, closest;
+    };
+    class PenetrationOf;
+    struct Range {
         std::size_t first, last;
     };
 
-    const ReadingBody& body_of(vox_mesh mesh) const noexcept;
-    void list_runs(const Events& events);
-    void list_depths(std::span<const vox_penetration> penetrations) noexcept;
-    void read(const Group& group, std::span<const vox_contact> contacts, depth::SurfaceTree& tree);
-    // Reads one vertex of a run; `same` are its contacts there. `tree` is null where mesh_b has no surface.
-    void read_vertex(const Run& run, std::span<const std::uint32_t> same,
-                     std::span<const vox_contact> contacts, depth::SurfaceTree* tree, vox_reading& out);
+    std::uint32_t body_of(vox_mesh mesh) const noexcept; // index in bodies_
+    // The contact of a reading.
+    std::uint32_t contact_of(std::size_t reading) const noexcept {
+        return all_ ? static_cast<std::uint32_t>(reading) : chosen_[reading];
+    }
+    // The end, at most `last`, of the readings of the same vertex in the same mesh.
+    std::size_t end_of_vertex(std::size_t first, std::size_t last, const Step& step) const noexcept;
+    static bool has_position(const ReadingBody& a, std::uint32_t vertex) noexcept;
+    void check_positions(const Step& step, std::size_t count) const;
+    void read_range(const Range& range, const Step& step) noexcept;
+    void list_asks(const Step& step, std::size_t count);
+    void fit_trees(depth::SurfaceTrees& trees);
+    void sort_asks(const Step& step) noexcept;
+    void read_surfaces(const Range& asks, const Step& step) noexcept;
 
-    std::pmr::vector<ReadingBody> bodies_; // by id
-    std::pmr::vector<Run> runs_;
-    std::pmr::vector<Group> groups_;
-    std::pmr::vector<depth::SurfaceTree> trees_; // of each worker
+    std::pmr::vector<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
+    std::pmr::vector<ReadingBody> bodies_;
+    bool all_ = true;                        // all contacts are read, else those
+    std::pmr::vector<std::uint32_t> chosen_; // ascending
+    std::pmr::vector<Ask> asks_;             // by mesh_b, neighbours next to each other
     std::pmr::vector<vox_reading> readings_;
+    std::pmr::vector<vox_depth> depths_;
     bool prepared_ = false;
 };
 

@@ -19,10 +19,7 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     out.u32(grid.fast_ ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE);
     out.u32(settings.storage);
     out.u32(settings.hash);
-    std::uint32_t flags = 0;
-    if (grid.find_penetrations_) flags |= VOX_GRID_PENETRATIONS;
-    if (grid.events_.of_contacts_) flags |= VOX_GRID_CONTACT_EVENTS;
-    out.u32(flags);
+    out.u32(grid.flags());
     out.u64(settings.hash_table_size);
     for (const Vec3d& corner : {settings.world_min, settings.world_max})
         for (const double x : {corner.x, corner.y, corner.z}) out.f64(x);
@@ -225,6 +222,7 @@ std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
     SnapshotWriter out(bytes);
     save_settings(grid, out);
     save_slots(grid, out);
+    save_masks(grid, out);
     save_meshes(grid, out);
     save_cuts(grid, out);
     save_filters(grid, out);
@@ -243,7 +241,8 @@ vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine
 void Snapshot::load(SnapshotReader in, vox_grid& grid) {
     Loading to{.grid = grid,
                .awaited = std::pmr::vector<vox_mesh>(&grid.memory_),
-               .free_slots = std::pmr::vector<std::uint32_t>(&grid.memory_)};
+               .free_slots = std::pmr::vector<std::uint32_t>(&grid.memory_),
+               .masks = std::pmr::vector<PenetrationMask>(&grid.memory_)};
     bool seen[std::size(parts)] = {};
     std::size_t last = 0; // the part that came last
     for (SnapshotChunk chunk; in.next(chunk);) {

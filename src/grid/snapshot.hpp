@@ -14,12 +14,18 @@
 
 namespace vox {
 
+struct PenetrationMask {
+    vox_mesh mesh;
+    std::uint64_t mask;
+};
+
 // What loading knows beside the grid.
 struct Loading {
     vox_grid& grid;
     std::pmr::vector<vox_mesh> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;               // index in `awaited`
     std::pmr::vector<std::uint32_t> free_slots;
+    std::pmr::vector<PenetrationMask> masks; // that are not the default, by mesh
     vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
 };
 
@@ -53,6 +59,8 @@ private:
     static void load_settings(SnapshotChunk& in, Loading& to);
     static void save_slots(const vox_grid& grid, SnapshotWriter& out);
     static void load_slots(SnapshotChunk& in, Loading& to);
+    static void save_masks(const vox_grid& grid, SnapshotWriter& out);
+    static void load_masks(SnapshotChunk& in, Loading& to);
     static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
     static void load_mesh(SnapshotChunk& in, Loading& to);
     static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
@@ -78,10 +86,10 @@ private:
         void (*load)(SnapshotChunk& in, Loading& to);
     };
     static constexpr Part parts[] = {
-        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
-        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
-        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
-        {"EVNT", false, true, load_events}};
+        {"GRID", false, true, load_settings},   {"SLOT", false, true, load_slots},
+        {"pmsk", false, false, load_masks},     {"MESH", true, false, load_mesh},
+        {"CUTS", true, false, load_cuts},       {"FILT", true, false, load_filter},
+        {"PAIR", false, true, load_exceptions}, {"EVNT", false, true, load_events}};
 };
 
 } // namespace vox

@@ -4,6 +4,7 @@
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -54,6 +55,41 @@ void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what,
 }
 
 } // namespace
+
+// ---- pmsk: with which meshes a mesh has penetrations, where that is not the default ---------------
+
+// Before the meshes, which are prepared for penetrations when they are loaded. Its name lets older versions
+// skip it: contacts do not depend on it.
+void Snapshot::save_masks(const vox_grid& grid, SnapshotWriter& out) {
+    const auto is_usual = [](const Mesh& mesh) {
+        return mesh.filter().penetration_mask == filter_defaults().penetration_mask;
+    };
+    bool any = false;
+    for_each_mesh(grid, [&](vox_mesh, const Mesh& mesh) { any |= !is_usual(mesh); });
+    if (!any) return;
+    out.begin_chunk("pmsk");
+    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+        if (is_usual(mesh)) return;
+        out.u32(id);
+        out.u32(0); // reserved
+        out.u64(mesh.filter().penetration_mask);
+    });
+    out.end_chunk();
+}
+
+void Snapshot::load_masks(SnapshotChunk& in, Loading& to) {
+    to.masks.reserve(std::min(static_cast<std::size_t>(in.left() / 16), to.awaited.size()));
+    while (in.left() > 0) {
+        const vox_mesh id = in.u32();
+        if (!std::ranges::binary_search(to.awaited, id))
+            in.refuse(format("mesh %" PRIu32 " is not in it", id));
+        if (!to.masks.empty() && id <= to.masks.back().mesh)
+            in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.masks.back().mesh));
+        if (const std::uint32_t reserved = in.u32(); reserved != 0)
+            in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
+        to.masks.push_back({id, in.u64()});
+    }
+}
 
 // ---- MESH: one mesh, in the order of ids ----------------------------------------------------------
 
@@ -145,6 +181,8 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
         const Body view = check_mesh(desc, "", NullPositions::allowed);
         vox_filter filter = filter_defaults();
         filter.self_collision = view.self_collision;
+        const auto mask = std::ranges::lower_bound(to.masks, id, {}, &PenetrationMask::mesh);
+        if (mask != to.masks.end() && mask->mesh == id) filter.penetration_mask = mask->mask;
         (void)grid.insert(desc, view, filter);
         if (bits & disabled_bit) grid.set_enabled(id, false);
         if (bits & transform_bit) grid.mesh(id).set_transform(transform.data());

@@ -81,19 +81,21 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
 }
 
 void check_finite(const Body& body) {
-    const auto refuse = [&](vox_result result, std::uint32_t vertex, const Vec3d& p, const char* why) {
-        throw Error(result, format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is %s",
-                                   body.mesh_id, vertex, p.x, p.y, p.z, why));
-    };
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v) check_finite(body, v);
+}
+
+void check_finite(const Body& body, std::uint32_t vertex) {
     const auto all_finite = [](const auto& p) {
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     };
-    for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
-        if (all_finite(body.positions[v])) continue;
-        const Vec3d p = body.positions.exact(v);
-        if (!all_finite(p)) refuse(VOX_ERROR_NON_FINITE, v, p, "not finite");
-        refuse(VOX_ERROR_LIMIT, v, p, "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38");
-    }
+    if (all_finite(body.positions[vertex])) return;
+    const Vec3d p = body.positions.exact(vertex);
+    const auto refuse = [&](vox_result result, const char* why) {
+        throw Error(result, format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is %s",
+                                   body.mesh_id, vertex, p.x, p.y, p.z, why));
+    };
+    if (!all_finite(p)) refuse(VOX_ERROR_NON_FINITE, "not finite");
+    refuse(VOX_ERROR_LIMIT, "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38");
 }
 
 } // namespace vox

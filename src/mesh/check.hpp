@@ -26,4 +26,7 @@ void check_format(const vox_format& format, const char* where);
 // finite but rounds to no finite float.
 void check_finite(const Body& body);
 
+// The same for one vertex.
+void check_finite(const Body& body, std::uint32_t vertex);
+
 } // namespace vox

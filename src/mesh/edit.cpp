@@ -267,9 +267,9 @@ void Mesh::invalidate_tiles() noexcept {
 
 void Mesh::invalidate_prepared() noexcept {
     tets_of_ = IndexLists(memory());
-    topology_ = Topology(memory());
+    drop_topology();
     self_filter_.rings = Rings(memory());
-    has_tets_of_ = has_topology_ = false;
+    has_tets_of_ = false;
     has_rings_ = filter_.self_rings == 0;
     sample_.reset();
     invalidate_tiles();
@@ -290,6 +290,7 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
         if (has_tiles_ && !repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) invalidate_tiles();
         if (has_topology_) {
             check_tet_count(tets_.size());
+            ++topology_version_;
             repair_topology(tets_, tets_of_, changes, topology_);
         }
         if (has_rings) self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
@@ -330,6 +331,7 @@ void Mesh::take_over(Mesh&& before) noexcept {
     }
     exceptions_ = std::move(before.exceptions_);
     user_data_ = before.user_data_;
+    topology_version_ = before.topology_version_ + 1;
     enabled_ = before.enabled_;
 }
 

@@ -18,6 +18,7 @@ vox_filter filter_defaults() noexcept {
     filter.struct_size = sizeof filter;
     filter.category = 1;
     filter.mask = ~std::uint64_t{0};
+    filter.penetration_mask = ~std::uint64_t{0};
     return filter;
 }
 

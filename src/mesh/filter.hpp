@@ -23,6 +23,15 @@ vox_filter filter_defaults() noexcept;
 // Whether vertices of one body may make contacts with tetrahedra of another one.
 bool collide(const Body& a, const Body& b) noexcept;
 
+// Whether contacts between the two, either way, have penetrations.
+inline bool have_penetrations(const Body& a, const Body& b) noexcept {
+    const auto accepts = [](const Body& body, const Body& other) {
+        return body.penetration_mask == ~std::uint64_t{0} ||
+               (body.penetration_mask & other.filter.category) != 0;
+    };
+    return accepts(a, b) && accepts(b, a);
+}
+
 // The vertices within so many edges of each vertex.
 struct Rings {
     explicit Rings(std::pmr::memory_resource* memory) noexcept : near(memory), reached_from(memory) {}

@@ -37,6 +37,13 @@ void Mesh::make_topology() {
     if (has_topology_) return;
     vox::make_topology(tets_, vertex_count_, topology_);
     has_topology_ = true;
+    ++topology_version_;
+}
+
+void Mesh::drop_topology() noexcept {
+    topology_ = Topology(memory());
+    has_topology_ = false;
+    ++topology_version_;
 }
 
 // From the heap, as a const call must not use the memory of the grid.
@@ -91,6 +98,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .tets = tets_,
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},
+            .penetration_mask = filter_.penetration_mask,
             .exceptions = exceptions_,
             .self_filter =
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,

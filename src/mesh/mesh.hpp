@@ -39,6 +39,11 @@ public:
     // Makes the topology, unless that is done.
     void make_topology();
     const Topology& topology() const noexcept { return topology_; }
+    bool has_topology() const noexcept { return has_topology_; }
+    // Grows when the topology is made, changed or dropped.
+    std::uint32_t topology_version() const noexcept { return topology_version_; }
+    // Gives its memory back.
+    void drop_topology() noexcept;
 
     // What suggestions of a cell size look at, made at the first call, from the topology where that is made.
     const MeshSample& sample() const;
@@ -142,6 +147,7 @@ private:
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
+    std::uint32_t topology_version_ = 0;
     bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;

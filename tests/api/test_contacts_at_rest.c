@@ -78,7 +78,8 @@ static void move_one(scene* s, int i) {
     moved(s, i);
 }
 
-/* Steps, and compares the contacts with those of a new grid over the same meshes in the same order. */
+/* Steps, and compares contacts and penetrations with those of a new grid over the same meshes in the same
+ * order. */
 static vox_counters check_step(scene* s) {
     vox_mesh id_of[most_bodies] = {0};
     vox_grid* grid = NULL;
@@ -107,10 +108,27 @@ static vox_counters check_step(scene* s) {
         expected.mesh_b = id_of[expected.mesh_b >> 12];
         ck_assert_mem_eq(&mine.data[c], &expected, sizeof expected);
     }
+    vox_penetration_view p, q;
+    vox_depth_view x, y;
+    ck_ok(vox_grid_penetrations(s->grid, &p));
+    ck_ok(vox_grid_penetrations(grid, &q));
+    ck_ok(vox_grid_depths(s->grid, &x));
+    ck_ok(vox_grid_depths(grid, &y));
+    ck_assert_uint_eq(p.count, q.count);
+    ck_assert_uint_eq(x.count, y.count);
+    for (uint64_t i = 0; i < q.count; ++i) {
+        vox_penetration expected = q.data[i];
+        expected.mesh_a = id_of[expected.mesh_a >> 12];
+        expected.mesh_b = id_of[expected.mesh_b >> 12];
+        ck_assert_mem_eq(&p.data[i], &expected, sizeof expected);
+        ck_assert_mem_eq(&x.data[i], &y.data[i], sizeof *x.data);
+    }
     vox_grid_destroy(grid);
     const vox_counters counters = counters_of(s->grid);
     ck_assert_uint_eq(counters.contacts, mine.count);
     ck_assert_uint_le(counters.carried_contacts, mine.count);
+    ck_assert_uint_le(counters.carried_penetrations, counters.carried_contacts);
+    ck_assert_uint_eq(counters.carried_penetrations > 0, counters.carried_contacts > 0);
     return counters;
 }
 
@@ -121,7 +139,7 @@ static void come_to_rest(scene* s) {
 }
 
 START_TEST(some_move) {
-    uint64_t carried = 0, found = 0;
+    uint64_t carried = 0, found = 0, depths_carried = 0, depths_found = 0;
     random_state = 1;
     for (int round = 0; round < 12; ++round) {
         scene s;
@@ -140,9 +158,13 @@ START_TEST(some_move) {
             if (step == 0) ck_assert_uint_eq(counters.moved_meshes, present);
             carried += counters.carried_contacts;
             found += counters.contacts - counters.carried_contacts;
+            depths_carried += counters.carried_penetrations;
+            depths_found += counters.penetrations - counters.carried_penetrations;
         }
         free_scene(&s);
     }
+    ck_assert_uint_gt(depths_carried, 1000);
+    ck_assert_uint_gt(depths_found, 1000);
     ck_assert_uint_gt(carried, 10000);
     ck_assert_uint_gt(found, 10000);
 }
@@ -161,6 +183,8 @@ START_TEST(nothing_moves) {
         counters = check_step(&s);
         ck_assert_uint_eq(counters.moved_meshes, 0);
         ck_assert_uint_eq(counters.carried_contacts, contacts);
+        ck_assert_uint_eq(counters.carried_penetrations, counters.penetrations);
+        ck_assert_uint_eq(counters.leaving_edges + counters.closest_searches, 0);
         ck_assert_uint_eq(counters.candidates, 0);
         ck_assert_uint_eq(counters.visited_cells, 0);
     }

@@ -324,6 +324,47 @@ START_TEST(strides_and_copies) {
 }
 END_TEST
 
+/* Below a flat face, depths are as exact as positions, so that small differences of them are, too. */
+START_TEST(depths_in_double) {
+    body one = make_box(8, 0.25f, 0, 0, 0), other = make_box(3, 0.2f, 0.31f, 0.42f, 1.83f);
+    const double steps[] = {0, 1e-6, 1e-9};
+    double before[16], top = 2, *positions = (double*)malloc(3 * sizeof(double) * other.vertex_count);
+    for (int step = 0; step < 3; ++step) {
+        const vox_grid_desc desc = engine_desc();
+        vox_grid* grid = grid_of(&desc);
+        vox_mesh_desc mesh = body_desc(&one);
+        insert_mesh(grid, &mesh);
+        for (uint32_t i = 0; i < 3 * other.vertex_count; ++i)
+            positions[i] = (double)other.positions[i] + 1e-11 * (i % 7) - (i % 3 == 2 ? steps[step] : 0);
+        mesh = body_desc(&other);
+        mesh.positions = positions;
+        mesh.position_format = VOX_FORMAT_DOUBLE3;
+        const vox_mesh b = insert_mesh(grid, &mesh);
+        ck_ok(vox_grid_step(grid));
+        check_penetrations(grid);
+        const vox_penetration_view view = penetrations_of(grid);
+        const vox_depth_view depths = depths_of(grid);
+        uint32_t inside = 0;
+        for (uint64_t i = 0; i < view.count; ++i) {
+            if (view.data[i].mesh_a != b) continue;
+            const double depth = depths.data[i].depth;
+            ck_assert_double_eq_tol(depth, top - positions[3 * view.data[i].vertex + 2], 4 * 0x1p-52 * top);
+            ck_assert_double_eq_tol(depths.data[i].direction[2], 1, 0x1p-50);
+            ck_assert_uint_lt(inside, 16);
+            if (step > 0)
+                ck_assert_double_eq_tol((depth - before[inside]) / steps[step], 1, 1e-15 / steps[step]);
+            if (step == 0) before[inside] = depth;
+            ++inside;
+        }
+        ck_assert_uint_eq(inside, 16);
+        vox_grid_destroy(grid);
+    }
+    free(positions);
+    free_body(&one);
+    free_body(&other);
+}
+END_TEST
+
 /* The same scene in doubles: the same bits where they are floats, and defined as far as doubles go. */
 START_TEST(double_positions) {
     pile p = make_pile(1);
@@ -399,7 +440,7 @@ END_TEST
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, arguments, flag, older_programs_have_none, views_follow_the_grid,
                    no_contacts_no_work, every_unit_gives_the_same_answer, nothing_is_stale,
-                   strides_and_copies, double_positions, tiny_double_positions);
+                   strides_and_copies, depths_in_double, double_positions, tiny_double_positions);
 }
 
 int main(void) {

@@ -74,6 +74,41 @@ START_TEST(saving_the_loaded_grid_gives_the_same_bytes) {
 }
 END_TEST
 
+/* Flags that were changed, and with which meshes others have penetrations. */
+START_TEST(changed_flags) {
+    scene s;
+    make_scene(&s, suite_engine, 0);
+    for (uint32_t flags = 0; flags < 4; ++flags) {
+        uint32_t loaded_flags = 77;
+        ck_ok(vox_grid_set_flags(s.grid, flags));
+        const file f = save(s.grid);
+        vox_grid* again = load(f, VOX_ENGINE_AUTO);
+        ck_ok(vox_grid_get_flags(again, &loaded_flags));
+        ck_assert_uint_eq(loaded_flags, flags);
+        ck_ok(vox_grid_step(s.grid));
+        ck_ok(vox_grid_step(again));
+        if (flags == 3) same_results(s.grid, again);
+        vox_grid_destroy(again);
+        free(f.bytes);
+    }
+    /* A version that does not know the masks gives every mesh its penetrations. */
+    const file f = save(s.grid);
+    ck_assert_uint_eq(get(payload(f, "pmsk", 0), 4), s.ids[0]);
+    const file older = without_chunk(f, "pmsk", 0);
+    vox_grid *known = load(f, VOX_ENGINE_AUTO), *unknown = load(older, VOX_ENGINE_AUTO);
+    vox_filter filter = vox_default_filter();
+    ck_ok(vox_mesh_filter(unknown, s.ids[0], &filter));
+    ck_assert_uint_eq(filter.penetration_mask, UINT64_MAX);
+    ck_assert_uint_eq(hash_of_step(known), hash_of_step(unknown));
+    ck_assert_uint_lt(counters_of(known).penetrations, counters_of(unknown).penetrations);
+    vox_grid_destroy(known);
+    vox_grid_destroy(unknown);
+    free(f.bytes);
+    free(older.bytes);
+    free_scene(&s);
+}
+END_TEST
+
 START_TEST(every_engine_takes_it) {
     scene s;
     make_scene(&s, suite_engine, 0);
@@ -239,8 +274,9 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, loaded_grid_goes_on_as_the_saved_one, saving_the_loaded_grid_gives_the_same_bytes,
-                   every_engine_takes_it, generations_and_retired_slots, positions_keep_their_bits,
-                   an_empty_grid_and_one_without_positions, arguments, allocation_n_fails);
+                   changed_flags, every_engine_takes_it, generations_and_retired_slots,
+                   positions_keep_their_bits, an_empty_grid_and_one_without_positions, arguments,
+                   allocation_n_fails);
 }
 
 int main(void) {

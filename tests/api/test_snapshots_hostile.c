@@ -94,6 +94,11 @@ static const defect defects[] = {
     {"MESH", 6, 16, 8, 1ull << 60, VOX_ERROR_LIMIT,
      "vertex_count is 1152921504606846976"}, /* without positions */
     {"MESH", 6, -16, 4, 0x544c4946u, VOX_ERROR_FORMAT, "mesh 28673 is not in it"},
+    {"pmsk", 0, 0, 4, 8193, VOX_ERROR_FORMAT, "mesh 8193 is not in it"},
+    {"pmsk", 0, 4, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
+    {"pmsk", 0, 16, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
+    {"pmsk", 0, -8, 8, 20, VOX_ERROR_FORMAT, "1 number of 4 bytes each, it has 0 more"},
+    {"pmsk", 0, -16, 4, 0x4b534d50u, VOX_ERROR_UNSUPPORTED, "chunk PMSK is unknown"},
     {"CUTS", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
     {"CUTS", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
     {"CUTS", 0, 4, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},

@@ -1,6 +1,5 @@
-// Tests each part of the depth stage by itself: topology, the walk out of a mesh, normals, closest points.
+// Tests each part of the depth stage by itself: topology, the walk out of a mesh, normals.
 #include "base/vectors.hpp"
-#include "depth/closest.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
 #include "depth/walk.hpp"
@@ -324,73 +323,6 @@ START_TEST(normals_of_a_tetrahedron_are_those_of_its_faces) {
 }
 END_TEST
 
-// ---- closest points -------------------------------------------------------------------------------
-
-START_TEST(closest_of_all_triangles) {
-    Random random{std::uint64_t(_i) + 1};
-    Mesh mesh = _i % 3 == 0 ? soup(random, 40, 30, [](Random& r) { return r.uniform(0, 1); })
-                : _i % 3 == 1
-                    ? soup(random, 60, 80, [](Random& r) { return float(r.below(4)); }) // flat, coincident
-                    : jittered(kuhn_block(4, 3, 5, {0, 0, 0}, 1), random, 0.2);
-    const Prepared p(std::move(mesh));
-    SurfaceTree tree(memory());
-    tree.build(p.solid());
-    for (int i = 0; i < 200; ++i) {
-        const double reach = i % 4 == 0 ? 50 : 3;
-        Vec3d at{random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)};
-        if (i % 5 == 0)
-            at = p.at(random.below(std::uint32_t(p.mesh.positions.size()))); // many triangles are equally far
-        const Fold fold{random.below(std::uint32_t(p.mesh.positions.size())), 0, false};
-        for (const Fold* limit : {static_cast<const Fold*>(nullptr), &fold}) {
-            Closest found{};
-            std::uint64_t visited = 0;
-            const bool any = tree.find(at, limit, found, visited);
-            bool expected = false;
-            Closest best{};
-            for (std::uint32_t t = 0; t < p.topology.triangles.size(); ++t) {
-                if (limit && has_corner(p.topology.triangles[t], limit->vertex)) continue;
-                const Closest c = closest_point(p.solid(), t, at);
-                ck_assert(length(p.at(c.at) - c.at.point) < 1e-9 * (1 + reach));
-                ck_assert(std::abs(length(c.way) - std::sqrt(c.squared)) < 1e-9 * (1 + reach));
-                if (!expected || c.squared < best.squared) best = c;
-                expected = true;
-            }
-            ck_assert_int_eq(any, expected);
-            if (!any) continue;
-            ck_assert_msg(found.squared == best.squared, "%g away, expected %g", std::sqrt(found.squared),
-                          std::sqrt(best.squared));
-            ck_assert_uint_le(visited, p.topology.triangles.size() + 1); // one may be looked at twice
-        }
-    }
-}
-END_TEST
-
-START_TEST(closest_on_the_fold_that_is_entered) {
-    // Two blocks of one mesh that overlap a little. For a vertex of the upper block in a tetrahedron of the
-    // lower one, only the surface of the lower one counts, though that of its own block is closer.
-    Mesh mesh = kuhn_block(3, 3, 3, {0, 0, 0}, 1);
-    const Mesh upper = kuhn_block(3, 3, 3, {0.1, 0.2, 2.6}, 1);
-    const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-    for (Tet tet : upper.tets) {
-        for (std::uint32_t& v : tet.v) v += shift;
-        mesh.tets.push_back(tet);
-    }
-    mesh.positions.insert(mesh.positions.end(), upper.positions.begin(), upper.positions.end());
-    const Prepared p(std::move(mesh));
-    const std::uint32_t vertex = shift + 5; // on the underside of the upper block, not at its rim
-    const Vec3d at = p.at(vertex);
-    SurfaceTree tree(memory());
-    tree.build(p.solid());
-    const Fold fold{vertex, tet_with(p, at), true};
-    ck_assert_uint_lt(fold.tet, p.mesh.tets.size() / 2);
-    Closest found{};
-    std::uint64_t visited = 0;
-    ck_assert(tree.find(at, &fold, found, visited));
-    ck_assert(std::abs(std::sqrt(found.squared) - (3 - at.z)) < 1e-9);
-    ck_assert(found.way.z > 0 && std::abs(found.way.x) + std::abs(found.way.y) < 1e-12);
-}
-END_TEST
-
 } // namespace
 
 int main() {
@@ -402,7 +334,5 @@ int main() {
     tcase_add_each(tests, walks_along_facets_edges_and_through_vertices, walks_that_lead_nowhere,
                    walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
                    normals_of_a_box_are_those_of_its_faces, normals_of_a_tetrahedron_are_those_of_its_faces);
-    tcase_add_loop_test(tests, closest_of_all_triangles, 0, 30);
-    tcase_add_test(tests, closest_on_the_fold_that_is_entered);
     return run_suite(suite);
 }

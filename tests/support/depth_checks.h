@@ -60,10 +60,33 @@ static inline uint64_t count_state(const vox_grid* grid, vox_mesh a, vox_penetra
     return count;
 }
 
+static inline vox_depth_view depths_of(const vox_grid* grid) {
+    vox_depth_view view = {NULL, 0, 0, 0};
+    ck_ok(vox_grid_depths(grid, &view));
+    ck_assert_uint_ge(view.byte_stride, sizeof(vox_depth));
+    return view;
+}
+
+/* Depth and direction in double are what the floats are rounded from. */
+static inline void check_rounded(const vox_depth* exact, float depth, const float direction[3]) {
+    ck_assert(depth == (float)exact->depth);
+    for (int axis = 0; axis < 3; ++axis) ck_assert(direction[axis] == (float)exact->direction[axis]);
+}
+
 /* Checks what holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in their order, with
  * finite numbers and a unit direction. */
 static inline void check_penetrations(const vox_grid* grid) {
     const vox_penetration_view view = penetrations_of(grid);
+    const vox_depth_view depths = depths_of(grid);
+    ck_assert_uint_eq(depths.count, view.count);
+    ck_assert_uint_eq(depths.epoch, view.epoch);
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_depth* exact = (const vox_depth*)(const void*)((const char*)depths.data + i * depths.byte_stride);
+        const vox_penetration* p = penetration_at(view, i);
+        check_rounded(exact, p->depth, p->direction);
+        const vector d = {exact->direction[0], exact->direction[1], exact->direction[2]};
+        ck_assert_msg(fabs(norm(d) - 1) < 1e-14, "vertex %u: a direction of length 1 + %g", p->vertex, norm(d) - 1);
+    }
     vox_contact_view contacts = contacts_of(grid);
     ck_assert_uint_eq(view.epoch, contacts.epoch);
     uint64_t next = 0;

@@ -135,11 +135,13 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
     filter.self_collision = 1;
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
+    filter.penetration_mask = 5;
     ck_ok(vox_mesh_set_filter(s->grid, s->ids[3], &filter));
     filter = vox_default_filter();
     filter.group = -7;
     filter.category = 1ull << 63;
     filter.mask = ~2ull;
+    filter.penetration_mask = 0;
     ck_ok(vox_mesh_set_filter(s->grid, s->ids[0], &filter));
     ck_ok(vox_grid_set_pair_enabled(s->grid, s->ids[5], s->ids[0], 0));
     ck_assert_uint_le(s->bodies[5].vertex_count, 64);
@@ -201,6 +203,11 @@ static inline void same_results(const vox_grid* a, const vox_grid* b) {
     ck_assert_uint_eq(u.count, v.count);
     ck_assert_uint_eq(u.began, v.began);
     if (u.count) ck_assert_int_eq(memcmp(u.data, v.data, (size_t)u.count * sizeof *u.data), 0);
+    vox_penetration_view d, e;
+    ck_ok(vox_grid_penetrations(a, &d));
+    ck_ok(vox_grid_penetrations(b, &e));
+    ck_assert_uint_eq(d.count, e.count);
+    if (d.count) ck_assert_int_eq(memcmp(d.data, e.data, (size_t)d.count * sizeof *d.data), 0);
     ck_ok(vox_grid_hash(a, &hash_a));
     ck_ok(vox_grid_hash(b, &hash_b));
     ck_assert_uint_eq(hash_a, hash_b);

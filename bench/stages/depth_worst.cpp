@@ -1,0 +1,442 @@
+// Looks for the scene in which the depth stage costs most beside the contacts alone.
+//
+//   bench_depth_worst [--tets N] [--samples K] [--climb K] [--seed S] [--scene NAME] [--meshes FOLDER]
+//                     [--budget SEARCHES]
+//
+// Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
+// parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of
+// a step of the default grid over that of a grid that finds contacts alone: least times of steps in which the
+// two take turns. Both have to find the same contacts. The last columns are the share of penetrations that
+// needed a closest point, the nanoseconds of the depth stage for each penetration, and a hash of all
+// penetrations, so that two versions of the library can be compared.
+//
+// FOLDER has bunny.msh and cow.msh for one more scene.
+#include "base/boxes.hpp"
+#include "internal/meshes.hpp"
+#include "program.hpp"
+#include "timing.h"
+
+#include <vox/vox.h>
+#if defined(BENCH_IO)
+#include <vox/vox_io.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using bench::must;
+using vox::Vec3f;
+
+using Parameters = std::array<double, 4>;
+
+struct Setting {
+    double tets;         // of the whole scene
+    Mesh bunny{}, cow{}; // empty without --meshes
+};
+
+using Bodies = std::vector<Mesh>; // a cell of theirs is about 1
+
+Vec3f turned(const Vec3f& p, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {float(c * double{p.x} - s * double{p.y}), float(s * double{p.x} + c * double{p.y}), p.z};
+}
+
+// Cubes in a round shape: no two triangles of its surface are the same.
+Mesh round_ball(double tets, double radius) {
+    const int n = std::max(2, int(std::lround(std::cbrt(tets / 5))));
+    Mesh mesh = block(n, n, n);
+    for (Vec3f& p : mesh.positions) {
+        const double x = 2.0 * double{p.x} / n - 1, y = 2.0 * double{p.y} / n - 1,
+                     z = 2.0 * double{p.z} / n - 1;
+        const double length = std::sqrt(x * x + y * y + z * z);
+        const double scale =
+            length > 0 ? radius * std::max({std::abs(x), std::abs(y), std::abs(z)}) / length : 0;
+        p = {float(scale * x), float(scale * y), float(scale * z)};
+    }
+    return mesh;
+}
+
+Mesh self(Mesh mesh) {
+    mesh.self_collision = true;
+    return mesh;
+}
+
+// One body whose vertices are moved at random, by up to 1.5 cells.
+Bodies noise(const Setting& setting, const Parameters& p, Random& random) {
+    Mesh mesh = ball(setting.tets * (0.2 + 0.8 * p[1]));
+    jitter(mesh, 1.5 * p[0], random);
+    return {self(std::move(mesh))};
+}
+
+// One body pressed flat, or through itself.
+Bodies squash(const Setting& setting, const Parameters& p, Random& random) {
+    Mesh mesh = ball(setting.tets);
+    for (Vec3f& v : mesh.positions) v.z *= float(1.2 * p[0] - 0.6);
+    jitter(mesh, 0.5 * p[1], random);
+    return {self(std::move(mesh))};
+}
+
+// One body, of which some vertices are far away.
+Bodies fling(const Setting& setting, const Parameters& p, Random& random) {
+    double radius = 0;
+    Mesh mesh = ball(setting.tets, &radius);
+    for (Vec3f& v : mesh.positions) {
+        if (random.unit() >= 0.5 * p[0] * p[0]) continue;
+        const double far = 3 * radius * p[1];
+        v = {v.x + random.uniform(-far, far), v.y + random.uniform(-far, far),
+             v.z + random.uniform(-far, far)};
+    }
+    return {self(std::move(mesh))};
+}
+
+// One body folded over along the middle, as a sheet or as a bar.
+Bodies fold(const Setting& setting, const Parameters& p, Random& random) {
+    const double width = 2 + 10 * p[1];
+    const int n = int(width), length = std::max(8, int(setting.tets / 5 / n / n));
+    Mesh mesh = block(length, n, n);
+    const double angle = std::numbers::pi * (0.5 + 0.6 * p[0]), bend = double(length) / (1 + 8 * p[2]);
+    for (Vec3f& v : mesh.positions) {
+        const double s = std::clamp((double{v.x} - (length - bend) / 2) / bend, 0.0, 1.0);
+        const double a = s * angle, r = bend / angle;
+        const double before = std::min(double{v.x}, (length - bend) / 2),
+                     after = std::max(double{v.x} - (length + bend) / 2, 0.0);
+        const double h = r - double{v.y};
+        v = {float(before + h * std::sin(a) + after * std::cos(a)),
+             float(r - h * std::cos(a) + after * std::sin(a)), v.z};
+    }
+    jitter(mesh, 0.1 * p[3], random);
+    return {self(std::move(mesh))};
+}
+
+// One body inside another: parts of one mesh, or two meshes.
+Bodies inside(const Setting& setting, const Parameters& p, Random& random, bool one_mesh) {
+    const double radius = std::cbrt(setting.tets / 5);
+    Mesh outer = round_ball(setting.tets / 2, radius),
+         inner = round_ball(setting.tets / 2, radius * (0.01 + 0.9 * p[0]));
+    move(inner, 1, radius * 0.5 * p[1] * (1 - p[0]), 0.01 * p[2], 0.02 * p[2]);
+    jitter(outer, 0.3 * p[3], random);
+    if (!one_mesh) return {std::move(outer), std::move(inner)};
+    append(outer, inner);
+    return {self(std::move(outer))};
+}
+Bodies swallow(const Setting& setting, const Parameters& p, Random& random) {
+    return inside(setting, p, random, false);
+}
+Bodies pregnant(const Setting& setting, const Parameters& p, Random& random) {
+    return inside(setting, p, random, true);
+}
+
+// A bunny in a cow ten times its size.
+Bodies swallow_bunny(const Setting& setting, const Parameters& p, Random&) {
+    Mesh bunny = setting.bunny;
+    move(bunny, 0.05 + 0.1 * p[0], 0.2 * (p[1] - 0.5), 0.2 * (p[2] - 0.5), 0.2 * (p[3] - 0.5));
+    return {setting.cow, std::move(bunny)};
+}
+
+// Copies of one body at the same place, or nearly.
+Bodies coincident(const Setting& setting, const Parameters& p, Random& random) {
+    const int count = 2 + int(6 * p[0]);
+    Bodies bodies;
+    for (int i = 0; i < count; ++i) {
+        Mesh mesh = ball(setting.tets / count);
+        if (i > 0) move(mesh, 1, 0.3 * p[1] * i, 0, 0.1 * p[1] * i);
+        jitter(mesh, p[2] * p[2], random);
+        if (p[3] > 0.7) mesh.self_collision = true;
+        bodies.push_back(std::move(mesh));
+    }
+    return bodies;
+}
+
+// Long thin bars through one another, or through a ball.
+Bodies needles(const Setting& setting, const Parameters& p, Random& random) {
+    const int count = 2 + int(10 * p[0]), length = std::max(4, int(setting.tets / 5 / count));
+    Bodies bodies;
+    for (int i = 0; i < count; ++i) {
+        Mesh mesh = block(length, 1, 1);
+        const double thin = std::pow(10, -2 * p[1]);
+        for (Vec3f& v : mesh.positions)
+            v = turned({v.x - float(length) / 2, float((double{v.y} - 0.5) * (1 - p[2] * 0.9)),
+                        float((double{v.z} - 0.5) * thin)},
+                       std::numbers::pi * p[3] * i / count);
+        jitter(mesh, 0.3 * p[2] * thin, random);
+        bodies.push_back(std::move(mesh));
+    }
+    return bodies;
+}
+
+// Two bodies that overlap, with vertices moved at random.
+Bodies noisy_pair(const Setting& setting, const Parameters& p, Random& random) {
+    double radius = 0;
+    Mesh a = ball(setting.tets / 2, &radius), b = a;
+    move(b, 1, 2 * radius * p[0], 0.1, 0.2);
+    jitter(a, p[1], random);
+    jitter(b, p[2], random);
+    return {std::move(a), std::move(b)};
+}
+
+// Points without tetrahedra in a body: all of them need a closest point.
+Bodies points(const Setting& setting, const Parameters& p, Random& random) {
+    double radius = 0;
+    Mesh body = ball(setting.tets, &radius), cloud;
+    const double reach = radius * (0.001 + p[0]);
+    for (int i = 0; i < 200 + int(setting.tets * 0.2 * p[1]); ++i)
+        cloud.positions.push_back(
+            {random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)});
+    return {std::move(body), std::move(cloud)};
+}
+
+// A body of one layer of flat tetrahedra crumpled up.
+Bodies crumple(const Setting& setting, const Parameters& p, Random& random) {
+    const int n = std::max(4, int(std::sqrt(setting.tets / 5)));
+    Mesh mesh = block(n, n, 1);
+    const double thick = 0.05 + p[0], wave = 1 + 6 * p[1], high = n * 0.3 * p[2];
+    for (Vec3f& v : mesh.positions) {
+        const double x = double{v.x} / n * 2 - 1, y = double{v.y} / n * 2 - 1;
+        v = {float(n * (1 - 0.8 * p[3]) * x * std::cos(wave * y)), float(n * (1 - 0.8 * p[3]) * y),
+             float(double{v.z} * thick + high * std::sin(wave * x) * std::cos(wave * y))};
+    }
+    jitter(mesh, 0.2 * p[0], random);
+    return {self(std::move(mesh))};
+}
+
+struct Kind {
+    const char* name;
+    Bodies (*make)(const Setting&, const Parameters&, Random&);
+};
+constexpr Kind kinds[] = {{"noise", noise},           {"squash", squash},
+                          {"fling", fling},           {"fold", fold},
+                          {"crumple", crumple},       {"swallow", swallow},
+                          {"part in part", pregnant}, {"coincident", coincident},
+                          {"needles", needles},       {"noisy pair", noisy_pair},
+                          {"points", points},         {"bunny in cow", swallow_bunny}};
+
+// ---- measuring --------------------------------------------------------------------------------------
+
+class Grid {
+public:
+    Grid(const Bodies& bodies, std::uint32_t flags, std::uint64_t budget) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = flags;
+        desc.closest_budget = budget;
+        must(vox_grid_create(&desc, &grid_));
+        for (const Mesh& mesh : bodies) {
+            vox_mesh_desc mesh_desc = vox_default_mesh_desc();
+            mesh_desc.positions = mesh.positions.data();
+            mesh_desc.vertex_count = mesh.positions.size();
+            mesh_desc.tets = mesh.tets.empty() ? nullptr : mesh.tets.front().v;
+            mesh_desc.tet_count = mesh.tets.size();
+            if (mesh.self_collision) mesh_desc.flags |= VOX_MESH_SELF_COLLISION;
+            vox_mesh id = VOX_NULL_MESH;
+            must(vox_mesh_insert(grid_, &mesh_desc, &id));
+        }
+    }
+    ~Grid() { vox_grid_destroy(grid_); }
+    Grid(const Grid&) = delete;
+    Grid& operator=(const Grid&) = delete;
+
+    // Seconds of a step.
+    double step() {
+        return seconds_of([&] { must(vox_grid_step(grid_)); });
+    }
+    std::uint64_t hash() const {
+        std::uint64_t hash = 0;
+        must(vox_grid_hash(grid_, &hash));
+        return hash;
+    }
+    // FNV-1a over the bytes of all penetrations.
+    std::uint64_t hash_of_penetrations() const {
+        vox_penetration_view view;
+        must(vox_grid_penetrations(grid_, &view));
+        std::uint64_t hash = 0xcbf29ce484222325u;
+        for (std::uint64_t i = 0; i < view.count; ++i) {
+            unsigned char bytes[sizeof(vox_penetration)];
+            std::memcpy(bytes, reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof bytes);
+            for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+        }
+        return hash;
+    }
+    vox_counters counters() const {
+        vox_counters counters{};
+        counters.struct_size = sizeof counters;
+        must(vox_grid_counters(grid_, &counters));
+        return counters;
+    }
+    vox_profile profile() const {
+        vox_profile profile{};
+        profile.struct_size = sizeof profile;
+        must(vox_grid_profile(grid_, &profile));
+        return profile;
+    }
+
+private:
+    vox_grid* grid_ = nullptr;
+};
+
+struct Result {
+    Parameters parameters{};
+    double ratio = 0, alone = 1e9, whole = 1e9; // seconds
+    double depth_ns = 1e18;
+    vox_counters counters{};
+    std::uint64_t hash = 0;
+};
+
+Result measure(const Kind& kind, const Setting& setting, const Parameters& parameters, int steps,
+               std::uint64_t budget) {
+    Random random{7};
+    Bodies bodies = kind.make(setting, parameters, random);
+    const Bodies first = bodies;
+    Grid alone(bodies, 0, 0), whole(bodies, VOX_GRID_PENETRATIONS, budget);
+    Result result;
+    result.parameters = parameters;
+    Random motion{11};
+    for (int step = 0; step < steps; ++step) {
+        // Everything moves, a little, by the same amounts in every run.
+        for (std::size_t b = 0; b < bodies.size(); ++b)
+            for (std::size_t v = 0; v < bodies[b].positions.size(); ++v) {
+                const Vec3f& p = first[b].positions[v];
+                bodies[b].positions[v] = {p.x * (1 + motion.uniform(-1e-5, 1e-5)),
+                                          p.y * (1 + motion.uniform(-1e-5, 1e-5)),
+                                          p.z * (1 + motion.uniform(-1e-5, 1e-5))};
+            }
+        const double alone_seconds = alone.step(), whole_seconds = whole.step();
+        if (alone.hash() != whole.hash()) throw std::runtime_error("the two grids found different contacts");
+        if (step > 0) { // the first one makes room
+            result.alone = std::min(result.alone, alone_seconds);
+            result.whole = std::min(result.whole, whole_seconds);
+            result.depth_ns = std::min(result.depth_ns, double(whole.profile().depth_ns));
+        }
+        result.hash = 31 * result.hash + whole.hash_of_penetrations();
+    }
+    result.counters = whole.counters();
+    result.ratio = result.whole / result.alone;
+    return result;
+}
+
+void print(const char* name, const Result& r) {
+    const double n = double(std::max<std::uint64_t>(r.counters.penetrations, 1));
+    std::printf("%-13s %5.3f %5.3f %5.3f %5.3f %9llu %9llu %8.2f %8.2f %7.2f %8.3f %8.0f  %016llx\n", name,
+                r.parameters[0], r.parameters[1], r.parameters[2], r.parameters[3],
+                static_cast<unsigned long long>(r.counters.tets),
+                static_cast<unsigned long long>(r.counters.penetrations), 1e3 * r.alone, 1e3 * r.whole,
+                r.ratio, double(r.counters.closest_searches) / n, 1e9 * (r.whole - r.alone) / n,
+                static_cast<unsigned long long>(r.hash));
+    std::fflush(stdout);
+}
+
+Mesh read_mesh([[maybe_unused]] const std::string& path) {
+#if defined(BENCH_IO)
+    vox_io_mesh* file = nullptr;
+    must(vox_io_load(path.c_str(), nullptr, &file));
+    vox_io_mesh_view view;
+    must(vox_io_mesh_get(file, &view));
+    Mesh mesh;
+    for (std::uint64_t v = 0; v < view.vertex_count; ++v)
+        mesh.positions.push_back({float(view.positions[3 * v]), float(view.positions[3 * v + 1]),
+                                  float(view.positions[3 * v + 2])});
+    for (std::uint64_t t = 0; t < view.tet_count; ++t)
+        mesh.tets.push_back(
+            {{view.tets[4 * t], view.tets[4 * t + 1], view.tets[4 * t + 2], view.tets[4 * t + 3]}});
+    vox_io_mesh_destroy(file);
+    // Around the origin, 1 wide at most.
+    vox::Box3f box = vox::empty_box3f();
+    for (const Vec3f& p : mesh.positions) extend(box, p);
+    const double side =
+        double{std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z})};
+    move(mesh, 1 / side, -double{box.min.x + box.max.x} / 2 / side, -double{box.min.y + box.max.y} / 2 / side,
+         -double{box.min.z + box.max.z} / 2 / side);
+    return mesh;
+#else
+    throw std::runtime_error("built without vox_io, which --meshes needs");
+#endif
+}
+
+struct Options {
+    double tets = 15000;
+    int samples = 8, climb = 8, steps = 4;
+    std::uint64_t seed = 1, budget = 0;
+    std::string scene, meshes;
+};
+
+void run(const Options& options) {
+    Setting setting{options.tets};
+    if (!options.meshes.empty()) {
+        setting.bunny = read_mesh(options.meshes + "/bunny.msh");
+        setting.cow = read_mesh(options.meshes + "/cow.msh");
+    }
+    std::printf("%-13s %23s %9s %9s %8s %8s %7s %8s %8s  %s\n", "scene", "parameters", "tets", "vertices",
+                "alone ms", "step ms", "ratio", "searched", "ns each", "hash");
+    Result worst;
+    const char* worst_name = "";
+    for (const Kind& kind : kinds) {
+        if (!options.scene.empty() && options.scene != kind.name) continue;
+        if (kind.make == swallow_bunny && options.meshes.empty()) continue;
+        Random random{options.seed};
+        Result best;
+        for (int i = 0; i < options.samples + options.climb; ++i) {
+            Parameters parameters;
+            const double reach = 0.3 * std::pow(0.85, i - options.samples);
+            for (std::size_t k = 0; k < parameters.size(); ++k)
+                parameters[k] =
+                    i == 0 ? 0.5
+                    : i < options.samples
+                        ? random.unit()
+                        : std::clamp(best.parameters[k] + double{random.uniform(-reach, reach)}, 0.0, 1.0);
+            const Result result = measure(kind, setting, parameters, options.steps, options.budget);
+            print(kind.name, result);
+            if (result.ratio > best.ratio) best = result;
+        }
+        if (best.ratio > worst.ratio) {
+            worst = best;
+            worst_name = kind.name;
+        }
+    }
+    std::printf("worst:\n");
+    print(worst_name, worst);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    bool known = argc % 2 == 1;
+    for (int i = 1; i + 1 < argc && known; i += 2) {
+        const std::string option = argv[i], value = argv[i + 1];
+        if (option == "--tets")
+            options.tets = std::atof(value.c_str());
+        else if (option == "--samples")
+            options.samples = std::atoi(value.c_str());
+        else if (option == "--climb")
+            options.climb = std::atoi(value.c_str());
+        else if (option == "--steps")
+            options.steps = std::atoi(value.c_str());
+        else if (option == "--seed")
+            options.seed = std::strtoull(value.c_str(), nullptr, 10);
+        else if (option == "--budget")
+            options.budget = std::strtoull(value.c_str(), nullptr, 10);
+        else if (option == "--scene")
+            options.scene = value;
+        else if (option == "--meshes")
+            options.meshes = value;
+        else
+            known = false;
+    }
+    if (!known || !(options.tets >= 1000) || options.samples < 1 || options.climb < 0 || options.steps < 2) {
+        std::fprintf(stderr,
+                     "usage: bench_depth_worst [--tets N >= 1000] [--samples K] [--climb K] [--steps K >= 2] "
+                     "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
+        return 2;
+    }
+    return bench::run_program("bench_depth_worst", [&] {
+        run(options);
+        return 0;
+    });
+}

@@ -1,0 +1,179 @@
+// Points are searched in the order of a Z-shaped curve, in chunks that do not depend on the workers: each
+// search within a chunk begins with the triangle that the last one found.
+#include "depth/fallback.hpp"
+
+#include "base/boxes.hpp"
+#include "base/parallel.hpp"
+#include "base/vectors.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace vox::depth {
+
+namespace {
+
+constexpr std::size_t chunk_size = 64;
+
+bool needs_search(const Point& point) {
+    return point.state == VOX_PENETRATION_ENCLOSED || point.state == VOX_PENETRATION_CROSSING;
+}
+
+} // namespace
+
+Fallback::Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees)
+    : trees_(trees), tree_of_body_(memory), used_(memory), items_(memory), places_(memory), chunks_(memory),
+      workers_(memory) {}
+
+Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
+                                  std::span<const Hit> hits, std::uint64_t budget, Workers* workers,
+                                  std::span<Point> points, Counts& counts) {
+    const Scene scene{bodies, topologies, hits, points};
+    items_.clear();
+    items_.reserve(points.size()); // there are never more, nor more chunks
+    chunks_.reserve(points.size());
+    places_.reserve(points.size());
+    const std::uint64_t unknown = spend(scene, budget);
+    if (items_.empty()) return {0, unknown};
+
+    workers_.grow(workers ? workers->count() : 1);
+    for (Worker& worker : workers_) worker.counts = {};
+    update_trees(scene, workers);
+    sort_items(scene);
+    list_chunks();
+    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
+        for (std::size_t i = begin; i < end; ++i) search(scene, chunks_[i], workers_[worker]);
+    };
+    constexpr std::size_t least = 8; // chunks that are worth a task
+    if (workers)
+        workers->for_ranges(chunks_.size(), least, run);
+    else
+        run(0, chunks_.size(), 0);
+    workers_.level();
+    for (const Worker& worker : workers_) counts.closest_tests += worker.counts.closest_tests;
+    return {items_.size(), unknown};
+}
+
+// Lists the points that are searched, and returns how many others become UNKNOWN.
+std::uint64_t Fallback::spend(const Scene& scene, std::uint64_t budget) {
+    const std::span<Point> points = scene.points;
+    std::uint64_t wanted = 0;
+    for (const Point& point : points) wanted += needs_search(point);
+    std::size_t end = ~std::size_t{0}; // the first place for which nothing is left
+    if (budget > 0 && wanted > budget) {
+        places_.clear();
+        for (const Point& point : points)
+            if (needs_search(point)) places_.push_back(point.place);
+        const auto first_out = places_.begin() + static_cast<std::ptrdiff_t>(budget);
+        std::nth_element(places_.begin(), first_out, places_.end());
+        end = *first_out;
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Point& point = points[i];
+        if (!needs_search(point)) continue;
+        const Hit& hit = scene.hits[point.hit];
+        if (point.place < end) {
+            items_.push_back({hit.body_b, SurfaceTree::all_parts, 0, hit.body_a == hit.body_b, i});
+        } else {
+            point.state = VOX_PENETRATION_UNKNOWN;
+            point.depth = 0;
+            point.direction = facet_normal(scene.solid(hit.body_b), point.tet, 0);
+        }
+    }
+    return wanted - items_.size();
+}
+
+// The trees of all bodies that points are searched in, fitted to their positions.
+void Fallback::update_trees(const Scene& scene, Workers* workers) {
+    tree_of_body_.assign(scene.bodies.size(), {});
+    for (const Item& item : items_) {
+        if (scene.topologies[item.body_b]->triangles.empty()) continue;
+        BodyTree& tree = tree_of_body_[item.body_b];
+        tree.is_wanted = true;
+        tree.folds |= item.self;
+    }
+    used_.clear();
+    used_.reserve(scene.bodies.size());
+    for (std::uint32_t b = 0; b < tree_of_body_.size(); ++b)
+        if (tree_of_body_[b].is_wanted) {
+            trees_.add(scene.bodies[b].mesh_id);
+            used_.push_back(b);
+        }
+    for (const std::uint32_t b : used_) tree_of_body_[b].tree = &trees_[scene.bodies[b].mesh_id];
+    std::size_t large = 0;
+    // Workers share a large tree, and each takes some of the small ones.
+    constexpr std::size_t least_shared = 4096; // triangles
+    const auto is_large = [&](std::uint32_t b) {
+        return scene.topologies[b]->triangles.size() >= least_shared;
+    };
+    const auto update = [&](std::uint32_t b, Workers* shared) {
+        tree_of_body_[b].tree->update(scene.solid(b), tree_of_body_[b].folds, shared);
+    };
+    for (const std::uint32_t b : used_)
+        if (is_large(b)) {
+            update(b, workers);
+            ++large;
+        }
+    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (!is_large(used_[i])) update(used_[i], nullptr);
+    };
+    if (workers && used_.size() - large > 1)
+        workers->for_ranges(used_.size(), 1, run);
+    else
+        run(0, used_.size(), 0);
+}
+
+void Fallback::sort_items(const Scene& scene) {
+    for (Item& item : items_) {
+        const SurfaceTree* tree = tree_of_body_[item.body_b].tree;
+        if (!tree) continue;
+        const Point& point = scene.points[item.point];
+        if (item.self) item.part = tree->part_of(point.tet);
+        item.code = tree->place_on_curve(scene.position(point));
+    }
+    std::sort(items_.begin(), items_.end(), [](const Item& x, const Item& y) {
+        return std::tie(x.body_b, x.part, x.code, x.point) < std::tie(y.body_b, y.part, y.code, y.point);
+    });
+}
+
+void Fallback::list_chunks() {
+    chunks_.clear();
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const bool fits = i > 0 && i - chunks_.back().first < chunk_size &&
+                          items_[i].body_b == items_[i - 1].body_b && items_[i].part == items_[i - 1].part;
+        if (!fits) chunks_.push_back({i, i});
+        chunks_.back().last = i + 1;
+    }
+}
+
+void Fallback::search(const Scene& scene, const Chunk& chunk, Worker& worker) const {
+    const SurfaceTree* tree = tree_of_body_[items_[chunk.first].body_b].tree;
+    SearchState state;
+    for (std::size_t i = chunk.first; i < chunk.last; ++i) search_one(scene, items_[i], tree, state, worker);
+    worker.counts.closest_tests += state.visited;
+}
+
+void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTree* tree, SearchState& state,
+                          Worker& worker) const {
+    Point& point = scene.points[item.point];
+    const Vec3d p = scene.position(point);
+    const Solid solid = scene.solid(item.body_b);
+    Closest closest;
+    const bool found = tree && (item.self ? tree->find_in_fold(p, point.vertex, point.tet, state, closest)
+                                          : tree->find(p, SurfaceTree::no_vertex, state, closest));
+    if (found) point.closest = closest.at.triangle;
+    point.depth = found ? length(closest.way) : 0;
+    point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
+    if (length(point.direction) > 0) return;
+    point.depth = 0;
+    if (found) { // on the surface of a part of b that overlaps the part with the hit
+        point.state = VOX_PENETRATION_COINCIDENT;
+        worker.normals.begin(solid);
+        const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
+        point.direction = worker.normals.at(closest.at, p - apex);
+    }
+    if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);
+}
+
+} // namespace vox::depth

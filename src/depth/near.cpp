@@ -1,0 +1,412 @@
+// Branch and bound, nearest first (Roussopoulos, Kelley, Vincent, "Nearest neighbor queries", SIGMOD 1995),
+// with the eight children of a node in the lanes of a register (Wald, Benthin, Boulos, "Getting rid of
+// packets", IEEE Symposium on Interactive Ray Tracing 2008).
+//
+// A triangle is ruled out by a plane. Let g be any vector from a point of the triangle to p: no point of the
+// triangle is nearer to p than the least of g (p - v) / |g| over its corners v. For the closest point that is
+// the distance itself, and for a point that rounding made a poor choice it is still a lower bound. So the
+// closest point may be computed without care (Ericson, Real-Time Collision Detection, 2005, Sect. 5.1.5).
+//
+// The rounding of the bounds. Positions, and the sums and products of three terms in g (p - v), are each off
+// by a few u M |g|, u = 2^-24, less than 2^-19 M |g| together.
+#include "depth/near.hpp"
+
+#include "base/simd.hpp"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "depth/near.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace vox::depth {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, tree_width>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+struct V3 {
+    V x, y, z;
+};
+
+HWY_INLINE V3 Load3(const float (*from)[tree_width], std::size_t lane) {
+    const D d;
+    return {hn::Load(d, from[0] + lane), hn::Load(d, from[1] + lane), hn::Load(d, from[2] + lane)};
+}
+HWY_INLINE V3 Set3(const float* p) {
+    const D d;
+    return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2])};
+}
+HWY_INLINE V3 Sub3(const V3& a, const V3& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V3 Scale3(V s, const V3& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
+HWY_INLINE V Dot3(const V3& a, const V3& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
+
+HWY_INLINE unsigned Bits(M mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), mask, bits);
+    return bits[0];
+}
+
+// ---- search -----------------------------------------------------------------------------------------
+
+// For each triangle of a leaf, g and the bound g (p - v), and the bits of those that are not ruled out.
+struct Bounds {
+    alignas(32) float bound[tree_width], squared[tree_width];
+};
+
+// Whether a triangle is not farther than `reach`; true where the numbers are not comparable.
+HWY_INLINE bool MayBeNear(float bound, float squared, float reach) {
+    return !(bound > 0 && bound * bound > reach * reach * squared);
+}
+
+HWY_INLINE unsigned BoundTriangles(const TreeLeaf& leaf, const V3& p, float reach, Bounds& out) {
+    const D d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), squared_reach = hn::Set(d, reach * reach);
+    unsigned near = 0;
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const V3 ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane), ap = Sub3(p, Load3(leaf.a, lane));
+        const V abab = Dot3(ab, ab), abac = Dot3(ab, ac), acac = Dot3(ac, ac);
+        const V d1 = Dot3(ab, ap), d2 = Dot3(ac, ap);
+        const V d3 = hn::Sub(d1, abab), d4 = hn::Sub(d2, abac);
+        const V d5 = hn::Sub(d1, abac), d6 = hn::Sub(d2, acac);
+        const V vc = Difference(d1, d4, d3, d2), vb = Difference(d5, d2, d1, d6),
+                va = Difference(d3, d6, d5, d4);
+        const V e1 = hn::Sub(d4, d3), e2 = hn::Sub(d5, d6);
+        // Weights of b and c, times `whole`: inside, then on an edge, then at a corner.
+        V whole = hn::Add(va, hn::Add(vb, vc)), b = vb, c = vc;
+        const auto set = [&](M where, V new_b, V new_c, V new_whole) HWY_ATTR {
+            b = hn::IfThenElse(where, new_b, b);
+            c = hn::IfThenElse(where, new_c, c);
+            whole = hn::IfThenElse(where, new_whole, whole);
+        };
+        const auto both = [](M x, M y) HWY_ATTR { return hn::And(x, y); };
+        set(both(hn::Le(va, zero), both(hn::Ge(e1, zero), hn::Ge(e2, zero))), e2, e1, hn::Add(e1, e2));
+        set(both(hn::Le(vb, zero), both(hn::Ge(d2, zero), hn::Le(d6, zero))), zero, d2, hn::Sub(d2, d6));
+        set(both(hn::Ge(d6, zero), hn::Le(d5, d6)), zero, one, one);
+        set(both(hn::Le(vc, zero), both(hn::Ge(d1, zero), hn::Le(d3, zero))), d1, zero, hn::Sub(d1, d3));
+        set(both(hn::Ge(d3, zero), hn::Le(d4, d3)), one, zero, one);
+        set(both(hn::Le(d1, zero), hn::Le(d2, zero)), zero, zero, one);
+        const V3 g = Sub3(Sub3(ap, Scale3(hn::Div(b, whole), ab)), Scale3(hn::Div(c, whole), ac));
+        const V squared = Dot3(g, g);
+        const V bound = hn::Sub(Dot3(g, ap), hn::Max(zero, hn::Max(Dot3(g, ab), Dot3(g, ac))));
+        hn::Store(bound, d, out.bound + lane);
+        hn::Store(squared, d, out.squared + lane);
+        const M far =
+            both(hn::Gt(bound, zero), hn::Gt(hn::Mul(bound, bound), hn::Mul(squared_reach, squared)));
+        near |= Bits(hn::Not(far)) << lane;
+    }
+    return near;
+}
+
+// A lower bound of the squared distance to each child of a node, and the bits of those within reach.
+HWY_INLINE unsigned BoundChildren(const TreeNode& node, const V3& p, float reach, float* squared) {
+    const D d;
+    const V zero = hn::Zero(d), squared_reach = hn::Set(d, reach * reach);
+    const V infinite = hn::Set(d, std::numeric_limits<float>::infinity());
+    unsigned near = 0;
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const auto beyond = [&](std::size_t k) HWY_ATTR {
+            const V at = Dot3(Load3(node.axis[k], lane), p);
+            return hn::Max(zero, hn::Max(hn::Sub(hn::Load(d, node.low[k] + lane), at),
+                                         hn::Sub(at, hn::Load(d, node.high[k] + lane))));
+        };
+        const V3 out = {beyond(0), beyond(1), beyond(2)};
+        const V bound = Dot3(out, out);
+        hn::Store(bound, d, squared + lane);
+        const M is_near = hn::And(hn::Le(bound, squared_reach), hn::Lt(bound, infinite));
+        near |= Bits(is_near) << lane;
+    }
+    return near;
+}
+
+HWY_INLINE unsigned LowestBit(unsigned bits) {
+    return static_cast<unsigned>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
+// Visits the triangles of a leaf, at first the one that seems to be the nearest.
+HWY_INLINE float VisitLeaf(const TreeLeaf& leaf, const std::uint32_t* triangles, const V3& p, float reach,
+                           VisitTriangle visit, void* receiver) {
+    Bounds at;
+    unsigned near = BoundTriangles(leaf, p, reach, at);
+    while (near != 0) {
+        unsigned best = LowestBit(near);
+        for (unsigned rest = near & (near - 1); rest != 0; rest &= rest - 1)
+            if (at.squared[LowestBit(rest)] < at.squared[best]) best = LowestBit(rest);
+        near &= ~(1u << best);
+        reach = visit(receiver, triangles[best]);
+        for (unsigned rest = near; rest != 0; rest &= rest - 1) {
+            const unsigned lane = LowestBit(rest);
+            if (!MayBeNear(at.bound[lane], at.squared[lane], reach)) near &= ~(1u << lane);
+        }
+    }
+    return reach;
+}
+
+// Appends the numbers of the children whose bits are set. Writes up to tree_width numbers.
+HWY_INLINE std::size_t Append(unsigned near, std::uint32_t first, std::uint32_t* out) {
+    std::size_t count = 0;
+    for (unsigned child = 0; child < tree_width; ++child) { // without branches
+        out[count] = first + child;
+        count += near >> child & 1;
+    }
+    return count;
+}
+
+HWY_INLINE unsigned OfPart(const TreeView& tree, std::uint32_t part, std::uint32_t first, unsigned near) {
+    for (unsigned rest = near; rest != 0; rest &= rest - 1)
+        if (!tree.has(part, first + LowestBit(rest))) near &= ~(rest & (0u - rest));
+    return near;
+}
+
+// The leaf that one comes to by always taking the nearest child.
+HWY_INLINE std::uint32_t NearestLeaf(const TreeView& tree, std::uint32_t part, const V3& p, float reach) {
+    std::uint32_t number = tree.leaf_count + tree.node_count - 1;
+    while (number >= tree.leaf_count) {
+        alignas(32) float squared[tree_width];
+        const TreeNode& node = tree.nodes[number - tree.leaf_count];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
+        if (near == 0) return tree.leaf_count;
+        unsigned best = LowestBit(near);
+        for (near &= near - 1; near != 0; near &= near - 1)
+            if (squared[LowestBit(near)] < squared[best]) best = LowestBit(near);
+        number = node.first_child + best;
+    }
+    return number;
+}
+
+void FindNear(const TreeView& tree, std::uint32_t part, const float* point, float reach, VisitTriangle visit,
+              void* receiver) {
+    const V3 p = Set3(point);
+    const auto visit_leaf = [&](std::uint32_t leaf) HWY_ATTR {
+        reach = VisitLeaf(tree.leaves[leaf], tree.triangles + leaf * tree_width, p, reach, visit, receiver);
+    };
+    if (reach == std::numeric_limits<float>::infinity()) {
+        const std::uint32_t leaf = NearestLeaf(tree, part, p, reach);
+        if (leaf < tree.leaf_count) visit_leaf(leaf);
+    }
+    // A good reach is known by now, so the order matters little, and leaves can wait for each other.
+    constexpr std::size_t most_leaves = 64;
+    std::uint32_t nodes[TreeView::most_levels * tree_width + tree_width];
+    std::uint32_t leaves[most_leaves + tree_width];
+    std::size_t node_count = 1, leaf_count = 0;
+    nodes[0] = tree.leaf_count + tree.node_count - 1;
+    while (node_count > 0) {
+        const TreeNode& node = tree.nodes[nodes[--node_count] - tree.leaf_count];
+        alignas(32) float squared[tree_width];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
+        if (node.first_child >= tree.leaf_count) {
+            node_count += Append(near, node.first_child, nodes + node_count);
+            continue;
+        }
+        leaf_count += Append(near, node.first_child, leaves + leaf_count);
+        if (leaf_count < most_leaves && node_count > 0) continue;
+        for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
+        leaf_count = 0;
+    }
+    for (std::size_t i = 0; i < leaf_count; ++i) visit_leaf(leaves[i]);
+}
+
+void FindNearestFirst(const TreeView& tree, std::uint32_t part, const float* point, float reach,
+                      VisitTriangle visit, void* receiver) {
+    struct Entry {
+        std::uint32_t number;
+        float squared;
+    };
+    const V3 p = Set3(point);
+    Entry stack[TreeView::most_levels * tree_width];
+    std::size_t size = 1;
+    stack[0] = {tree.leaf_count + tree.node_count - 1, 0};
+    while (size > 0) {
+        const Entry entry = stack[--size];
+        if (entry.squared > reach * reach) continue;
+        if (entry.number < tree.leaf_count) {
+            reach = VisitLeaf(tree.leaves[entry.number], tree.triangles + entry.number * tree_width, p, reach,
+                              visit, receiver);
+            continue;
+        }
+        alignas(32) float squared[tree_width];
+        const TreeNode& node = tree.nodes[entry.number - tree.leaf_count];
+        unsigned near = BoundChildren(node, p, reach, squared);
+        if (tree.part) near = OfPart(tree, part, node.first_child, near);
+        const std::size_t first = size; // the farthest
+        for (; near != 0; near &= near - 1) {
+            const unsigned child = LowestBit(near);
+            std::size_t place = size++;
+            for (; place > first && stack[place - 1].squared < squared[child]; --place)
+                stack[place] = stack[place - 1];
+            stack[place] = {node.first_child + child, squared[child]};
+        }
+    }
+}
+
+// ---- refit ------------------------------------------------------------------------------------------
+
+HWY_INLINE float Least(V v) { return hn::GetLane(hn::MinOfLanes(D(), v)); }
+HWY_INLINE float Most(V v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); }
+
+HWY_INLINE float Root(float x) { return hn::GetLane(hn::Sqrt(hn::Set(hn::CappedTag<float, 1>(), x))); }
+
+// The sum of vectors that may each be turned round, made a unit vector.
+struct Direction {
+    float of[3] = {0, 0, 0};
+
+    HWY_INLINE void Add(float x, float y, float z) {
+        const float s = of[0] * x + of[1] * y + of[2] * z < 0 ? -1.0f : 1.0f;
+        of[0] += s * x;
+        of[1] += s * y;
+        of[2] += s * z;
+    }
+    HWY_INLINE void Normalise() {
+        const float squared = of[0] * of[0] + of[1] * of[1] + of[2] * of[2];
+        const float scale = squared > 1e-30f ? 1 / Root(squared) : 0; // false for NaN, too
+        for (float& x : of) x = scale > 0 ? x * scale : 0;
+    }
+};
+
+// The mean normal of a leaf, by area.
+HWY_INLINE Direction NormalOfLeaf(const TreeLeaf& leaf) {
+    const D d;
+    alignas(32) float n[3][tree_width];
+    for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+        const V3 ab = Load3(leaf.ab, lane), ac = Load3(leaf.ac, lane);
+        hn::Store(Difference(ab.y, ac.z, ab.z, ac.y), d, n[0] + lane);
+        hn::Store(Difference(ab.z, ac.x, ab.x, ac.z), d, n[1] + lane);
+        hn::Store(Difference(ab.x, ac.y, ab.y, ac.x), d, n[2] + lane);
+    }
+    Direction sum;
+    for (std::size_t i = 0; i < tree_width; ++i) sum.Add(n[0][i], n[1][i], n[2][i]);
+    sum.Normalise();
+    return sum;
+}
+
+// Makes a child of a node have these axes and the box around some leaves.
+HWY_INLINE void BoxOfLeaves(const TreeLeaf* leaves, std::size_t count, const float (&axes)[3][3],
+                            TreeNode& node, std::size_t child) {
+    const D d;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const V3 axis = Set3(axes[k]);
+        V low = hn::Set(d, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t lane = 0; lane < tree_width; lane += hn::Lanes(d)) {
+                const V a = Dot3(axis, Load3(leaves[i].a, lane));
+                const V b = hn::Add(a, Dot3(axis, Load3(leaves[i].ab, lane)));
+                const V c = hn::Add(a, Dot3(axis, Load3(leaves[i].ac, lane)));
+                low = hn::Min(low, hn::Min(a, hn::Min(b, c)));
+                high = hn::Max(high, hn::Max(a, hn::Max(b, c)));
+            }
+        for (std::size_t i = 0; i < 3; ++i) node.axis[k][i][child] = axes[k][i];
+        node.low[k][child] = Least(low);
+        node.high[k][child] = Most(high);
+    }
+}
+
+// The box along the coordinate axes around the boxes of all children of a node.
+HWY_INLINE void BoxOfNode(const TreeNode& from, TreeNode& node, std::size_t child) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        float low = infinity, high = -infinity;
+        for (std::size_t c = 0; c < tree_width; ++c) {
+            if (!(from.low[0][c] <= from.high[0][c])) continue; // empty
+            float least = 0, most = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float a = from.axis[k][i][c] * from.low[k][c], b = from.axis[k][i][c] * from.high[k][c];
+                least += a < b ? a : b;
+                most += a < b ? b : a;
+            }
+            low = least < low ? least : low;
+            high = most > high ? most : high;
+        }
+        for (std::size_t k = 0; k < 3; ++k) node.axis[k][i][child] = k == i ? 1.0f : 0.0f;
+        node.low[i][child] = low;
+        node.high[i][child] = high;
+    }
+}
+
+// Two unit vectors at right angles to n and to each other (Duff et al., "Building an orthonormal basis,
+// revisited", Journal of Computer Graphics Techniques 6, 2017). Without n, the coordinate axes.
+HWY_INLINE void AxesOf(const Direction& n, float (&axes)[3][3]) {
+    const float x = n.of[0], y = n.of[1], z = n.of[2];
+    const float sign = z < 0 ? -1.0f : 1.0f, a = -1.0f / (sign + z), b = x * y * a;
+    const bool any = x * x + y * y + z * z > 0.5f;
+    const float made[3][3] = {
+        {x, y, z}, {1.0f + sign * x * x * a, sign * b, -sign * x}, {b, sign + y * y * a, -y}};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < 3; ++i) axes[k][i] = any ? made[k][i] : k == i ? 1.0f : 0.0f;
+}
+
+void RefitNodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
+                TreeNode* nodes) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr std::size_t most_leaves = tree_width; // larger parts are seldom flat
+    for (std::size_t i = begin; i < end; ++i) {
+        TreeNode& node = nodes[level.first + i];
+        node.first_child = level.first_child + static_cast<std::uint32_t>(i * tree_width);
+        for (std::size_t child = 0; child < tree_width; ++child) {
+            const std::uint32_t number = node.first_child + static_cast<std::uint32_t>(child);
+            if (number >= level.last_child) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    for (std::size_t axis = 0; axis < 3; ++axis) node.axis[k][axis][child] = 0;
+                    node.low[k][child] = infinity;
+                    node.high[k][child] = -infinity;
+                }
+                continue;
+            }
+            if (level.leaves_below > most_leaves) {
+                BoxOfNode(nodes[number - tree.leaf_count], node, child);
+                continue;
+            }
+            Direction normal;
+            if (number < tree.leaf_count) {
+                normal = NormalOfLeaf(tree.leaves[number]);
+            } else {
+                const TreeNode& from = nodes[number - tree.leaf_count];
+                for (std::size_t k = 0; k < tree_width; ++k)
+                    normal.Add(from.axis[0][0][k], from.axis[0][1][k], from.axis[0][2][k]);
+                normal.Normalise();
+            }
+            float axes[3][3];
+            AxesOf(normal, axes);
+            const std::size_t first = (i * tree_width + child) * level.leaves_below;
+            const std::size_t rest = tree.leaf_count - first;
+            BoxOfLeaves(tree.leaves + first, rest < level.leaves_below ? rest : level.leaves_below, axes,
+                        node, child);
+        }
+    }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox::depth
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vox::depth {
+
+void refit_nodes(const TreeView& tree, const TreeLevel& level, std::size_t begin, std::size_t end,
+                 TreeNode* nodes) {
+    VOX_SIMD_DISPATCH(RefitNodes)(tree, level, begin, end, nodes);
+}
+
+void find_near(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
+               VisitTriangle visit, void* receiver) {
+    VOX_SIMD_DISPATCH(FindNear)(tree, part, p, reach, visit, receiver);
+}
+
+void find_nearest_first(const TreeView& tree, std::uint32_t part, const float (&p)[3], float reach,
+                        VisitTriangle visit, void* receiver) {
+    VOX_SIMD_DISPATCH(FindNearestFirst)(tree, part, p, reach, visit, receiver);
+}
+
+} // namespace vox::depth
+#endif

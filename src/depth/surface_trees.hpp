@@ -1,0 +1,38 @@
+// The trees over surfaces that were searched, one for each such mesh, kept from step to step. The depth stage
+// and the readings of contacts share them.
+#pragma once
+
+#include "depth/closest.hpp"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox::depth {
+
+class SurfaceTrees {
+public:
+    explicit SurfaceTrees(std::pmr::memory_resource* memory) : trees_(memory) {}
+
+    // Adds one for a mesh, unless it has one. Throws what the memory throws.
+    void add(std::uint32_t mesh_id);
+    // That of a mesh that has one, until another is added or forgotten. It is to be fitted by update() before
+    // it is searched, also where positions are those of the last time: it refers to the arrays of the mesh.
+    SurfaceTree& operator[](std::uint32_t mesh_id) noexcept;
+
+    void topology_changed(std::uint32_t mesh_id) noexcept;
+    void forget(std::uint32_t mesh_id) noexcept;
+    void forget_all() noexcept;
+
+private:
+    struct Tree {
+        std::uint32_t mesh_id;
+        SurfaceTree tree;
+    };
+    // The place of a mesh's tree, or where it would be.
+    std::pmr::vector<Tree>::iterator place(std::uint32_t mesh_id) noexcept;
+
+    std::pmr::vector<Tree> trees_; // by mesh id
+};
+
+} // namespace vox::depth

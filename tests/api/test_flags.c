@@ -1,0 +1,481 @@
+/* Flags of a grid that change, and which pairs of meshes have penetrations. */
+#include <stddef.h>
+
+#include "scenes/random.h"
+#include "support/depth_checks.h"
+#include "support/ledger.h"
+
+enum { most = 5 };
+
+typedef struct scene {
+    body bodies[most];
+    vox_mesh ids[most];
+    vox_grid* grid;
+} scene;
+
+/* Boxes in each other, the last one folded through itself. */
+static void make_bodies(scene* s) {
+    s->bodies[0] = make_box(4, 0.25f, 0, 0, 0);
+    s->bodies[1] = make_box(3, 0.3f, 0.41f, 0.32f, 0.53f);
+    s->bodies[2] = make_box(2, 0.11f, 0.6f, 0.61f, 0.67f);
+    s->bodies[3] = make_box(4, 0.25f, -0.37f, 0.22f, 0.33f);
+    s->bodies[4] = make_box(4, 0.25f, 0.52f, -0.41f, 0.26f);
+    for (uint32_t v = 0; v < s->bodies[4].vertex_count; ++v) {
+        float* p = s->bodies[4].positions + 3 * v;
+        if (p[0] > 1) p[0] = 2 - 0.9f * p[0] + 0.1f * p[1];
+    }
+}
+
+static void insert_bodies(scene* s, const vox_grid_desc* desc) {
+    s->grid = grid_of(desc);
+    for (int b = 0; b < most; ++b) {
+        vox_mesh_desc mesh = body_desc(&s->bodies[b]);
+        if (b == 4) mesh.flags = VOX_MESH_SELF_COLLISION;
+        ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[b]));
+    }
+}
+
+static void make_scene(scene* s, uint32_t flags) {
+    vox_grid_desc desc = engine_desc();
+    desc.flags = flags;
+    make_bodies(s);
+    insert_bodies(s, &desc);
+}
+
+static void free_scene(scene* s) {
+    vox_grid_destroy(s->grid);
+    for (int b = 0; b < most; ++b) free_body(&s->bodies[b]);
+}
+
+static uint32_t flags_of(const vox_grid* grid) {
+    uint32_t flags = 77;
+    ck_ok(vox_grid_get_flags(grid, &flags));
+    return flags;
+}
+
+static uint64_t epoch_of(const vox_grid* grid) {
+    uint64_t epoch = 0;
+    ck_ok(vox_grid_epoch(grid, &epoch));
+    return epoch;
+}
+
+static void same_penetrations(const vox_grid* a, const vox_grid* b) {
+    const vox_penetration_view p = penetrations_of(a), q = penetrations_of(b);
+    const vox_depth_view x = depths_of(a), y = depths_of(b);
+    ck_assert_uint_gt(p.count, 50);
+    ck_assert_uint_eq(p.count, q.count);
+    ck_assert_uint_eq(x.count, y.count);
+    ck_assert_mem_eq(p.data, q.data, p.count * sizeof *p.data);
+    ck_assert_mem_eq(x.data, y.data, x.count * sizeof *x.data);
+}
+
+/* ---- penetrations on and off ---- */
+
+START_TEST(arguments) {
+    vox_grid* grid = grid_of(NULL);
+    uint32_t flags = 77;
+    ck_fails(vox_grid_set_flags(NULL, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_set_flags(grid, 0x41), VOX_ERROR_INVALID_ARGUMENT,
+             "flags is 0x41, of which 0x40 is unknown");
+    ck_fails(vox_grid_get_flags(NULL, &flags), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_get_flags(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_flags is null");
+    ck_assert_uint_eq(flags, 77);
+    ck_assert_uint_eq(flags_of(grid), VOX_GRID_PENETRATIONS);
+    for (flags = 0; flags < 4; ++flags) {
+        ck_ok(vox_grid_set_flags(grid, flags));
+        ck_assert_uint_eq(flags_of(grid), flags);
+    }
+    vox_depth_view view = {NULL, 7, 7, 7};
+    ck_fails(vox_grid_depths(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_depths(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
+    ck_ok(vox_grid_set_flags(grid, 0));
+    ck_fails(vox_grid_depths(grid, &view), VOX_ERROR_INVALID_STATE, "lack VOX_GRID_PENETRATIONS");
+    ck_assert_uint_eq(view.count, 7);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+START_TEST(on_later_is_on_from_the_start) {
+    scene s, later;
+    make_scene(&s, VOX_GRID_PENETRATIONS);
+    make_scene(&later, 0);
+    ck_ok(vox_grid_step(s.grid));
+    for (int round = 0; round < 3; ++round) {
+        vox_penetration_view view = {NULL, 0, 0, 0};
+        ck_ok(vox_grid_step(later.grid));
+        ck_fails(vox_grid_penetrations(later.grid, &view), VOX_ERROR_INVALID_STATE,
+                 "lack VOX_GRID_PENETRATIONS");
+        const vox_contact_view contacts = contacts_of(later.grid);
+        const uint64_t epoch = epoch_of(later.grid);
+        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS));
+        /* The contacts are still there; penetrations come with the next step. */
+        ck_assert_uint_gt(epoch_of(later.grid), epoch);
+        ck_assert_uint_eq(contacts_of(later.grid).count, contacts.count);
+        ck_assert_uint_eq(penetrations_of(later.grid).count, 0);
+        ck_assert_uint_eq(depths_of(later.grid).count, 0);
+        vox_reading_view readings;
+        ck_ok(vox_grid_prepare_readings(later.grid));
+        ck_ok(vox_grid_readings(later.grid, &readings));
+        ck_assert_uint_eq(readings.count, contacts.count);
+        for (uint64_t i = 0; i < readings.count; ++i)
+            ck_assert(!(readings.data[i].known & VOX_READING_DEPTH));
+        for (int step = 0; step < 3; ++step) { /* at rest, too */
+            ck_ok(vox_grid_step(later.grid));
+            check_penetrations(later.grid);
+            same_penetrations(s.grid, later.grid);
+        }
+        const uint64_t before = epoch_of(later.grid);
+        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS)); /* no change */
+        ck_assert_uint_eq(epoch_of(later.grid), before);
+        ck_ok(vox_grid_set_flags(later.grid, 0));
+        ck_assert_uint_eq(contacts_of(later.grid).count, contacts.count);
+    }
+    free_scene(&s);
+    free_scene(&later);
+}
+END_TEST
+
+/* Edits while it is off are in what is prepared when it is on again. */
+START_TEST(edits_while_off) {
+    scene s, later;
+    make_scene(&s, VOX_GRID_PENETRATIONS);
+    make_scene(&later, VOX_GRID_PENETRATIONS);
+    ck_ok(vox_grid_step(later.grid));
+    ck_ok(vox_grid_set_flags(later.grid, 0));
+    for (int g = 0; g < 2; ++g) {
+        vox_grid* const grid = g ? later.grid : s.grid;
+        uint32_t off[12];
+        for (uint32_t i = 0; i < 12; ++i) off[i] = 5 * i + 2;
+        ck_ok(vox_mesh_set_tets_enabled(grid, s.ids[0], off, 12, 0));
+        ck_ok(vox_mesh_remove_tets(grid, s.ids[1], off, 3));
+        const vox_mesh_desc other = body_desc(&s.bodies[3]);
+        ck_ok(vox_mesh_set_topology(grid, s.ids[2], &other));
+    }
+    ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS));
+    ck_ok(vox_grid_step(s.grid));
+    ck_ok(vox_grid_step(later.grid));
+    check_penetrations(later.grid);
+    same_penetrations(s.grid, later.grid);
+    free_scene(&s);
+    free_scene(&later);
+}
+END_TEST
+
+/* What a grid holds does not depend on what its flags were before. */
+START_TEST(memory_comes_back) {
+    uint64_t bytes[2], before = 0;
+    for (uint32_t flags = 0; flags < 2; ++flags) {
+        scene s;
+        make_scene(&s, flags);
+        before = counters_of(s.grid).bytes;
+        ck_ok(vox_grid_set_flags(s.grid, 1 - flags));
+        ck_assert_uint_ne(counters_of(s.grid).bytes, before);
+        ck_ok(vox_grid_set_flags(s.grid, flags));
+        ck_assert_uint_eq(counters_of(s.grid).bytes, before);
+        bytes[flags] = before;
+        ck_ok(vox_grid_step(s.grid));
+        const uint64_t stepped = counters_of(s.grid).bytes;
+        ck_ok(vox_grid_set_flags(s.grid, 1));
+        ck_ok(vox_grid_step(s.grid));
+        ck_ok(vox_grid_set_flags(s.grid, 0));
+        if (flags == 0) ck_assert_uint_eq(counters_of(s.grid).bytes, stepped);
+        free_scene(&s);
+    }
+    scene s;
+    uint64_t tets = 0;
+    make_bodies(&s);
+    for (int b = 0; b < most; ++b) tets += s.bodies[b].tet_count, free_body(&s.bodies[b]);
+    ck_assert_uint_gt(bytes[1] - bytes[0], 20 * tets);
+}
+END_TEST
+
+/* Without memory for one mesh none is prepared, and all is as before. */
+START_TEST(all_or_nothing) {
+    ledger l = {0};
+    vox_grid_desc desc = engine_desc();
+    desc.allocator = ledger_allocator(&l);
+    scene s;
+    make_bodies(&s);
+    uint64_t failures = 0, hash = 0, again = 0;
+    desc.flags = VOX_GRID_CONTACT_EVENTS;
+    insert_bodies(&s, &desc);
+    ck_ok(vox_grid_step(s.grid));
+    ck_ok(vox_grid_hash(s.grid, &hash));
+    for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK;) {
+        const uint64_t bytes = l.bytes, epoch = epoch_of(s.grid);
+        l.calls = 0;
+        l.fail_at = failures + 1;
+        result = vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS);
+        l.fail_at = 0;
+        if (result == VOX_OK) break;
+        ++failures;
+        ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+        ck_assert_uint_eq(l.bytes, bytes);
+        ck_assert_uint_eq(epoch_of(s.grid), epoch);
+        ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_CONTACT_EVENTS);
+        if (failures % 8 != 1) continue;
+        ck_ok(vox_grid_step(s.grid));
+        ck_ok(vox_grid_hash(s.grid, &again));
+        ck_assert_uint_eq(hash, again);
+    }
+    ck_assert_uint_gt(failures, 20);
+    ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_PENETRATIONS);
+    ck_ok(vox_grid_step(s.grid));
+    check_penetrations(s.grid);
+    free_scene(&s);
+    ck_assert_uint_eq(l.bytes, 0);
+}
+END_TEST
+
+START_TEST(budget) {
+    scene s;
+    make_scene(&s, 0);
+    const uint64_t without = counters_of(s.grid).bytes;
+    ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS));
+    const uint64_t with = counters_of(s.grid).bytes;
+    free_scene(&s);
+    vox_grid_desc desc = engine_desc();
+    desc.flags = 0;
+    desc.byte_budget = (without + with) / 2;
+    make_bodies(&s);
+    insert_bodies(&s, &desc);
+    ck_fails(vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS), VOX_ERROR_BUDGET, "budget");
+    ck_assert_uint_eq(counters_of(s.grid).bytes, without);
+    ck_assert_uint_eq(flags_of(s.grid), 0);
+    free_scene(&s);
+}
+END_TEST
+
+/* ---- events of vertices on and off ---- */
+
+START_TEST(contact_events) {
+    scene s;
+    vox_contact_event_view events;
+    make_scene(&s, VOX_GRID_CONTACT_EVENTS);
+    ck_ok(vox_grid_step(s.grid));
+    ck_ok(vox_grid_contact_events(s.grid, &events));
+    const uint64_t inside = events.began;
+    ck_assert_uint_gt(inside, 50);
+    const uint64_t bytes = counters_of(s.grid).bytes;
+    ck_ok(vox_grid_set_flags(s.grid, 0));
+    ck_assert_uint_lt(counters_of(s.grid).bytes, bytes);
+    ck_fails(vox_grid_contact_events(s.grid, &events), VOX_ERROR_INVALID_STATE,
+             "lack VOX_GRID_CONTACT_EVENTS");
+    for (int round = 0; round < 2; ++round) {
+        ck_ok(vox_grid_step(s.grid));
+        vox_touch_view touches; /* those of pairs go on */
+        ck_ok(vox_grid_touch_events(s.grid, &touches));
+        ck_assert_uint_eq(touches.persisted, touches.count);
+        ck_assert_uint_gt(touches.count, 3);
+        ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_CONTACT_EVENTS));
+        ck_ok(vox_grid_contact_events(s.grid, &events));
+        ck_assert_uint_eq(events.count, 0);
+        /* All of them begin, also where nothing moved, and then go on. */
+        ck_ok(vox_grid_step(s.grid));
+        ck_ok(vox_grid_contact_events(s.grid, &events));
+        ck_assert_uint_eq(events.began, inside);
+        ck_assert_uint_eq(events.ended, 0);
+        ck_ok(vox_grid_step(s.grid));
+        ck_ok(vox_grid_contact_events(s.grid, &events));
+        ck_assert_uint_eq(events.count, 0);
+        ck_ok(vox_grid_set_flags(s.grid, 0));
+    }
+    free_scene(&s);
+}
+END_TEST
+
+/* ---- penetrations by pair ---- */
+
+typedef struct rule {
+    uint64_t category, mask;
+} rule;
+
+static void set_rule(vox_grid* grid, vox_mesh mesh, rule r) {
+    vox_filter filter = vox_default_filter();
+    ck_ok(vox_mesh_filter(grid, mesh, &filter));
+    filter.category = r.category;
+    filter.group = 1; /* so that categories do not decide about contacts */
+    filter.penetration_mask = r.mask;
+    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+}
+
+static int accepts(rule a, rule b) { return a.mask == UINT64_MAX || (a.mask & b.category) != 0; }
+
+static int body_of(const scene* s, vox_mesh mesh) {
+    for (int b = 0; b < most; ++b)
+        if (s->ids[b] == mesh) return b;
+    ck_abort_msg("no mesh %u", mesh);
+    return -1;
+}
+
+/* The penetrations of `s` are those of `all`, which has them for every pair, that the rules leave. */
+static uint64_t check_rules(const scene* s, const vox_grid* all, const rule* rules) {
+    const vox_penetration_view found = penetrations_of(s->grid), every = penetrations_of(all);
+    const vox_depth_view depths = depths_of(s->grid), every_depth = depths_of(all);
+    uint64_t n = 0;
+    for (uint64_t i = 0; i < every.count; ++i) {
+        const vox_penetration* p = &every.data[i];
+        const rule a = rules[body_of(s, p->mesh_a)], b = rules[body_of(s, p->mesh_b)];
+        if (!accepts(a, b) || !accepts(b, a)) continue;
+        ck_assert_uint_lt(n, found.count);
+        ck_assert_mem_eq(&found.data[n], p, sizeof *p);
+        ck_assert_mem_eq(&depths.data[n], &every_depth.data[i], sizeof *depths.data);
+        ++n;
+    }
+    ck_assert_uint_eq(n, found.count);
+    ck_assert_uint_eq(n, depths.count);
+    ck_assert_uint_eq(n, counters_of(s->grid).penetrations);
+    /* Readings tell the same. */
+    vox_reading_view readings;
+    const vox_contact_view contacts = contacts_of(s->grid);
+    ck_ok(vox_grid_prepare_readings(s->grid));
+    ck_ok(vox_grid_readings(s->grid, &readings));
+    for (uint64_t i = 0; i < readings.count; ++i) {
+        const vox_contact* c = &contacts.data[i];
+        const rule a = rules[body_of(s, c->mesh_a)], b = rules[body_of(s, c->mesh_b)];
+        ck_assert_int_eq((readings.data[i].known & VOX_READING_DEPTH) != 0, accepts(a, b) && accepts(b, a));
+    }
+    return n;
+}
+
+START_TEST(rules_of_pairs) {
+    static const rule choices[] = {{1, UINT64_MAX}, {1, 0}, {1, 1},          {2, 1}, {2, UINT64_MAX},
+                                   {1, 2},          {0, 3}, {0, UINT64_MAX}, {6, 5}};
+    uint64_t random = 3, some = 0, left_out = 0;
+    scene s, all;
+    make_scene(&s, VOX_GRID_PENETRATIONS);
+    make_scene(&all, VOX_GRID_PENETRATIONS);
+    for (int step = 0; step < 60; ++step) {
+        rule rules[most];
+        for (int b = 0; b < most; ++b) {
+            rules[b] = step < 9 ? choices[step] : choices[random_below(&random, 9)];
+            const rule plain = {1, UINT64_MAX};
+            /* Some keep their filters, some move: what is carried over is as if it was found. */
+            if (step < 9 || random_below(&random, 2)) set_rule(s.grid, s.ids[b], rules[b]);
+            vox_filter filter = vox_default_filter();
+            ck_ok(vox_mesh_filter(s.grid, s.ids[b], &filter));
+            rules[b] = (rule){filter.category, filter.penetration_mask};
+            set_rule(all.grid, all.ids[b], plain);
+            if (random_below(&random, 3)) continue;
+            const float by = random_float(&random, -0.05f, 0.05f);
+            for (uint32_t v = 0; v < s.bodies[b].vertex_count; ++v) {
+                s.bodies[b].positions[3 * v] += by;
+                all.bodies[b].positions[3 * v] += by;
+            }
+        }
+        for (int again = 0; again < 2; ++again) {
+            ck_ok(vox_grid_step(s.grid));
+            ck_ok(vox_grid_step(all.grid));
+            const uint64_t n = check_rules(&s, all.grid, rules);
+            some += n;
+            left_out += penetrations_of(all.grid).count - n;
+        }
+    }
+    ck_assert_uint_gt(some, 3000);
+    ck_assert_uint_gt(left_out, 3000);
+    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(counters_of(s.grid).carried_contacts, 0);
+    free_scene(&s);
+    free_scene(&all);
+}
+END_TEST
+
+/* A mesh without penetrations is not prepared for them, whenever that is said. */
+START_TEST(memory_of_a_mesh) {
+    scene s;
+    uint64_t none[3];
+    const rule off = {1, 0};
+    make_bodies(&s);
+    for (int how = 0; how < 3; ++how) { /* no flag, at insertion, later */
+        vox_grid_desc desc = engine_desc();
+        if (how == 0) desc.flags = 0;
+        vox_grid* grid = grid_of(&desc);
+        vox_filter filter = vox_default_filter();
+        if (how == 1) filter.penetration_mask = 0;
+        for (int b = 0; b < most; ++b) {
+            vox_mesh_desc mesh = body_desc(&s.bodies[b]);
+            mesh.filter = &filter;
+            ck_ok(vox_mesh_insert(grid, &mesh, &s.ids[b]));
+            const uint64_t with = counters_of(grid).bytes;
+            if (how == 2) {
+                set_rule(grid, s.ids[b], off);
+                ck_assert_uint_gt(with, counters_of(grid).bytes + 20 * s.bodies[b].tet_count);
+            }
+        }
+        none[how] = counters_of(grid).bytes;
+        ck_assert_uint_eq(none[how], none[0]);
+        if (how > 0) { /* off and on again: nothing to prepare */
+            ck_ok(vox_grid_set_flags(grid, 0));
+            ck_ok(vox_grid_set_flags(grid, VOX_GRID_PENETRATIONS));
+            ck_assert_uint_eq(counters_of(grid).bytes, none[0]);
+            ck_ok(vox_grid_step(grid));
+            ck_assert_uint_eq(penetrations_of(grid).count, 0);
+            ck_assert_uint_gt(contacts_of(grid).count, 0);
+        }
+        vox_grid_destroy(grid);
+    }
+    for (int b = 0; b < most; ++b) free_body(&s.bodies[b]);
+}
+END_TEST
+
+/* No memory for a mesh that is to have penetrations again: its filter stays. */
+START_TEST(filter_all_or_nothing) {
+    ledger l = {0};
+    vox_grid_desc desc = engine_desc();
+    desc.allocator = ledger_allocator(&l);
+    scene s;
+    make_bodies(&s);
+    insert_bodies(&s, &desc);
+    vox_filter filter = vox_default_filter();
+    filter.penetration_mask = 0;
+    ck_ok(vox_mesh_set_filter(s.grid, s.ids[0], &filter));
+    uint64_t failures = 0;
+    filter = vox_default_filter();
+    filter.self_rings = 2;
+    for (;; ++failures) {
+        const uint64_t bytes = l.bytes;
+        l.calls = 0;
+        l.fail_at = failures + 1;
+        const vox_result result = vox_mesh_set_filter(s.grid, s.ids[0], &filter);
+        l.fail_at = 0;
+        if (result == VOX_OK) break;
+        ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+        ck_assert_uint_eq(l.bytes, bytes);
+        vox_filter kept = vox_default_filter();
+        ck_ok(vox_mesh_filter(s.grid, s.ids[0], &kept));
+        ck_assert_uint_eq(kept.penetration_mask, 0);
+        ck_assert_uint_eq(kept.self_rings, 0);
+    }
+    ck_assert_uint_gt(failures, 10);
+    ck_ok(vox_grid_step(s.grid));
+    check_penetrations(s.grid);
+    free_scene(&s);
+}
+END_TEST
+
+/* Programs from before the field was there. */
+START_TEST(older_filters) {
+    vox_filter filter;
+    ck_ok(vox_filter_init(&filter, (uint32_t)sizeof filter));
+    ck_assert_uint_eq(filter.penetration_mask, UINT64_MAX);
+    scene s;
+    make_scene(&s, VOX_GRID_PENETRATIONS);
+    filter.struct_size = (uint32_t)offsetof(vox_filter, penetration_mask);
+    filter.penetration_mask = 0;
+    for (int b = 0; b < most - 1; ++b) ck_ok(vox_mesh_set_filter(s.grid, s.ids[b], &filter));
+    ck_ok(vox_grid_step(s.grid));
+    check_penetrations(s.grid);
+    free_scene(&s);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_each(tests, arguments, on_later_is_on_from_the_start, edits_while_off, memory_comes_back,
+                   all_or_nothing, budget, contact_events, rules_of_pairs, memory_of_a_mesh,
+                   filter_all_or_nothing, older_filters);
+}
+
+int main(void) {
+    Suite* suite = suite_create("flags");
+    add_for_each_engine(suite, add_tests);
+    return run_suite(suite);
+}
