@@ -5,7 +5,9 @@
 #include "base/scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #if defined(__SSE2__)
@@ -75,10 +77,10 @@ inline Box3f empty_box3f() noexcept {
 // The largest float that is not above x. round_up() is the smallest that is not below.
 inline float round_down(double x) noexcept {
     constexpr float most = std::numeric_limits<float>::max();
-    if (x >= double{most}) return most;
-    if (x < -double{most}) return -std::numeric_limits<float>::infinity();
-    const auto f = static_cast<float>(x);
-    return double{f} <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+    const float f = std::min(static_cast<float>(x), most); // to nearest
+    const auto bits = std::bit_cast<std::uint32_t>(f);
+    const std::uint32_t below = f > 0 ? bits - 1 : f < 0 ? bits + 1 : 0x80000001u; // the next float below f
+    return double{f} <= x ? f : std::bit_cast<float>(below);
 }
 inline float round_up(double x) noexcept { return -round_down(-x); }
 

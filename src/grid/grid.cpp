@@ -46,9 +46,9 @@ void check_grid_desc(const vox_grid_desc& desc) {
 
 using namespace vox;
 
-vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
-    : allocator_(desc.allocator), log_(desc.log), memory_(desc.allocator, desc.byte_budget, held),
-      tasks_(desc.tasks), workers_(desc.tasks, desc.worker_count),
+vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
+    : share_(memory), memory_(*memory), log_(desc.log), tasks_(desc.tasks),
+      workers_(desc.tasks, desc.worker_count),
       fast_(desc.engine == VOX_ENGINE_FAST ||
             (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
       find_penetrations_((desc.flags & VOX_GRID_PENETRATIONS) != 0),
@@ -60,8 +60,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
       bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
-      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
-      queries_(&memory_) {}
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
+      query_views_(share_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -104,6 +104,7 @@ void vox_grid::clear() {
     events_.hide_pairs();
     readings_.invalidate();
     queries_.invalidate();
+    query_views_.clear();
     ++epoch_;
 }
 
@@ -143,6 +144,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
+    meshes_[id].query_tets = nullptr;
     mark_moved(id);
     adaptive_.scene_changed();
 }
@@ -424,8 +426,9 @@ void vox_grid::prepare_readings() {
 
 // ---- queries ---------------------------------------------------------------------------------------
 
-void vox_grid::prepare_queries() {
+std::pmr::vector<QueryBody> vox_grid::list_query_bodies() {
     std::pmr::vector<QueryBody> bodies(&memory_);
+    bodies.reserve(meshes_.slot_count());
     meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
@@ -434,11 +437,20 @@ void vox_grid::prepare_queries() {
                         format("mesh %u has no positions: bind some before the queries", id));
         const Body body = mesh.body(id);
         check_finite(body);
-        mesh.make_topology();
-        mesh.make_tiles(); // the reference engine needs none
-        bodies.push_back({body, &mesh.tiled().tiles, &mesh.topology()});
+        if (!slot.query_tets) {
+            mesh.make_topology();
+            mesh.make_tiles(); // the reference engine needs none
+            slot.query_tets = make_query_tets(mesh.tiled().tiles, mesh.topology(), &memory_);
+        }
+        bodies.push_back({body, slot.query_tets, mesh.user_data()});
     });
-    queries_.prepare(bodies);
+    return bodies;
+}
+
+void vox_grid::prepare_queries() { queries_.prepare(list_query_bodies(), workers_); }
+
+vox_query_view* vox_grid::take_query_view() {
+    return query_views_.take(list_query_bodies(), workers_, epoch_);
 }
 
 // ---- results --------------------------------------------------------------------------------------

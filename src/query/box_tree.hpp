@@ -16,8 +16,7 @@ namespace vox {
 // child comes first. bound() is infinite for an empty box. The tree is a complete binary one, with the root 1
 // and the children 2 i and 2 i + 1 of i.
 template <class Bound, class Visit>
-void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&& bound,
-                         Visit&& visit) noexcept {
+void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&& bound, Visit&& visit) {
     struct Entry {
         std::size_t node;
         double bound;

@@ -4,11 +4,10 @@
 #include "query/queries.hpp"
 
 #include "base/bits.hpp"
+#include "base/boxes.hpp"
 #include "base/error.hpp"
-#include "query/box_tree.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vox {
@@ -20,11 +19,15 @@ void reserve(std::pmr::vector<T>& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(count + count / 8);
 }
 
+Box3f box3f(const Box& box) noexcept {
+    return {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
+}
+
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
-    : meshes_(memory), vertices_(memory), tetrahedra_(memory), boxes_(memory), leaves_(memory),
-      places_(memory), unsorted_(memory), tree_(memory), surface_tree_(memory) {}
+    : meshes_(memory), vertices_(memory), boxes_(memory), leaves_(memory), unsorted_(memory), places_(memory),
+      tree_(memory), surface_tree_(memory) {}
 
 void Queries::require_prepared() const {
     if (!prepared_)
@@ -33,117 +36,134 @@ void Queries::require_prepared() const {
 
 void Queries::invalidate() noexcept {
     prepared_ = false;
-    meshes_.clear();
-    vertices_.clear();
-    tetrahedra_.clear();
-    boxes_.clear();
-    leaves_.clear();
-    tree_.clear();
-    surface_tree_.clear();
+    meshes_.clear(); // and with it what is shared
 }
 
-void Queries::prepare(std::span<const QueryBody> bodies) {
+std::uint64_t Queries::user_data(vox_mesh mesh) const {
+    const auto found = std::ranges::lower_bound(meshes_, mesh, {}, &Mesh::id);
+    if (found == meshes_.end() || found->id != mesh)
+        throw Error(VOX_ERROR_INVALID_HANDLE,
+                    format("mesh %u is none of the %zu meshes of the view", mesh, meshes_.size()));
+    return found->user_data;
+}
+
+void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     std::size_t vertices = 0, tets = 0, leaves = 0;
     for (const QueryBody& body : bodies) {
         vertices += body.body.vertex_count;
-        tets += body.body.tets.size();
-        leaves += body.tiles->tiles.size();
+        tets += body.tets->tets.size();
+        leaves += body.tets->tiles.size();
     }
-    const std::size_t nodes = 2 * std::bit_ceil(std::max<std::size_t>(leaves, 1));
-    // Reserve everything first, so that nothing after it can fail.
+    const std::size_t nodes = 2 * std::max<std::size_t>(leaves, 1);
+    // Reserve everything first, so that no memory can be missing after it.
     reserve(meshes_, bodies.size());
     reserve(vertices_, vertices);
-    reserve(tetrahedra_, tets);
     reserve(boxes_, tets);
     reserve(leaves_, leaves);
-    reserve(places_, leaves);
     reserve(unsorted_, leaves);
+    reserve(places_, leaves);
     reserve(tree_, nodes);
     reserve(surface_tree_, nodes);
 
     invalidate();
-    for (const QueryBody& body : bodies) {
-        add(body, static_cast<std::uint32_t>(meshes_.size()));
-        meshes_.push_back({body.body.mesh_id, body.body.filter.category});
-    }
-    sort_leaves();
+    vertices_.resize(vertices);
+    boxes_.resize(tets);
+    leaves_.resize(leaves);
     tree_.resize(nodes);
     surface_tree_.resize(nodes);
+    unsorted_.clear();
+    vertices = tets = 0;
+    for (const QueryBody& body : bodies) {
+        for (std::uint32_t tile = 0; tile < body.tets->tiles.size(); ++tile)
+            unsorted_.push_back({{static_cast<std::uint32_t>(meshes_.size()), tile}, {}, {}});
+        meshes_.push_back(
+            {body.body.mesh_id, body.body.filter.category, body.user_data, body.tets, vertices, tets});
+        vertices += body.body.vertex_count;
+        tets += body.tets->tets.size();
+    }
+    constexpr std::size_t least_vertices = 16384, least_leaves = 128; // that are worth a task
+    workers.for_ranges(vertices, least_vertices, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        copy_positions(bodies, begin, end);
+    });
+    workers.for_ranges(leaves, least_leaves, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t l = begin; l < end; ++l) make_boxes(unsorted_[l]);
+    });
+    sort_leaves();
     build_trees();
     prepared_ = true;
 }
 
-void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
-    const Body& body = from.body;
-    const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    const bool rounded = body.positions.rounded(); // otherwise all are floats
-    for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
-    for (const Tile& tile : from.tiles->tiles) {
-        if (tile.tet_count == 0) continue; // all its tetrahedra are off
-        Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box3f()};
-        for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-            const std::uint32_t index = from.tiles->tets[tile.first_tet + i];
-            Tetrahedron t{index, 0, {}};
-            Box3f box = empty_box3f();
-            for (std::size_t c = 0; c < 4; ++c) {
-                t.corner[c] = first_vertex + body.tets[index].v[c];
-                const Vec3d& p = vertices_[t.corner[c]];
-                if (rounded) {
-                    extend(box, p);
-                } else {
-                    const Vec3f at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-                    extend(box, {at, at});
-                }
-                const std::uint32_t across = from.topology->across[index][c];
-                if (across != Topology::nothing && (across & Topology::surface_bit)) t.facets |= 1u << c;
-            }
-            tetrahedra_.push_back(t);
-            boxes_.push_back(box);
-            extend(leaf.box, box);
-        }
-        leaves_.push_back(leaf);
+// Those with indices [begin, end) in vertices_.
+void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept {
+    const auto after = std::ranges::upper_bound(meshes_, begin, {}, &Mesh::first_vertex);
+    for (auto m = static_cast<std::size_t>(after - meshes_.begin()) - 1; begin < end; ++m) {
+        const std::size_t first = meshes_[m].first_vertex;
+        const std::size_t stop = std::min<std::size_t>(end, first + bodies[m].body.vertex_count);
+        const Positions positions = bodies[m].body.positions;
+        for (; begin < stop; ++begin) vertices_[begin] = positions.exact(begin - first);
     }
+}
+
+// A vertex is rounded once for all tetrahedra of the tile that share it: as rounding keeps the order of
+// numbers, the box of rounded corners is the rounded box.
+void Queries::make_boxes(BoxedLeaf& leaf) noexcept {
+    const Mesh& mesh = meshes_[leaf.leaf.mesh];
+    const Tile& tile = mesh.tets->tiles[leaf.leaf.tile];
+    const std::uint32_t* const vertices = mesh.tets->vertices.data() + tile.first_vertex;
+    const std::array<std::uint8_t, 4>* const corners = mesh.tets->corners.data() + tile.first_tet;
+    const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
+    Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
+
+    Box around[tile_size]; // each vertex
+    for (std::size_t v = 0; v < tile.vertex_count; ++v) {
+        const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
+        around[v] = {{round_down(p.x), round_down(p.y), round_down(p.z), 0},
+                     {round_up(p.x), round_up(p.y), round_up(p.z), 0}};
+    }
+    Box all = empty_box, surface = empty_box;
+    for (std::size_t i = 0; i < tile.tet_count; ++i) {
+        const std::array<std::uint8_t, 4> corner = corners[i];
+        Box box = around[corner[0]];
+        for (std::size_t c = 1; c < 4; ++c) vox::add(box, around[corner[c]]);
+        boxes[i] = box3f(box);
+        vox::add(all, box);
+        if (facets[i] == 0) continue;
+        for (std::size_t c = 0; c < 4; ++c)
+            // A corner belongs to the three facets that are not opposite to it.
+            if (facets[i] & ~(1u << c)) vox::add(surface, around[corner[c]]);
+    }
+    leaf.box = box3f(all);
+    leaf.surface_box = box3f(surface);
 }
 
 void Queries::sort_leaves() noexcept {
     Box3f all = empty_box3f();
-    for (const Leaf& leaf : leaves_) extend(all, leaf.box);
+    for (const BoxedLeaf& leaf : unsorted_) extend(all, leaf.box);
     const auto part = [](float lo, float hi, float min, float max) { // 21 bits of the place along one axis
         const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
-        return side > 0 ? static_cast<std::uint64_t>((centre - double{min}) / side * 0x1fffff) : 0u;
+        const double place = (centre - double{min}) / side; // NaN where a side is 0 or infinite
+        return place >= 0 && place <= 1 ? static_cast<std::uint64_t>(place * 0x1fffff) : 0u;
     };
-    unsorted_.clear();
     places_.clear();
-    for (const Leaf& leaf : leaves_) {
+    for (const BoxedLeaf& leaf : unsorted_) {
         const Box3f& b = leaf.box;
         const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
                                                part(b.min.y, b.max.y, all.min.y, all.max.y),
                                                part(b.min.z, b.max.z, all.min.z, all.max.z));
         // The upper bits are of the place, the lower ones the index, so no two are equal.
-        places_.push_back((code >> 31) << 32 | unsorted_.size());
-        unsorted_.push_back(leaf);
+        places_.push_back((code >> 31) << 32 | places_.size());
     }
     std::sort(places_.begin(), places_.end());
-    for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i] = unsorted_[places_[i] & 0xffffffffu];
-}
-
-Box3f Queries::surface_box(const Leaf& leaf) const noexcept {
-    Box3f box = empty_box3f();
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-        const Tetrahedron& t = tetrahedra_[i];
-        for (std::size_t c = 0; c < 4; ++c)
-            // A corner belongs to the three facets that are not opposite to it.
-            if (t.facets & ~(1u << c)) extend(box, corner(t, c));
-    }
-    return box;
 }
 
 void Queries::build_trees() noexcept {
-    std::fill(tree_.begin(), tree_.end(), empty_box3f());
-    std::fill(surface_tree_.begin(), surface_tree_.end(), empty_box3f());
+    // Where there are no leaves at all, the root is one of nothing.
+    tree_[1] = surface_tree_[1] = empty_box3f();
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        tree_[first_leaf_node() + i] = leaves_[i].box;
-        surface_tree_[first_leaf_node() + i] = surface_box(leaves_[i]);
+        const BoxedLeaf& leaf = unsorted_[places_[i] & 0xffffffffu];
+        leaves_[i] = leaf.leaf;
+        tree_[first_leaf_node() + i] = leaf.box;
+        surface_tree_[first_leaf_node() + i] = leaf.surface_box;
     }
     for (std::pmr::vector<Box3f>* tree : {&tree_, &surface_tree_})
         for (std::size_t node = first_leaf_node() - 1; node > 0; --node) {

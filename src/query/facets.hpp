@@ -1,0 +1,45 @@
+// The search of the surfaces of all meshes, nearest facet first.
+#pragma once
+
+#include "query/box_tree.hpp"
+#include "query/queries.hpp"
+
+namespace vox {
+
+// Calls visit(leaf, tets, tet, facet) for each facet of a surface whose tetrahedron's bound is no more than
+// `most`, as visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place there.
+template <class Bound, class Visit>
+void Queries::visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const {
+    visit_nearest_first(surface_tree_, most, bound, [&](std::size_t leaf) {
+        if (!wants(leaves_[leaf], which)) return;
+        const LeafTets tets = tets_of(leaves_[leaf]);
+        for (std::size_t tet = 0; tet < tets.size(); ++tet) {
+            const unsigned facets = tets.facets(tet);
+            if (facets == 0 || !(bound(tets.box(tet)) <= most)) continue;
+            for (std::uint32_t facet = 0; facet < 4; ++facet)
+                if (facets >> facet & 1) visit(leaf, tets, tet, facet);
+        }
+    });
+}
+
+// The corners of facet i of a tetrahedron in ascending order, so that the tetrahedra on both sides of a facet
+// compute the same. `place` is the index of each in facet_corners.
+struct OrderedFacet {
+    std::uint32_t vertex[3];
+    std::size_t place[3] = {0, 1, 2};
+
+    template <class Tets>
+    OrderedFacet(const Tets& tets, std::size_t tet, std::size_t i) noexcept {
+        for (std::size_t c = 0; c < 3; ++c) vertex[c] = tets.vertex(tet, facet_corners[i][c]);
+        const auto order = [this](std::size_t x, std::size_t y) {
+            if (vertex[x] <= vertex[y]) return;
+            std::swap(vertex[x], vertex[y]);
+            std::swap(place[x], place[y]);
+        };
+        order(0, 1);
+        order(1, 2);
+        order(0, 1);
+    }
+};
+
+} // namespace vox
