@@ -1,16 +1,15 @@
 // The search of the surfaces of all meshes, nearest facet first.
 #pragma once
 
-#include "query/box_tree.hpp"
 #include "query/queries.hpp"
 
 namespace vox {
 
 // Calls visit(leaf, tets, tet, facet) for each facet of a surface whose tetrahedron's bound is no more than
-// `most`, as visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place there.
+// `most`, as BoxTree::visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place there.
 template <class Bound, class Visit>
 void Queries::visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const {
-    visit_nearest_first(surface_tree_, most, bound, [&](std::size_t leaf) {
+    surface_tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
         if (!wants(leaves_[leaf], which)) return;
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t tet = 0; tet < tets.size(); ++tet) {

@@ -2,8 +2,9 @@
 // so that each node is read once for all of them.
 #include "query/queries.hpp"
 
+#include "base/boxes.hpp"
 #include "exact/predicates.hpp"
-#include "query/box_tree.hpp"
+#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +17,8 @@ namespace vox {
 namespace {
 
 Box3f box_of(const Vec3d& p) noexcept {
-    Box3f box = empty_box3f();
-    extend(box, p);
-    return box;
+    return {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)},
+            {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z)}};
 }
 
 } // namespace
@@ -31,7 +31,7 @@ std::pmr::vector<Queries::PointHit> Queries::find_points(std::span<const Vec3d> 
     boxes.reserve(points.size());
     for (const Vec3d& p : points) boxes.push_back(box_of(p));
     std::pmr::vector<PointHit> found(memory);
-    find(1, indices, {points, boxes, which}, found);
+    if (!leaves_.empty()) find(1, indices, {points, boxes, which}, found);
     std::sort(found.begin(), found.end(), [](const PointHit& x, const PointHit& y) {
         return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
     });
@@ -65,19 +65,19 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which,
 // Searches below the node for the points in `which`, whose order changes.
 void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
                    std::pmr::vector<PointHit>& found) const {
-    const Box3f& box = tree_[node];
+    const Box3f& box = tree_.box(node);
     const auto end = std::partition(which.begin(), which.end(),
                                     [&](std::uint32_t i) { return overlap(box, asked.boxes[i]); });
     which = which.first(static_cast<std::size_t>(end - which.begin()));
     if (which.empty()) return;
-    if (node < first_leaf_node()) {
+    if (!tree_.is_leaf(node)) {
         find(2 * node, which, asked, found);
         find(2 * node + 1, which, asked, found);
         return;
     }
-    const std::size_t leaf = node - first_leaf_node();
+    const std::uint32_t leaf = tree_.item(node);
     if (!wants(leaves_[leaf], asked.which)) return;
-    for (const std::uint32_t i : which) find_in_leaf(static_cast<std::uint32_t>(leaf), i, asked, found);
+    for (const std::uint32_t i : which) find_in_leaf(leaf, i, asked, found);
 }
 
 void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
@@ -100,8 +100,8 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
 void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
                   std::pmr::vector<vox_tet_hit>& hits) const {
     // A finite box, which meets no empty one; no vertex is beyond.
-    const auto low = [](double x) { return std::max(round_down(x), -std::numeric_limits<float>::max()); };
-    const auto high = [](double x) { return std::min(round_up(x), std::numeric_limits<float>::max()); };
+    const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
+    const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };
     const Box3f around{{low(min.x), low(min.y), low(min.z)}, {high(max.x), high(max.y), high(max.z)}};
     const auto meets = [&](const LeafTets& tets, std::size_t i) { // in double
         bool below[3] = {true, true, true}, above[3] = {true, true, true};
@@ -116,21 +116,14 @@ void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
         }
         return !(below[0] | below[1] | below[2] | above[0] | above[1] | above[2]);
     };
-    const auto descend = [&](const auto& self, std::size_t node) -> void {
-        if (!overlap(tree_[node], around)) return;
-        if (node < first_leaf_node()) {
-            self(self, 2 * node);
-            self(self, 2 * node + 1);
-            return;
-        }
-        const Leaf& leaf = leaves_[node - first_leaf_node()];
-        if (!wants(leaf, which)) return;
-        const LeafTets tets = tets_of(leaf);
+    const auto visit = [&](std::uint32_t leaf) {
+        if (!wants(leaves_[leaf], which)) return;
+        const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size(); ++i)
             if (overlap(tets.box(i), around) && meets(tets, i))
-                hits.push_back({meshes_[leaf.mesh].id, tets.index(i)});
+                hits.push_back({meshes_[leaves_[leaf].mesh].id, tets.index(i)});
     };
-    descend(descend, 1);
+    tree_.visit_accepted([&](const Box3f& box) { return overlap(box, around); }, visit);
     std::sort(hits.begin(), hits.end(), [](const vox_tet_hit& x, const vox_tet_hit& y) {
         return std::tie(x.mesh, x.tet) < std::tie(y.mesh, y.tet);
     });

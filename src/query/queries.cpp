@@ -1,11 +1,10 @@
-// A bounding volume hierarchy over the tiles of all meshes. The tiles are sorted along a Morton curve
-// (morton_code) and halved by count; boxes are made from the leaves up. Sorting is quick, as there are few
-// tiles, and is done in every call, so that the order suits bodies that deform.
+// A bounding volume hierarchy over the tiles of all meshes. The trees are built in every call, so that they
+// suit bodies that deform; this is quick, as there are few tiles.
 #include "query/queries.hpp"
 
-#include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/error.hpp"
+#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +25,8 @@ Box3f box3f(const Box& box) noexcept {
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
-    : meshes_(memory), vertices_(memory), boxes_(memory), leaves_(memory), unsorted_(memory), places_(memory),
-      tree_(memory), surface_tree_(memory) {}
+    : meshes_(memory), vertices_(memory), boxes_(memory), leaves_(memory), tree_(memory),
+      surface_tree_(memory), leaf_boxes_(memory), surface_boxes_(memory) {}
 
 void Queries::require_prepared() const {
     if (!prepared_)
@@ -54,28 +53,26 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
         tets += body.tets->tets.size();
         leaves += body.tets->tiles.size();
     }
-    const std::size_t nodes = 2 * std::max<std::size_t>(leaves, 1);
     // Reserve everything first, so that no memory can be missing after it.
     reserve(meshes_, bodies.size());
     reserve(vertices_, vertices);
     reserve(boxes_, tets);
     reserve(leaves_, leaves);
-    reserve(unsorted_, leaves);
-    reserve(places_, leaves);
-    reserve(tree_, nodes);
-    reserve(surface_tree_, nodes);
+    reserve(leaf_boxes_, leaves);
+    reserve(surface_boxes_, leaves);
+    tree_.reserve(leaves);
+    surface_tree_.reserve(leaves);
 
     invalidate();
     vertices_.resize(vertices);
     boxes_.resize(tets);
-    leaves_.resize(leaves);
-    tree_.resize(nodes);
-    surface_tree_.resize(nodes);
-    unsorted_.clear();
+    leaves_.clear();
+    leaf_boxes_.resize(leaves);
+    surface_boxes_.resize(leaves);
     vertices = tets = 0;
     for (const QueryBody& body : bodies) {
         for (std::uint32_t tile = 0; tile < body.tets->tiles.size(); ++tile)
-            unsorted_.push_back({{static_cast<std::uint32_t>(meshes_.size()), tile}, {}, {}});
+            leaves_.push_back({static_cast<std::uint32_t>(meshes_.size()), tile});
         meshes_.push_back(
             {body.body.mesh_id, body.body.filter.category, body.user_data, body.tets, vertices, tets});
         vertices += body.body.vertex_count;
@@ -86,10 +83,10 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
         copy_positions(bodies, begin, end);
     });
     workers.for_ranges(leaves, least_leaves, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t l = begin; l < end; ++l) make_boxes(unsorted_[l]);
+        for (std::size_t l = begin; l < end; ++l) make_boxes(static_cast<std::uint32_t>(l));
     });
-    sort_leaves();
-    build_trees();
+    tree_.build(leaf_boxes_);
+    surface_tree_.build(surface_boxes_);
     prepared_ = true;
 }
 
@@ -106,9 +103,9 @@ void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begi
 
 // A vertex is rounded once for all tetrahedra of the tile that share it: as rounding keeps the order of
 // numbers, the box of rounded corners is the rounded box.
-void Queries::make_boxes(BoxedLeaf& leaf) noexcept {
-    const Mesh& mesh = meshes_[leaf.leaf.mesh];
-    const Tile& tile = mesh.tets->tiles[leaf.leaf.tile];
+void Queries::make_boxes(std::uint32_t leaf) noexcept {
+    const Mesh& mesh = meshes_[leaves_[leaf].mesh];
+    const Tile& tile = mesh.tets->tiles[leaves_[leaf].tile];
     const std::uint32_t* const vertices = mesh.tets->vertices.data() + tile.first_vertex;
     const std::array<std::uint8_t, 4>* const corners = mesh.tets->corners.data() + tile.first_tet;
     const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
@@ -117,8 +114,8 @@ void Queries::make_boxes(BoxedLeaf& leaf) noexcept {
     Box around[tile_size]; // each vertex
     for (std::size_t v = 0; v < tile.vertex_count; ++v) {
         const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
-        around[v] = {{round_down(p.x), round_down(p.y), round_down(p.z), 0},
-                     {round_up(p.x), round_up(p.y), round_up(p.z), 0}};
+        around[v] = {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z), 0},
+                     {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z), 0}};
     }
     Box all = empty_box, surface = empty_box;
     for (std::size_t i = 0; i < tile.tet_count; ++i) {
@@ -132,44 +129,8 @@ void Queries::make_boxes(BoxedLeaf& leaf) noexcept {
             // A corner belongs to the three facets that are not opposite to it.
             if (facets[i] & ~(1u << c)) vox::add(surface, around[corner[c]]);
     }
-    leaf.box = box3f(all);
-    leaf.surface_box = box3f(surface);
-}
-
-void Queries::sort_leaves() noexcept {
-    Box3f all = empty_box3f();
-    for (const BoxedLeaf& leaf : unsorted_) extend(all, leaf.box);
-    const auto part = [](float lo, float hi, float min, float max) { // 21 bits of the place along one axis
-        const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
-        const double place = (centre - double{min}) / side; // NaN where a side is 0 or infinite
-        return place >= 0 && place <= 1 ? static_cast<std::uint64_t>(place * 0x1fffff) : 0u;
-    };
-    places_.clear();
-    for (const BoxedLeaf& leaf : unsorted_) {
-        const Box3f& b = leaf.box;
-        const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
-                                               part(b.min.y, b.max.y, all.min.y, all.max.y),
-                                               part(b.min.z, b.max.z, all.min.z, all.max.z));
-        // The upper bits are of the place, the lower ones the index, so no two are equal.
-        places_.push_back((code >> 31) << 32 | places_.size());
-    }
-    std::sort(places_.begin(), places_.end());
-}
-
-void Queries::build_trees() noexcept {
-    // Where there are no leaves at all, the root is one of nothing.
-    tree_[1] = surface_tree_[1] = empty_box3f();
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        const BoxedLeaf& leaf = unsorted_[places_[i] & 0xffffffffu];
-        leaves_[i] = leaf.leaf;
-        tree_[first_leaf_node() + i] = leaf.box;
-        surface_tree_[first_leaf_node() + i] = leaf.surface_box;
-    }
-    for (std::pmr::vector<Box3f>* tree : {&tree_, &surface_tree_})
-        for (std::size_t node = first_leaf_node() - 1; node > 0; --node) {
-            (*tree)[node] = (*tree)[2 * node];
-            extend((*tree)[node], (*tree)[2 * node + 1]);
-        }
+    leaf_boxes_[leaf] = box3f(all);
+    surface_boxes_[leaf] = box3f(surface);
 }
 
 } // namespace vox

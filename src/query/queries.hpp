@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
+#include "query/box_tree.hpp"
 #include "query/tets.hpp"
 
 #include <vox/vox.h>
@@ -75,10 +76,6 @@ private:
     struct Leaf {
         std::uint32_t mesh, tile; // in meshes_, in the tiles of its tets
     };
-    struct BoxedLeaf {
-        Leaf leaf;
-        Box3f box, surface_box; // of all tetrahedra; of the facets on the surface, empty where there are none
-    };
     class LeafTets;
     struct Points {
         std::span<const Vec3d> points;
@@ -94,14 +91,11 @@ private:
     struct ClosestFacet;
 
     void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
-    void make_boxes(BoxedLeaf& leaf) noexcept;
-    void sort_leaves() noexcept;
-    void build_trees() noexcept;
+    void make_boxes(std::uint32_t leaf) noexcept;
     bool wants(const Leaf& leaf, QueryMeshes which) const noexcept {
         const Mesh& mesh = meshes_[leaf.mesh];
         return (mesh.category & which.mask) != 0 && mesh.id != which.excluded;
     }
-    std::size_t first_leaf_node() const noexcept { return tree_.size() / 2; }
     LeafTets tets_of(const Leaf& leaf) const noexcept;
     std::pmr::vector<PointHit> find_points(std::span<const Vec3d> points, QueryMeshes which,
                                            std::pmr::memory_resource* memory) const;
@@ -122,14 +116,10 @@ private:
     // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
     // that they miss nothing that doubles decide.
     std::pmr::vector<Box3f> boxes_;
-    std::pmr::vector<Leaf> leaves_; // in the order of a space-filling curve
-    // For sorting leaves_: the leaves mesh after mesh, and the place of each on the curve with its index.
-    std::pmr::vector<BoxedLeaf> unsorted_;
-    std::pmr::vector<std::uint64_t> places_;
-    // A binary tree, with the root 1, the children 2 i and 2 i + 1 of i, and the leaves in its second half.
-    std::pmr::vector<Box3f> tree_;
-    // The same over facets on the surface only, with empty boxes where there are none.
-    std::pmr::vector<Box3f> surface_tree_;
+    std::pmr::vector<Leaf> leaves_; // mesh after mesh
+    BoxTree tree_;                  // over leaves_
+    BoxTree surface_tree_;          // over the facets on the surface of those that have some
+    std::pmr::vector<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
     bool prepared_ = false;
 };
 

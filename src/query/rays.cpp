@@ -141,7 +141,7 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes whi
     double most = 1;
     std::pair<std::uint32_t, std::uint32_t> best; // mesh, tet
     bool any = false;
-    visit_nearest_first(tree_, most, bound, [&](std::size_t leaf) {
+    tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
         if (!wants(leaves_[leaf], which)) return;
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size(); ++i) {
@@ -167,7 +167,7 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes w
     FacetKey best;
     bool any = false;
     visit_facets(which, most, bound,
-                 [&](std::size_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
+                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
                      const OrderedFacet f(tets, tet, facet);
                      const Crossing crossing = find_crossing(from, to, tets, f);
                      const FacetKey key(leaves_[leaf].mesh, tets.index(tet), facet);
@@ -191,7 +191,7 @@ void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
                        std::pmr::vector<vox_facet_hit>& hits) const {
     const double most = 1;
     visit_facets(which, most, EntryBound(from, to),
-                 [&](std::size_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
+                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
                      const OrderedFacet f(tets, tet, facet);
                      const Crossing crossing = find_crossing(from, to, tets, f);
                      if (!(crossing.t <= 1)) return;
@@ -211,7 +211,7 @@ void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
 bool Queries::ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
     const EntryBound bound(from, to);
     double most = 1;
-    visit_nearest_first(tree_, most, bound, [&](std::size_t leaf) {
+    tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
         if (!wants(leaves_[leaf], which)) return;
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size() && most > 0; ++i)

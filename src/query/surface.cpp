@@ -27,9 +27,10 @@ struct Queries::ClosestFacet {
     bool any = false;
     FacetKey key{};
     SeenPoint seen{};
-    std::size_t leaf = 0, place = 0; // where its tetrahedron is, as in PointHit
+    std::uint32_t leaf = 0;
+    std::size_t place = 0; // where its tetrahedron is, as in PointHit
 
-    void try_facet(const Vec3d& p, std::uint32_t mesh, std::size_t of_leaf, const LeafTets& tets,
+    void try_facet(const Vec3d& p, std::uint32_t mesh, std::uint32_t of_leaf, const LeafTets& tets,
                    std::size_t tet, std::uint32_t facet) noexcept {
         const std::uint8_t* c = facet_corners[facet];
         const SeenPoint found =
@@ -55,7 +56,7 @@ struct Queries::ClosestFacet {
 void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept {
     const auto bound = [&p](const Box3f& box) noexcept { return squared_distance_bound(p, box); };
     visit_facets(which, closest.squared, bound,
-                 [&](std::size_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
+                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
                      closest.try_facet(p, leaves_[leaf].mesh, leaf, tets, tet, facet);
                  });
 }
