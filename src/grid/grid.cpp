@@ -61,7 +61,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), depth_(&memory_), hits_(&memory_), contacts_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
-      query_views_(share_) {}
+      query_views_(share_), query_bodies_(&memory_) {}
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
@@ -105,6 +105,7 @@ void vox_grid::clear() {
     readings_.invalidate();
     queries_.invalidate();
     query_views_.clear();
+    query_bodies_.clear();
     ++epoch_;
 }
 
@@ -426,9 +427,8 @@ void vox_grid::prepare_readings() {
 
 // ---- queries ---------------------------------------------------------------------------------------
 
-std::pmr::vector<QueryBody> vox_grid::list_query_bodies() {
-    std::pmr::vector<QueryBody> bodies(&memory_);
-    bodies.reserve(meshes_.slot_count());
+void vox_grid::list_query_bodies() {
+    query_bodies_.clear();
     meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
@@ -442,15 +442,21 @@ std::pmr::vector<QueryBody> vox_grid::list_query_bodies() {
             mesh.make_tiles(); // the reference engine needs none
             slot.query_tets = make_query_tets(mesh.tiled().tiles, mesh.topology(), &memory_);
         }
-        bodies.push_back({body, slot.query_tets, mesh.user_data()});
+        query_bodies_.push_back({body, slot.query_tets, mesh.user_data()});
     });
-    return bodies;
 }
 
-void vox_grid::prepare_queries() { queries_.prepare(list_query_bodies(), workers_); }
+void vox_grid::prepare_queries() {
+    list_query_bodies();
+    queries_.prepare(query_bodies_, workers_);
+    query_bodies_.clear();
+}
 
 vox_query_view* vox_grid::take_query_view() {
-    return query_views_.take(list_query_bodies(), workers_, epoch_);
+    list_query_bodies();
+    vox_query_view* view = query_views_.take(query_bodies_, workers_, epoch_);
+    query_bodies_.clear();
+    return view;
 }
 
 // ---- results --------------------------------------------------------------------------------------

@@ -102,7 +102,7 @@ private:
     void choose_cell_size();
     double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
-    std::pmr::vector<vox::QueryBody> list_query_bodies();
+    void list_query_bodies();
 
     vox::MemoryShare share_; // first, as all else is released to it
     vox::GridMemory& memory_;
@@ -141,6 +141,7 @@ private:
     vox::Readings readings_;
     vox::Queries queries_;
     vox::QueryViews query_views_;
+    std::pmr::vector<vox::QueryBody> query_bodies_; // in one call
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;
