@@ -4,6 +4,7 @@
 
 #include "base/boxes.hpp"
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "query/rounding.hpp"
 
 #include <algorithm>
@@ -12,11 +13,6 @@
 namespace vox {
 
 namespace {
-
-template <class T>
-void reserve(std::pmr::vector<T>& vector, std::size_t count) {
-    if (count > vector.capacity()) vector.reserve(count + count / 8);
-}
 
 Box3f box3f(const Box& box) noexcept {
     return {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
@@ -54,12 +50,12 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
         leaves += body.tets->tiles.size();
     }
     // Reserve everything first, so that no memory can be missing after it.
-    reserve(meshes_, bodies.size());
-    reserve(vertices_, vertices);
-    reserve(boxes_, tets);
-    reserve(leaves_, leaves);
-    reserve(leaf_boxes_, leaves);
-    reserve(surface_boxes_, leaves);
+    reserve_growing(meshes_, bodies.size());
+    reserve_growing(vertices_, vertices);
+    reserve_growing(boxes_, tets);
+    reserve_growing(leaves_, leaves);
+    reserve_growing(leaf_boxes_, leaves);
+    reserve_growing(surface_boxes_, leaves);
     tree_.reserve(leaves);
     surface_tree_.reserve(leaves);
 
