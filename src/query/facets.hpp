@@ -5,8 +5,10 @@
 
 namespace vox {
 
-// Calls visit(leaf, tets, tet, facet) for each facet of a surface whose tetrahedron's bound is no more than
-// `most`, as BoxTree::visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place there.
+// Calls visit(leaf, tets, tet, facet, least) for each facet of a surface whose tetrahedron's bound is no more
+// than `most`, as BoxTree::visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place
+// there, and `least` is that bound. What is computed of the facet, rounded, must not be less than it: then
+// the answer does not depend on the tree, as no box around the tetrahedron has a greater bound.
 template <class Bound, class Visit>
 void Queries::visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const {
     surface_tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
@@ -14,9 +16,10 @@ void Queries::visit_facets(QueryMeshes which, const double& most, const Bound& b
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t tet = 0; tet < tets.size(); ++tet) {
             const unsigned facets = tets.facets(tet);
-            if (facets == 0 || !(bound(tets.box(tet)) <= most)) continue;
+            if (facets == 0) continue;
+            const double least = bound(tets.box(tet));
             for (std::uint32_t facet = 0; facet < 4; ++facet)
-                if (facets >> facet & 1) visit(leaf, tets, tet, facet);
+                if (facets >> facet & 1 && least <= most) visit(leaf, tets, tet, facet, least);
         }
     });
 }

@@ -62,27 +62,29 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const
     return crossing;
 }
 
-// A lower bound of the t at which a segment enters a box, infinite when the segment misses the box.
+// A lower bound of the t at which a segment enters a box, at most 1; infinite when the segment misses the
+// box.
 class EntryBound {
 public:
-    EntryBound(const Vec3d& from, const Vec3d& to) noexcept : from_{from.x, from.y, from.z} {
+    EntryBound(const Vec3d& from, const Vec3d& to) noexcept
+        : from_{from.x, from.y, from.z}, least_(min(from, to)), most_(max(from, to)) {
         const double way[3] = {to.x - from.x, to.y - from.y, to.z - from.z};
-        for (int axis = 0; axis < 3; ++axis) inverse_[axis] = way[axis] == 0 ? 0 : 1 / way[axis];
+        constexpr double small = 0x1p-1000; // the inverse of much less is infinite
+        for (int axis = 0; axis < 3; ++axis) inverse_[axis] = std::abs(way[axis]) < small ? 0 : 1 / way[axis];
     }
 
     double operator()(const Box3f& box) const noexcept {
         const float lo[3] = {box.min.x, box.min.y, box.min.z}, hi[3] = {box.max.x, box.max.y, box.max.z};
+        const bool is_apart = most_.x < double{lo[0]} || most_.y < double{lo[1]} || most_.z < double{lo[2]} ||
+                              least_.x > double{hi[0]} || least_.y > double{hi[1]} ||
+                              least_.z > double{hi[2]};
+        if (is_apart) return infinity;
         double enter = 0, leave = 1;
         for (int axis = 0; axis < 3; ++axis) {
-            if (lo[axis] > hi[axis]) return infinity;
-            if (inverse_[axis] == 0) { // the segment does not move along this axis
-                if (from_[axis] < double{lo[axis]} || from_[axis] > double{hi[axis]}) return infinity;
-                continue;
-            }
+            if (inverse_[axis] == 0) continue; // the segment hardly moves along this axis
             double t0 = (double{lo[axis]} - from_[axis]) * inverse_[axis];
             double t1 = (double{hi[axis]} - from_[axis]) * inverse_[axis];
             if (t0 > t1) std::swap(t0, t1);
-            // A NaN (0 times infinity) leaves both as they are.
             enter = std::max(enter, t0 - std::abs(t0) * slack);
             leave = std::min(leave, t1 + std::abs(t1) * slack);
         }
@@ -91,6 +93,7 @@ public:
 
 private:
     double from_[3], inverse_[3];
+    Vec3d least_, most_; // of the segment's box
 };
 
 // A segment and a facet of a tetrahedron.
@@ -145,8 +148,9 @@ void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes whi
         if (!wants(leaves_[leaf], which)) return;
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size(); ++i) {
-            if (!(bound(tets.box(i)) <= most)) continue;
-            const double t = find_entry(from, to, tets, i);
+            const double least = bound(tets.box(i));
+            if (!(least <= most)) continue;
+            const double t = std::max(find_entry(from, to, tets, i), least); // see visit_facets()
             const std::pair key(leaves_[leaf].mesh, tets.index(i));
             if (!(t < most || (t == most && (!any || key < best)))) continue;
             most = t;
@@ -166,19 +170,20 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes w
     double most = 1;
     FacetKey best;
     bool any = false;
-    visit_facets(which, most, bound,
-                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
-                     const OrderedFacet f(tets, tet, facet);
-                     const Crossing crossing = find_crossing(from, to, tets, f);
-                     const FacetKey key(leaves_[leaf].mesh, tets.index(tet), facet);
-                     if (!(crossing.t < most || (crossing.t == most && (!any || key < best)))) return;
-                     most = crossing.t;
-                     best = key;
-                     any = true;
-                     for (std::size_t n = 0; n < 3; ++n)
-                         hit.surface_barycentric[f.place[n]] = crossing.weight[n];
-                     hit.surface_side = side_of(crossing, tets, tet, facet, f);
-                 });
+    visit_facets(
+        which, most, bound,
+        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
+            const OrderedFacet f(tets, tet, facet);
+            const Crossing crossing = find_crossing(from, to, tets, f);
+            const double t = std::max(crossing.t, least);
+            const FacetKey key(leaves_[leaf].mesh, tets.index(tet), facet);
+            if (!(t < most || (t == most && (!any || key < best)))) return;
+            most = t;
+            best = key;
+            any = true;
+            for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
+            hit.surface_side = side_of(crossing, tets, tet, facet, f);
+        });
     if (!any) return;
     const auto [mesh, tet, facet] = best;
     hit.surface_mesh = meshes_[mesh].id;
@@ -190,19 +195,20 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes w
 void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
                        std::pmr::vector<vox_facet_hit>& hits) const {
     const double most = 1;
-    visit_facets(which, most, EntryBound(from, to),
-                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
-                     const OrderedFacet f(tets, tet, facet);
-                     const Crossing crossing = find_crossing(from, to, tets, f);
-                     if (!(crossing.t <= 1)) return;
-                     vox_facet_hit& hit = hits.emplace_back();
-                     hit.mesh = meshes_[leaves_[leaf].mesh].id;
-                     hit.tet = tets.index(tet);
-                     hit.facet = facet;
-                     hit.side = side_of(crossing, tets, tet, facet, f);
-                     hit.t = crossing.t;
-                     for (std::size_t n = 0; n < 3; ++n) hit.barycentric[f.place[n]] = crossing.weight[n];
-                 });
+    visit_facets(
+        which, most, EntryBound(from, to),
+        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
+            const OrderedFacet f(tets, tet, facet);
+            const Crossing crossing = find_crossing(from, to, tets, f);
+            if (!(crossing.t <= 1)) return;
+            vox_facet_hit& hit = hits.emplace_back();
+            hit.mesh = meshes_[leaves_[leaf].mesh].id;
+            hit.tet = tets.index(tet);
+            hit.facet = facet;
+            hit.side = side_of(crossing, tets, tet, facet, f);
+            hit.t = std::max(crossing.t, least);
+            for (std::size_t n = 0; n < 3; ++n) hit.barycentric[f.place[n]] = crossing.weight[n];
+        });
     std::sort(hits.begin(), hits.end(), [](const vox_facet_hit& x, const vox_facet_hit& y) {
         return std::tie(x.t, x.mesh, x.tet, x.facet) < std::tie(y.t, y.mesh, y.tet, y.facet);
     });

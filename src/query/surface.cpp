@@ -30,12 +30,13 @@ struct Queries::ClosestFacet {
     std::uint32_t leaf = 0;
     std::size_t place = 0; // where its tetrahedron is, as in PointHit
 
+    // `least` as in visit_facets().
     void try_facet(const Vec3d& p, std::uint32_t mesh, std::uint32_t of_leaf, const LeafTets& tets,
-                   std::size_t tet, std::uint32_t facet) noexcept {
+                   std::size_t tet, std::uint32_t facet, double least) noexcept {
         const std::uint8_t* c = facet_corners[facet];
         const SeenPoint found =
             closest_seen_from(p, tets.corner(tet, c[0]), tets.corner(tet, c[1]), tets.corner(tet, c[2]));
-        const double distance = found.at.squared_distance;
+        const double distance = std::max(found.at.squared_distance, least);
         const FacetKey its_key(mesh, tets.index(tet), facet);
         if (!(distance < squared || (distance == squared && (!any || its_key < key)))) return;
         *this = {distance, true, its_key, found, of_leaf, tet};
@@ -47,7 +48,7 @@ struct Queries::ClosestFacet {
         hit.mesh = mesh;
         hit.tet = std::get<1>(key);
         hit.facet = std::get<2>(key);
-        hit.distance = std::sqrt(seen.at.squared_distance);
+        hit.distance = std::sqrt(squared);
         std::copy_n(seen.at.weight, 3, hit.barycentric);
         write(hit.position, p + seen.way);
     }
@@ -55,10 +56,11 @@ struct Queries::ClosestFacet {
 
 void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept {
     const auto bound = [&p](const Box3f& box) noexcept { return squared_distance_bound(p, box); };
-    visit_facets(which, closest.squared, bound,
-                 [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet) {
-                     closest.try_facet(p, leaves_[leaf].mesh, leaf, tets, tet, facet);
-                 });
+    visit_facets(
+        which, closest.squared, bound,
+        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
+            closest.try_facet(p, leaves_[leaf].mesh, leaf, tets, tet, facet, least);
+        });
 }
 
 vox_surface_hit Queries::closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept {
@@ -78,9 +80,11 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
         const Vec3d& p = points[i];
         const ClosestFacet before = closest;
         closest = {.squared = most};
-        if (before.any) // the facet that is closest to the point before is a first bound
-            closest.try_facet(p, std::get<0>(before.key), before.leaf, tets_of(leaves_[before.leaf]),
-                              before.place, std::get<2>(before.key));
+        if (before.any) { // the facet that is closest to the point before is a first bound
+            const LeafTets tets = tets_of(leaves_[before.leaf]);
+            closest.try_facet(p, std::get<0>(before.key), before.leaf, tets, before.place,
+                              std::get<2>(before.key), squared_distance_bound(p, tets.box(before.place)));
+        }
         find_closest(p, which, closest);
         vox_closest_hit hit{};
         if (closest.any) {
