@@ -896,8 +896,8 @@ typedef struct vox_closest_hit {
 } vox_closest_hit;
 
 /* The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
- * Faster than single queries where points that follow each other are close together. Errors: also INVALID_ARGUMENT for
- * a negative or NaN max_distance, LIMIT for too many points. */
+ * Each search begins at the facet found for the point before, so points close together should follow each other.
+ * Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points. */
 VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox_closest_desc* desc,
                                                  vox_closest_hit* out_hits);
 
