@@ -98,7 +98,8 @@ VOX_API const char* vox_build_info(void);
 /* Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
  * two), or null; `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used.
  * They are called only from functions of the grid they were given to, one call at a time. During a step, the calling
- * thread may be one that runs its tasks. */
+ * thread may be one that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called
+ * from vox_query_view_release, so it must be usable until then. */
 typedef struct vox_allocator {
     void* (*allocate)(size_t size, size_t alignment, void* user);
     void (*release)(void* memory, size_t size, size_t alignment, void* user);
@@ -128,10 +129,10 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
 /* The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
  * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
  * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
- * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, and at most
- * once when readings are prepared. If not all items were run, or a worker index was out of range, the step or
- * vox_grid_prepare_readings fails with INVALID_ARGUMENT and leaves no contacts, or no readings. If both are null, the
- * built-in scheduler is used. */
+ * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once
+ * when readings are prepared, and at most twice by vox_grid_prepare_queries and vox_grid_take_query_view. If not all
+ * items were run, or a worker index was out of range, the function fails with INVALID_ARGUMENT and leaves no contacts,
+ * no readings, nothing prepared for queries, or no view. If both are null, the built-in scheduler is used. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);
@@ -234,7 +235,8 @@ static inline vox_grid_desc vox_default_grid_desc(void) {
  * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET. */
 VOX_API vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid);
 
-/* Destroys a grid and releases all its memory. Its views and mesh ids become invalid. Null does nothing. */
+/* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views, which
+ * live on with their memory until they are released. Null does nothing. */
 VOX_API void vox_grid_destroy(vox_grid* grid);
 
 /* Removes all meshes and contacts and keeps the settings. Old mesh ids become stale. */
@@ -863,17 +865,22 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_gri
 /* Queries see the meshes as they were at the last vox_grid_prepare_queries, e.g. after the step. Later moves, removals
  * and other changes do not show until it is called again, so an answer may name a mesh that was removed since;
  * vox_grid_clear discards what was prepared. Disabled meshes and meshes without tetrahedra take no part.
- * Preparing changes the grid. The queries only read it, so any number of threads may run them at once. Their temporary
- * memory is taken from the C++ runtime's heap. Answers do not depend on engine, cell size, workers or machine.
+ * Preparing changes the grid. The queries only read it, so any number of threads may run them at once, but not while
+ * the grid is changed; query views (below) allow that, too. Their temporary memory is from the C++ runtime's heap.
+ * Answers do not depend on engine, cell size, workers or machine.
  * `mask`: a mesh takes part if its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
+ * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_MESH, and any id that was not there when the
+ * queries were prepared, excludes none.
  * `capacity`: the first `capacity` hits, in the order stated, are written; *out_count is how many there are.
  * Errors of all: INVALID_STATE (not prepared), INVALID_ARGUMENT, NON_FINITE (a coordinate of the query is not finite;
  * boxes and radii may be infinite), LIMIT (a coordinate of 2^128 or more), OUT_OF_MEMORY. */
 
 /* Copies the present positions for the queries. Takes time and memory proportional to vertices and tetrahedra: about 24
- * bytes a vertex and 60 a tetrahedron, kept until the grid is destroyed. From now on a grid of the reference engine
- * also keeps tiles, as those of the fast engine do. Errors: INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT,
- * BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. */
+ * bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the tetrahedra alone,
+ * are made by the first call after a mesh was inserted or edited, and are shared with query views. From now on a grid
+ * of the reference engine also keeps tiles, as those of the fast engine do. Errors: INVALID_STATE (a mesh has no
+ * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT
+ * (see vox_task_system); after that nothing is prepared. */
 VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
 
 /* Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
@@ -928,6 +935,49 @@ typedef struct vox_surface_hit {
 VOX_API vox_result vox_grid_query_closest(const vox_grid* grid, const double point[3], double radius, uint64_t mask,
                                           vox_surface_hit* out_hit);
 
+/* Points for vox_grid_query_closest_points, and the surfaces to search. */
+typedef struct vox_closest_desc {
+    uint32_t struct_size;
+    vox_format format;
+    const void* points;   /* point_count of them, read during the call; may be null if there are none */
+    uint64_t byte_stride; /* from one point to the next; 0: tightly packed */
+    uint64_t point_count; /* at most 2^32 - 1 */
+    uint64_t mask;        /* default UINT64_MAX: all meshes */
+    double max_distance;  /* >= 0, in the caller's unit; default infinity */
+    vox_mesh excluded;    /* default VOX_NULL_MESH: none */
+    uint32_t reserved;    /* 0 */
+} vox_closest_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_closest_desc_init(vox_closest_desc* desc, uint32_t struct_size);
+
+static inline vox_closest_desc vox_default_closest_desc(void) {
+    vox_closest_desc desc;
+    (void)vox_closest_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
+typedef struct vox_closest_hit {
+    vox_mesh mesh; /* VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero */
+    uint32_t tet;
+    uint32_t facet;
+    uint32_t inside; /* how many of the meshes that take part have the point in a closed tetrahedron; exact */
+    double barycentric[3];
+    double position[3];
+    /* A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
+     * has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide. */
+    double normal[3];
+    double distance; /* from the point to `position`, in double; negative if `mesh` has the point in a closed
+                        tetrahedron, which is decided exactly */
+} vox_closest_hit;
+
+/* The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
+ * Each search begins at the facet found for the point before, so points close together should follow each other.
+ * Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points. */
+VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox_closest_desc* desc,
+                                                 vox_closest_hit* out_hits);
+
 typedef enum vox_side {
     VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
     VOX_SIDE_ENTERS = 1, /* the segment goes into the tetrahedron */
@@ -955,6 +1005,101 @@ typedef struct vox_ray_hit {
 /* Finds the first tetrahedron and the first facet in one call. from = to queries a single point. */
 VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
                                       vox_ray_hit* out_hit);
+
+/* A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit. */
+typedef struct vox_facet_hit {
+    vox_mesh mesh;
+    uint32_t tet;
+    uint32_t facet;
+    vox_side side;
+    double t;
+    double barycentric[3]; /* weights of the facet's corners, as in vox_surface_hit */
+} vox_facet_hit;
+
+/* All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet). Which ones is decided exactly
+ * by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a corner hits
+ * every facet there. */
+VOX_API vox_result vox_grid_query_ray_hits(const vox_grid* grid, const double from[3], const double to[3],
+                                           uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                           uint64_t* out_count);
+
+/* 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds, so it
+ * is faster than vox_grid_query_ray. */
+VOX_API vox_result vox_grid_query_ray_any(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
+                                          vox_mesh excluded, uint32_t* out_any);
+
+/* ---- query views ------------------------------------------------------------------------------ */
+
+/* The meshes of a grid at one moment, to be asked at any later time: e.g. by a thread of a thousand haptic frames a
+ * second while the grid steps sixty times. A view never changes. It holds a copy of all that it needs, in particular
+ * of the positions, so neither a step, an edit, the removal of a mesh, vox_grid_clear, vox_grid_destroy nor what the
+ * caller writes to borrowed positions changes its answers.
+ *   Threads   Any number of threads may ask, retain and release a view at any time, also while another thread changes
+ *             or destroys its grid. Taking a view changes the grid.
+ *   Lifetime  A view lives until it was released once for taking it and once for each vox_query_view_retain.
+ *   Memory    It is taken from the grid's allocator by vox_grid_take_query_view, within the byte budget: about 24 bytes
+ *             a vertex and 28 a tetrahedron, beside what all views of a grid share. It is not returned when a view is
+ *             released, as the next view uses it again. So a program that takes a view in every frame and releases
+ *             the old one allocates nothing in the steady state. vox_grid_clear returns the memory of released views,
+ *             vox_grid_destroy as well. If a view outlives its grid, its last vox_query_view_release returns its
+ *             memory, on the thread that calls.
+ * The queries have the arguments, answers and errors of those of a grid, as if that had been prepared when the view was
+ * taken. Errors of all: INVALID_ARGUMENT, NON_FINITE, LIMIT, OUT_OF_MEMORY. */
+
+/* What vox_grid_take_query_view takes. */
+typedef struct vox_query_view vox_query_view;
+
+/* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
+ * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
+ * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (see also vox_task_system). */
+VOX_API vox_result vox_grid_take_query_view(vox_grid* grid, vox_query_view** out_view);
+
+/* One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not released
+ * by all others meanwhile. */
+VOX_API vox_result vox_query_view_retain(vox_query_view* view);
+
+/* Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing. */
+VOX_API void vox_query_view_release(vox_query_view* view);
+
+/* vox_grid_epoch when the view was taken: which step it shows. */
+VOX_API vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch);
+
+/* The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view. */
+VOX_API vox_result vox_query_view_user_data(const vox_query_view* view, vox_mesh mesh, uint64_t* out_user_data);
+
+/* As vox_grid_query_point. */
+VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double point[3], uint64_t mask,
+                                        vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* As vox_grid_query_points. */
+VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points, vox_format format,
+                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask,
+                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* As vox_grid_query_box. */
+VOX_API vox_result vox_query_view_box(const vox_query_view* view, const double min[3], const double max[3],
+                                      uint64_t mask, vox_tet_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* As vox_grid_query_closest. */
+VOX_API vox_result vox_query_view_closest(const vox_query_view* view, const double point[3], double radius,
+                                          uint64_t mask, vox_surface_hit* out_hit);
+
+/* As vox_grid_query_closest_points. */
+VOX_API vox_result vox_query_view_closest_points(const vox_query_view* view, const vox_closest_desc* desc,
+                                                 vox_closest_hit* out_hits);
+
+/* As vox_grid_query_ray. */
+VOX_API vox_result vox_query_view_ray(const vox_query_view* view, const double from[3], const double to[3],
+                                      uint64_t mask, vox_ray_hit* out_hit);
+
+/* As vox_grid_query_ray_hits. */
+VOX_API vox_result vox_query_view_ray_hits(const vox_query_view* view, const double from[3], const double to[3],
+                                           uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                           uint64_t* out_count);
+
+/* As vox_grid_query_ray_any. */
+VOX_API vox_result vox_query_view_ray_any(const vox_query_view* view, const double from[3], const double to[3],
+                                          uint64_t mask, vox_mesh excluded, uint32_t* out_any);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 

@@ -8,7 +8,7 @@
 #include "mesh/check.hpp"
 
 #include <cmath>
-#include <new>
+#include <memory_resource>
 
 using namespace vox;
 
@@ -85,26 +85,22 @@ vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid) {
         require(out_grid, "out_grid");
         const vox_grid_desc settings = desc ? read_struct(desc, grid_defaults(), "desc") : grid_defaults();
         check_grid_desc(settings);
-        if (settings.byte_budget != 0 && settings.byte_budget < sizeof(vox_grid))
+        constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_grid);
+        if (settings.byte_budget != 0 && settings.byte_budget < least)
             throw Error(VOX_ERROR_BUDGET,
-                        format("an empty grid needs %zu bytes, its byte budget is %llu", sizeof(vox_grid),
+                        format("an empty grid needs %zu bytes, its byte budget is %llu", least,
                                static_cast<unsigned long long>(settings.byte_budget)));
-        void* memory = allocate(settings.allocator, sizeof(vox_grid), alignof(vox_grid));
-        if (!memory) throw std::bad_alloc();
-        try {
-            *out_grid = new (memory) vox_grid(settings, sizeof(vox_grid));
-        } catch (...) {
-            release(settings.allocator, memory, sizeof(vox_grid), alignof(vox_grid));
-            throw;
-        }
+        const MemoryShare memory(settings.allocator, settings.byte_budget);
+        std::pmr::polymorphic_allocator<> allocator(&*memory);
+        *out_grid = allocator.new_object<vox_grid>(settings, memory);
     });
 }
 
 void vox_grid_destroy(vox_grid* grid) {
     if (!grid) return;
-    const vox_allocator allocator = grid->allocator();
-    grid->~vox_grid();
-    release(allocator, grid, sizeof(vox_grid), alignof(vox_grid));
+    const MemoryShare memory = grid->memory();
+    std::pmr::polymorphic_allocator<> allocator(&*memory);
+    allocator.delete_object(grid);
 }
 
 vox_result vox_grid_clear(vox_grid* grid) {

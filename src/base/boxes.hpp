@@ -72,25 +72,10 @@ inline Box3f empty_box3f() noexcept {
             {-float_infinity, -float_infinity, -float_infinity}};
 }
 
-// The largest float that is not above x. round_up() is the smallest that is not below.
-inline float round_down(double x) noexcept {
-    constexpr float most = std::numeric_limits<float>::max();
-    if (x >= double{most}) return most;
-    if (x < -double{most}) return -std::numeric_limits<float>::infinity();
-    const auto f = static_cast<float>(x);
-    return double{f} <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-inline float round_up(double x) noexcept { return -round_down(-x); }
-
 template <class AnyBox>
 void extend(AnyBox& box, const AnyBox& by) noexcept {
     box.min = {std::min(box.min.x, by.min.x), std::min(box.min.y, by.min.y), std::min(box.min.z, by.min.z)};
     box.max = {std::max(box.max.x, by.max.x), std::max(box.max.y, by.max.y), std::max(box.max.z, by.max.z)};
-}
-
-inline void extend(Box3f& box, const Vec3d& p) noexcept {
-    extend(box, {{round_down(p.x), round_down(p.y), round_down(p.z)},
-                 {round_up(p.x), round_up(p.y), round_up(p.z)}});
 }
 
 inline bool overlap(const Box3f& a, const Box3f& b) noexcept {

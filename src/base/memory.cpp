@@ -19,6 +19,27 @@ void release(const vox_allocator& allocator, void* memory, std::size_t size, std
         ::operator delete(memory, std::align_val_t(alignment));
 }
 
+namespace {
+
+void* allocated(const vox_allocator& allocator, std::size_t size, std::size_t alignment) {
+    void* memory = vox::allocate(allocator, size, alignment);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+} // namespace
+
+MemoryShare::MemoryShare(const vox_allocator& allocator, std::uint64_t byte_budget)
+    : memory_(*new (allocated(allocator, sizeof(GridMemory), alignof(GridMemory)))
+                  GridMemory(allocator, byte_budget)) {}
+
+MemoryShare::~MemoryShare() {
+    if (memory_.shares_.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
+    const vox_allocator allocator = memory_.allocator_;
+    memory_.~GridMemory();
+    release(allocator, &memory_, sizeof(GridMemory), alignof(GridMemory));
+}
+
 void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
     const std::lock_guard lock(mutex_);
     if (budget_ != 0 && (size > budget_ || bytes_ > budget_ - size))
@@ -26,8 +47,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
                     format("the grid holds %llu bytes and needs %llu more; its byte budget is %llu",
                            static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),
                            static_cast<unsigned long long>(budget_)));
-    void* memory = vox::allocate(allocator_, size, alignment);
-    if (!memory) throw std::bad_alloc();
+    void* memory = allocated(allocator_, size, alignment);
     bytes_ += size;
     peak_bytes_ = std::max(peak_bytes_, bytes_);
     return memory;

@@ -4,6 +4,7 @@
 
 #include <vox/vox.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory_resource>
 #include <mutex>
@@ -13,15 +14,15 @@ namespace vox {
 // Many threads may use it at once; it calls the caller's functions from one at a time.
 class GridMemory final : public std::pmr::memory_resource {
 public:
-    // `held` is the number of bytes already taken from the allocator for the grid itself.
-    GridMemory(const vox_allocator& allocator, std::uint64_t byte_budget, std::uint64_t held) noexcept
-        : allocator_(allocator), budget_(byte_budget), bytes_(held), peak_bytes_(held) {}
-
     std::uint64_t budget() const noexcept { return budget_; } // 0 for none
     std::uint64_t bytes() const noexcept { return bytes_; }
     std::uint64_t peak_bytes() const noexcept { return peak_bytes_; }
 
 private:
+    friend class MemoryShare;
+    GridMemory(const vox_allocator& allocator, std::uint64_t byte_budget) noexcept
+        : allocator_(allocator), budget_(byte_budget), bytes_(sizeof *this), peak_bytes_(sizeof *this) {}
+
     // Throw Error(BUDGET) or std::bad_alloc.
     void* do_allocate(std::size_t size, std::size_t alignment) override;
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override;
@@ -32,6 +33,26 @@ private:
     std::uint64_t budget_; // 0 for none
     std::uint64_t bytes_;
     std::uint64_t peak_bytes_;
+    std::atomic<std::uint64_t> shares_ = 1;
+};
+
+// A share in the memory of a grid. The grid has one and each of its query views, which may outlive it; the
+// memory lives as long as there is a share. Many threads may copy and destroy shares at once.
+class MemoryShare {
+public:
+    // The first share. Takes the memory for the GridMemory itself from the allocator; throws std::bad_alloc.
+    MemoryShare(const vox_allocator& allocator, std::uint64_t byte_budget);
+    MemoryShare(const MemoryShare& other) noexcept : memory_(other.memory_) {
+        memory_.shares_.fetch_add(1, std::memory_order_relaxed);
+    }
+    MemoryShare& operator=(const MemoryShare&) = delete;
+    ~MemoryShare();
+
+    GridMemory& operator*() const noexcept { return memory_; }
+    GridMemory* operator->() const noexcept { return &memory_; }
+
+private:
+    GridMemory& memory_;
 };
 
 // One allocation from the caller's functions, or from the C++ heap when there are none. Null when there is no

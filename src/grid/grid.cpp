@@ -52,9 +52,9 @@ void check_flags(std::uint32_t flags) {
 
 using namespace vox;
 
-vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
-    : allocator_(desc.allocator), log_(desc.log), memory_(desc.allocator, desc.byte_budget, held),
-      tasks_(desc.tasks), workers_(desc.tasks, desc.worker_count),
+vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
+    : share_(memory), memory_(*memory), log_(desc.log), tasks_(desc.tasks),
+      workers_(desc.tasks, desc.worker_count),
       fast_(desc.engine == VOX_ENGINE_FAST ||
             (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
       settings_{.storage = desc.storage,
@@ -66,8 +66,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, std::uint64_t held)
       used_cell_size_(desc.cell_size), meshes_(&memory_), bodies_(&memory_), prepared_(&memory_),
       fast_engine_(&memory_), reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
       contacts_(&memory_), penetrations_(&memory_),
-      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_),
-      queries_(&memory_) {
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
+      query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
 }
 
@@ -114,6 +114,8 @@ void vox_grid::clear() {
     events_.hide_pairs();
     readings_.invalidate();
     queries_.invalidate();
+    query_views_.clear();
+    query_bodies_.clear();
     ++epoch_;
 }
 
@@ -165,6 +167,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     if (count == 0) return;
+    meshes_[id].query_tets = nullptr;
     mark_moved(id);
     trees_.topology_changed(id);
     adaptive_.scene_changed();
@@ -518,8 +521,8 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
 
 // ---- queries ---------------------------------------------------------------------------------------
 
-void vox_grid::prepare_queries() {
-    std::pmr::vector<QueryBody> bodies(&memory_);
+void vox_grid::list_query_bodies() {
+    query_bodies_.clear();
     meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
@@ -528,11 +531,26 @@ void vox_grid::prepare_queries() {
                         format("mesh %u has no positions: bind some before the queries", id));
         const Body body = mesh.body(id);
         check_finite(body);
-        mesh.make_topology();
-        mesh.make_tiles(); // the reference engine needs none
-        bodies.push_back({body, &mesh.tiled().tiles, &mesh.topology()});
+        if (!slot.query_tets) {
+            mesh.make_topology();
+            mesh.make_tiles(); // the reference engine needs none
+            slot.query_tets = make_query_tets(mesh.tiled().tiles, mesh.topology(), &memory_);
+        }
+        query_bodies_.push_back({body, slot.query_tets, mesh.user_data()});
     });
-    queries_.prepare(bodies);
+}
+
+void vox_grid::prepare_queries() {
+    list_query_bodies();
+    queries_.prepare(query_bodies_, workers_);
+    query_bodies_.clear();
+}
+
+vox_query_view* vox_grid::take_query_view() {
+    list_query_bodies();
+    vox_query_view* view = query_views_.take(query_bodies_, workers_, epoch_);
+    query_bodies_.clear();
+    return view;
 }
 
 // ---- results --------------------------------------------------------------------------------------

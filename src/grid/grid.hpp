@@ -12,6 +12,7 @@
 #include "grid/mesh_table.hpp"
 #include "grid/readings.hpp"
 #include "query/queries.hpp"
+#include "query/view.hpp"
 #include "reference/engine.hpp"
 
 #include <vox/vox.h>
@@ -35,8 +36,8 @@ void check_flags(std::uint32_t flags);
 // (for step, see vox_grid_step).
 struct vox_grid {
 public:
-    // `desc` is checked; `held` bytes were allocated for this object.
-    vox_grid(const vox_grid_desc& desc, std::uint64_t held);
+    // `desc` is checked. Everything is taken from `memory`.
+    vox_grid(const vox_grid_desc& desc, const vox::MemoryShare& memory);
     vox_grid(const vox_grid&) = delete;
     vox_grid& operator=(const vox_grid&) = delete;
 
@@ -83,6 +84,7 @@ public:
         queries_.require_prepared();
         return queries_;
     }
+    vox_query_view* take_query_view();
 
     vox_contact_view contacts() const noexcept;
     vox_penetration_view penetrations() const;
@@ -92,7 +94,7 @@ public:
     std::uint64_t hash() const noexcept;
     vox_counters counters() const noexcept;
     const vox_profile& profile() const noexcept { return profile_; }
-    const vox_allocator& allocator() const noexcept { return allocator_; }
+    const vox::MemoryShare& memory() const noexcept { return share_; }
 
 private:
     friend class vox::Snapshot;
@@ -115,10 +117,11 @@ private:
     void choose_cell_size();
     double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
+    void list_query_bodies();
 
-    vox_allocator allocator_;
+    vox::MemoryShare share_; // first, as all else is released to it
+    vox::GridMemory& memory_;
     vox_log log_;
-    vox::GridMemory memory_;
     vox_task_system tasks_;
     vox::Workers workers_;
 
@@ -153,6 +156,8 @@ private:
     vox::Events events_;
     vox::Readings readings_;
     vox::Queries queries_;
+    vox::QueryViews query_views_;
+    std::pmr::vector<vox::QueryBody> query_bodies_; // in one call
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;

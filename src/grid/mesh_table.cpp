@@ -53,6 +53,7 @@ void MeshTable::replace(vox_mesh id, Mesh&& mesh, fast::MeshState&& state) noexc
     mesh.take_over(std::move(slot.mesh));
     slot.mesh = std::move(mesh);
     slot.state = std::move(state);
+    slot.query_tets = nullptr;
 }
 
 void MeshTable::remove(vox_mesh id) {

@@ -4,11 +4,13 @@
 #include "fast/mesh_state.hpp"
 #include "mesh/ids.hpp"
 #include "mesh/mesh.hpp"
+#include "query/tets.hpp"
 
 #include <vox/vox.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
 #include <utility>
@@ -24,7 +26,8 @@ struct MeshSlot {
         : mesh(memory), state(memory), generation(last_generation) {}
 
     Mesh mesh;
-    fast::MeshState state;    // of the mesh, for the fast engine
+    fast::MeshState state;                       // of the mesh, for the fast engine
+    std::shared_ptr<const QueryTets> query_tets; // of the mesh as it is now; null until queries need it
     std::uint32_t generation; // of the mesh that lives here, or of the last one that did; 0: there was none
     bool live = false;
     static constexpr std::uint32_t none = ~0u;

@@ -1,47 +1,89 @@
-// The search of a tree of boxes, nearest first. The boxes are in single precision, rounded
-// outwards, so that they contain the doubles that they bound.
+// A tree of boxes, and its search nearest first. The boxes are in single precision, rounded outwards, so that
+// they contain the doubles that they bound.
 #pragma once
 
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory_resource>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace vox {
 
-// Calls visit(leaf) for each leaf whose bound(box) is at most `most`, which visit() may lower; the nearer
-// child comes first. bound() is infinite for an empty box. The tree is a complete binary one, with the root 1
-// and the children 2 i and 2 i + 1 of i.
-template <class Bound, class Visit>
-void visit_nearest_first(std::span<const Box3f> tree, const double& most, Bound&& bound,
-                         Visit&& visit) noexcept {
-    struct Entry {
-        std::size_t node;
-        double bound;
-    };
-    Entry stack[64]; // at most two a level
-    std::size_t size = 0;
-    const auto put = [&](const Entry& entry) {
-        if (entry.bound <= most && entry.bound < std::numeric_limits<double>::infinity())
-            stack[size++] = entry;
-    };
-    put({1, bound(tree[1])});
-    while (size > 0) {
-        const Entry entry = stack[--size];
-        if (!(entry.bound <= most)) continue; // `most` was lowered in between
-        if (entry.node >= tree.size() / 2) {
-            visit(entry.node - tree.size() / 2);
-            continue;
+// A binary tree with as many nodes as there must be: node 1 is the root, 2 i and 2 i + 1 are the children of
+// i, and the second half are the leaves. Each leaf is an item, by its index in what the tree was built from.
+class BoxTree {
+public:
+    explicit BoxTree(std::pmr::memory_resource* memory) noexcept
+        : boxes_(memory), items_(memory), centres_(memory) {}
+
+    // Makes room for that many items, so that build() cannot fail.
+    void reserve(std::size_t items);
+    // Empty boxes are left out. Splits by the median along the longest side of the box around the centres
+    // (J. L. Bentley, Multidimensional binary search trees used for associative searching, CACM 18, 1975).
+    void build(std::span<const Box3f> boxes) noexcept;
+
+    bool is_leaf(std::size_t node) const noexcept { return node >= items_.size(); }
+    const Box3f& box(std::size_t node) const noexcept { return boxes_[node]; }
+    std::uint32_t item(std::size_t leaf) const noexcept { return items_[leaf - items_.size()]; }
+
+    // Calls visit(item) for each leaf whose bound(box) is at most `most`, which visit() may lower; the nearer
+    // child comes first.
+    template <class Bound, class Visit>
+    void visit_nearest_first(const double& most, Bound&& bound, Visit&& visit) const {
+        struct Entry {
+            std::size_t node;
+            double bound;
+        };
+        Entry stack[64]; // at most two a level
+        std::size_t size = 0;
+        const auto put = [&](const Entry& entry) {
+            if (entry.bound <= most && entry.bound < std::numeric_limits<double>::infinity())
+                stack[size++] = entry;
+        };
+        if (items_.empty()) return;
+        put({1, bound(boxes_[1])});
+        while (size > 0) {
+            const Entry entry = stack[--size];
+            if (!(entry.bound <= most)) continue; // `most` was lowered in between
+            if (is_leaf(entry.node)) {
+                visit(item(entry.node));
+                continue;
+            }
+            Entry near{2 * entry.node, bound(boxes_[2 * entry.node])};
+            Entry far{near.node + 1, bound(boxes_[near.node + 1])};
+            if (far.bound < near.bound) std::swap(near, far);
+            put(far);
+            put(near);
         }
-        Entry near{2 * entry.node, bound(tree[2 * entry.node])};
-        Entry far{near.node + 1, bound(tree[near.node + 1])};
-        if (far.bound < near.bound) std::swap(near, far);
-        put(far);
-        put(near);
     }
-}
+
+    // Calls visit(item) for each leaf that accepts(box) holds for, as it does for all above it.
+    template <class Accepts, class Visit>
+    void visit_accepted(Accepts&& accepts, Visit&& visit, std::size_t node = 1) const {
+        if (items_.empty() || !accepts(boxes_[node])) return;
+        if (is_leaf(node)) return visit(item(node));
+        visit_accepted(accepts, visit, 2 * node);
+        visit_accepted(accepts, visit, 2 * node + 1);
+    }
+
+private:
+    struct Centre {
+        float at[3];
+        std::uint32_t item;
+    };
+
+    std::size_t leaves_below(std::size_t node) const noexcept;
+    void split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept;
+
+    std::pmr::vector<Box3f> boxes_;         // of nodes; the first is not used
+    std::pmr::vector<std::uint32_t> items_; // of leaves
+    std::pmr::vector<Centre> centres_;      // while it is built
+};
 
 } // namespace vox

@@ -2,8 +2,9 @@
 // so that each node is read once for all of them.
 #include "query/queries.hpp"
 
+#include "base/boxes.hpp"
 #include "exact/predicates.hpp"
-#include "query/box_tree.hpp"
+#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,28 +17,30 @@ namespace vox {
 namespace {
 
 Box3f box_of(const Vec3d& p) noexcept {
-    Box3f box = empty_box3f();
-    extend(box, p);
-    return box;
+    return {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)},
+            {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z)}};
 }
 
 } // namespace
 
-void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
-                     std::pmr::vector<vox_point_hit>& hits) const {
-    std::pmr::memory_resource* const memory = hits.get_allocator().resource();
-    std::pmr::vector<std::uint32_t> which(points.size(), memory);
-    std::iota(which.begin(), which.end(), 0u);
-    std::pmr::vector<PointHit> found(memory);
+std::pmr::vector<Queries::PointHit> Queries::find_points(std::span<const Vec3d> points, QueryMeshes which,
+                                                         std::pmr::memory_resource* memory) const {
+    std::pmr::vector<std::uint32_t> indices(points.size(), memory);
+    std::iota(indices.begin(), indices.end(), 0u);
     std::pmr::vector<Box3f> boxes(memory);
     boxes.reserve(points.size());
     for (const Vec3d& p : points) boxes.push_back(box_of(p));
-    find(1, which, {points, boxes, mask}, found);
-
-    std::sort(found.begin(), found.end(), [this](const PointHit& x, const PointHit& y) {
-        return std::tuple(x.point, x.mesh, tetrahedra_[x.tetrahedron].index) <
-               std::tuple(y.point, y.mesh, tetrahedra_[y.tetrahedron].index);
+    std::pmr::vector<PointHit> found(memory);
+    if (!leaves_.empty()) find(1, indices, {points, boxes, which}, found);
+    std::sort(found.begin(), found.end(), [](const PointHit& x, const PointHit& y) {
+        return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
     });
+    return found;
+}
+
+void Queries::points(std::span<const Vec3d> points, QueryMeshes which,
+                     std::pmr::vector<vox_point_hit>& hits) const {
+    const std::pmr::vector<PointHit> found = find_points(points, which, hits.get_allocator().resource());
     for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
         bool any_interior = false;
         for (end = begin; end < found.size() && found[end].point == found[begin].point &&
@@ -48,10 +51,13 @@ void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
         // point on its boundary.
         for (std::size_t i = begin; i < (any_interior ? end : begin + 1); ++i) {
             if (any_interior && !found[i].interior) continue;
-            const Tetrahedron& t = tetrahedra_[found[i].tetrahedron];
+            const LeafTets tets = tets_of(leaves_[found[i].leaf]);
+            const std::size_t t = found[i].place;
             const std::array<float, 4> w =
-                barycentric(points[found[i].point], corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3));
-            hits.push_back({found[i].point, meshes_[found[i].mesh].id, t.index, {w[0], w[1], w[2], w[3]}});
+                barycentric(points[found[i].point], tets.corner(t, 0), tets.corner(t, 1), tets.corner(t, 2),
+                            tets.corner(t, 3));
+            hits.push_back(
+                {found[i].point, meshes_[found[i].mesh].id, found[i].tet, {w[0], w[1], w[2], w[3]}});
         }
     }
 }
@@ -59,47 +65,48 @@ void Queries::points(std::span<const Vec3d> points, std::uint64_t mask,
 // Searches below the node for the points in `which`, whose order changes.
 void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
                    std::pmr::vector<PointHit>& found) const {
-    const Box3f& box = tree_[node];
+    const Box3f& box = tree_.box(node);
     const auto end = std::partition(which.begin(), which.end(),
                                     [&](std::uint32_t i) { return overlap(box, asked.boxes[i]); });
     which = which.first(static_cast<std::size_t>(end - which.begin()));
     if (which.empty()) return;
-    if (node < first_leaf_node()) {
+    if (!tree_.is_leaf(node)) {
         find(2 * node, which, asked, found);
         find(2 * node + 1, which, asked, found);
         return;
     }
-    const Leaf& leaf = leaves_[node - first_leaf_node()];
-    if (!wants(leaf, asked.mask)) return;
+    const std::uint32_t leaf = tree_.item(node);
+    if (!wants(leaves_[leaf], asked.which)) return;
     for (const std::uint32_t i : which) find_in_leaf(leaf, i, asked, found);
 }
 
-void Queries::find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& asked,
+void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
                            std::pmr::vector<PointHit>& found) const {
     std::uint64_t exact_tests = 0;
     const Vec3d& p = asked.points[point];
     const Box3f& at = asked.boxes[point];
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-        if (!overlap(boxes_[i], at)) continue;
-        const Tetrahedron& t = tetrahedra_[i];
+    const LeafTets tets = tets_of(leaves_[leaf]);
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        if (!overlap(tets.box(i), at)) continue;
         // A tetrahedron of zero volume never holds the point, as its corner volumes have both signs, or none.
-        const Containment where =
-            locate_in_solid(p, corner(t, 0), corner(t, 1), corner(t, 2), corner(t, 3), exact_tests);
+        const Containment where = locate_in_solid(p, tets.corner(i, 0), tets.corner(i, 1), tets.corner(i, 2),
+                                                  tets.corner(i, 3), exact_tests);
         if (where == Containment::interior || where == Containment::boundary)
-            found.push_back({point, leaf.mesh, i, where == Containment::interior});
+            found.push_back({point, leaves_[leaf].mesh, tets.index(i), where == Containment::interior, leaf,
+                             static_cast<std::uint32_t>(i)});
     }
 }
 
-void Queries::box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
+void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
                   std::pmr::vector<vox_tet_hit>& hits) const {
     // A finite box, which meets no empty one; no vertex is beyond.
-    const auto low = [](double x) { return std::max(round_down(x), -std::numeric_limits<float>::max()); };
-    const auto high = [](double x) { return std::min(round_up(x), std::numeric_limits<float>::max()); };
+    const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
+    const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };
     const Box3f around{{low(min.x), low(min.y), low(min.z)}, {high(max.x), high(max.y), high(max.z)}};
-    const auto meets = [&](const Tetrahedron& t) { // in double
+    const auto meets = [&](const LeafTets& tets, std::size_t i) { // in double
         bool below[3] = {true, true, true}, above[3] = {true, true, true};
         for (std::size_t c = 0; c < 4; ++c) {
-            const Vec3d& p = corner(t, c);
+            const Vec3d& p = tets.corner(i, c);
             below[0] &= p.x < min.x;
             below[1] &= p.y < min.y;
             below[2] &= p.z < min.z;
@@ -109,20 +116,14 @@ void Queries::box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
         }
         return !(below[0] | below[1] | below[2] | above[0] | above[1] | above[2]);
     };
-    const auto descend = [&](const auto& self, std::size_t node) -> void {
-        if (!overlap(tree_[node], around)) return;
-        if (node < first_leaf_node()) {
-            self(self, 2 * node);
-            self(self, 2 * node + 1);
-            return;
-        }
-        const Leaf& leaf = leaves_[node - first_leaf_node()];
-        if (!wants(leaf, mask)) return;
-        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-            if (overlap(boxes_[i], around) && meets(tetrahedra_[i]))
-                hits.push_back({meshes_[leaf.mesh].id, tetrahedra_[i].index});
+    const auto visit = [&](std::uint32_t leaf) {
+        if (!wants(leaves_[leaf], which)) return;
+        const LeafTets tets = tets_of(leaves_[leaf]);
+        for (std::size_t i = 0; i < tets.size(); ++i)
+            if (overlap(tets.box(i), around) && meets(tets, i))
+                hits.push_back({meshes_[leaves_[leaf].mesh].id, tets.index(i)});
     };
-    descend(descend, 1);
+    tree_.visit_accepted([&](const Box3f& box) { return overlap(box, around); }, visit);
     std::sort(hits.begin(), hits.end(), [](const vox_tet_hit& x, const vox_tet_hit& y) {
         return std::tie(x.mesh, x.tet) < std::tie(y.mesh, y.tet);
     });

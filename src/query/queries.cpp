@@ -1,30 +1,28 @@
-// A bounding volume hierarchy over the tiles of all meshes. The tiles are sorted along a Morton curve
-// (morton_code) and halved by count; boxes are made from the leaves up. Sorting is quick, as there are few
-// tiles, and is done in every call, so that the order suits bodies that deform.
+// A bounding volume hierarchy over the tiles of all meshes. The trees are built in every call, so that they
+// suit bodies that deform; this is quick, as there are few tiles.
 #include "query/queries.hpp"
 
-#include "base/bits.hpp"
+#include "base/boxes.hpp"
 #include "base/error.hpp"
-#include "query/box_tree.hpp"
+#include "base/room.hpp"
+#include "query/rounding.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vox {
 
 namespace {
 
-template <class T>
-void reserve(std::pmr::vector<T>& vector, std::size_t count) {
-    if (count > vector.capacity()) vector.reserve(count + count / 8);
+Box3f box3f(const Box& box) noexcept {
+    return {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
 }
 
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
-    : meshes_(memory), vertices_(memory), tetrahedra_(memory), boxes_(memory), leaves_(memory),
-      places_(memory), unsorted_(memory), tree_(memory), surface_tree_(memory) {}
+    : meshes_(memory), vertices_(memory), boxes_(memory), leaves_(memory), tree_(memory),
+      surface_tree_(memory), leaf_boxes_(memory), surface_boxes_(memory) {}
 
 void Queries::require_prepared() const {
     if (!prepared_)
@@ -33,123 +31,102 @@ void Queries::require_prepared() const {
 
 void Queries::invalidate() noexcept {
     prepared_ = false;
-    meshes_.clear();
-    vertices_.clear();
-    tetrahedra_.clear();
-    boxes_.clear();
-    leaves_.clear();
-    tree_.clear();
-    surface_tree_.clear();
+    meshes_.clear(); // and with it what is shared
 }
 
-void Queries::prepare(std::span<const QueryBody> bodies) {
+std::uint64_t Queries::user_data(vox_mesh mesh) const {
+    const auto found = std::ranges::lower_bound(meshes_, mesh, {}, &Mesh::id);
+    if (found == meshes_.end() || found->id != mesh)
+        throw Error(VOX_ERROR_INVALID_HANDLE,
+                    format("mesh %u is none of the %zu meshes of the view", mesh, meshes_.size()));
+    return found->user_data;
+}
+
+void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     std::size_t vertices = 0, tets = 0, leaves = 0;
     for (const QueryBody& body : bodies) {
         vertices += body.body.vertex_count;
-        tets += body.body.tets.size();
-        leaves += body.tiles->tiles.size();
+        tets += body.tets->tets.size();
+        leaves += body.tets->tiles.size();
     }
-    const std::size_t nodes = 2 * std::bit_ceil(std::max<std::size_t>(leaves, 1));
-    // Reserve everything first, so that nothing after it can fail.
-    reserve(meshes_, bodies.size());
-    reserve(vertices_, vertices);
-    reserve(tetrahedra_, tets);
-    reserve(boxes_, tets);
-    reserve(leaves_, leaves);
-    reserve(places_, leaves);
-    reserve(unsorted_, leaves);
-    reserve(tree_, nodes);
-    reserve(surface_tree_, nodes);
+    // Reserve everything first, so that no memory can be missing after it.
+    reserve_growing(meshes_, bodies.size());
+    reserve_growing(vertices_, vertices);
+    reserve_growing(boxes_, tets);
+    reserve_growing(leaves_, leaves);
+    reserve_growing(leaf_boxes_, leaves);
+    reserve_growing(surface_boxes_, leaves);
+    tree_.reserve(leaves);
+    surface_tree_.reserve(leaves);
 
     invalidate();
+    vertices_.resize(vertices);
+    boxes_.resize(tets);
+    leaves_.clear();
+    leaf_boxes_.resize(leaves);
+    surface_boxes_.resize(leaves);
+    vertices = tets = 0;
     for (const QueryBody& body : bodies) {
-        add(body, static_cast<std::uint32_t>(meshes_.size()));
-        meshes_.push_back({body.body.mesh_id, body.body.filter.category});
+        for (std::uint32_t tile = 0; tile < body.tets->tiles.size(); ++tile)
+            leaves_.push_back({static_cast<std::uint32_t>(meshes_.size()), tile});
+        meshes_.push_back(
+            {body.body.mesh_id, body.body.filter.category, body.user_data, body.tets, vertices, tets});
+        vertices += body.body.vertex_count;
+        tets += body.tets->tets.size();
     }
-    sort_leaves();
-    tree_.resize(nodes);
-    surface_tree_.resize(nodes);
-    build_trees();
+    constexpr std::size_t least_vertices = 16384, least_leaves = 128; // that are worth a task
+    workers.for_ranges(vertices, least_vertices, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        copy_positions(bodies, begin, end);
+    });
+    workers.for_ranges(leaves, least_leaves, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t l = begin; l < end; ++l) make_boxes(static_cast<std::uint32_t>(l));
+    });
+    tree_.build(leaf_boxes_);
+    surface_tree_.build(surface_boxes_);
     prepared_ = true;
 }
 
-void Queries::add(const QueryBody& from, std::uint32_t mesh) noexcept {
-    const Body& body = from.body;
-    const auto first_vertex = static_cast<std::uint32_t>(vertices_.size());
-    const bool rounded = body.positions.rounded(); // otherwise all are floats
-    for (std::uint32_t v = 0; v < body.vertex_count; ++v) vertices_.push_back(body.positions.exact(v));
-    for (const Tile& tile : from.tiles->tiles) {
-        if (tile.tet_count == 0) continue; // all its tetrahedra are off
-        Leaf leaf{mesh, static_cast<std::uint32_t>(tetrahedra_.size()), tile.tet_count, empty_box3f()};
-        for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-            const std::uint32_t index = from.tiles->tets[tile.first_tet + i];
-            Tetrahedron t{index, 0, {}};
-            Box3f box = empty_box3f();
-            for (std::size_t c = 0; c < 4; ++c) {
-                t.corner[c] = first_vertex + body.tets[index].v[c];
-                const Vec3d& p = vertices_[t.corner[c]];
-                if (rounded) {
-                    extend(box, p);
-                } else {
-                    const Vec3f at{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-                    extend(box, {at, at});
-                }
-                const std::uint32_t across = from.topology->across[index][c];
-                if (across != Topology::nothing && (across & Topology::surface_bit)) t.facets |= 1u << c;
-            }
-            tetrahedra_.push_back(t);
-            boxes_.push_back(box);
-            extend(leaf.box, box);
-        }
-        leaves_.push_back(leaf);
+// Those with indices [begin, end) in vertices_.
+void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept {
+    const auto after = std::ranges::upper_bound(meshes_, begin, {}, &Mesh::first_vertex);
+    for (auto m = static_cast<std::size_t>(after - meshes_.begin()) - 1; begin < end; ++m) {
+        const std::size_t first = meshes_[m].first_vertex;
+        const std::size_t stop = std::min<std::size_t>(end, first + bodies[m].body.vertex_count);
+        const Positions positions = bodies[m].body.positions;
+        for (; begin < stop; ++begin) vertices_[begin] = positions.exact(begin - first);
     }
 }
 
-void Queries::sort_leaves() noexcept {
-    Box3f all = empty_box3f();
-    for (const Leaf& leaf : leaves_) extend(all, leaf.box);
-    const auto part = [](float lo, float hi, float min, float max) { // 21 bits of the place along one axis
-        const double centre = 0.5 * (double{lo} + double{hi}), side = double{max} - double{min};
-        return side > 0 ? static_cast<std::uint64_t>((centre - double{min}) / side * 0x1fffff) : 0u;
-    };
-    unsorted_.clear();
-    places_.clear();
-    for (const Leaf& leaf : leaves_) {
-        const Box3f& b = leaf.box;
-        const std::uint64_t code = morton_code(part(b.min.x, b.max.x, all.min.x, all.max.x),
-                                               part(b.min.y, b.max.y, all.min.y, all.max.y),
-                                               part(b.min.z, b.max.z, all.min.z, all.max.z));
-        // The upper bits are of the place, the lower ones the index, so no two are equal.
-        places_.push_back((code >> 31) << 32 | unsorted_.size());
-        unsorted_.push_back(leaf);
-    }
-    std::sort(places_.begin(), places_.end());
-    for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i] = unsorted_[places_[i] & 0xffffffffu];
-}
+// A vertex is rounded once for all tetrahedra of the tile that share it: as rounding keeps the order of
+// numbers, the box of rounded corners is the rounded box.
+void Queries::make_boxes(std::uint32_t leaf) noexcept {
+    const Mesh& mesh = meshes_[leaves_[leaf].mesh];
+    const Tile& tile = mesh.tets->tiles[leaves_[leaf].tile];
+    const std::uint32_t* const vertices = mesh.tets->vertices.data() + tile.first_vertex;
+    const std::array<std::uint8_t, 4>* const corners = mesh.tets->corners.data() + tile.first_tet;
+    const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
+    Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
 
-Box3f Queries::surface_box(const Leaf& leaf) const noexcept {
-    Box3f box = empty_box3f();
-    for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-        const Tetrahedron& t = tetrahedra_[i];
+    Box around[tile_size]; // each vertex
+    for (std::size_t v = 0; v < tile.vertex_count; ++v) {
+        const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
+        around[v] = {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z), 0},
+                     {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z), 0}};
+    }
+    Box all = empty_box, surface = empty_box;
+    for (std::size_t i = 0; i < tile.tet_count; ++i) {
+        const std::array<std::uint8_t, 4> corner = corners[i];
+        Box box = around[corner[0]];
+        for (std::size_t c = 1; c < 4; ++c) vox::add(box, around[corner[c]]);
+        boxes[i] = box3f(box);
+        vox::add(all, box);
+        if (facets[i] == 0) continue;
         for (std::size_t c = 0; c < 4; ++c)
             // A corner belongs to the three facets that are not opposite to it.
-            if (t.facets & ~(1u << c)) extend(box, corner(t, c));
+            if (facets[i] & ~(1u << c)) vox::add(surface, around[corner[c]]);
     }
-    return box;
-}
-
-void Queries::build_trees() noexcept {
-    std::fill(tree_.begin(), tree_.end(), empty_box3f());
-    std::fill(surface_tree_.begin(), surface_tree_.end(), empty_box3f());
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        tree_[first_leaf_node() + i] = leaves_[i].box;
-        surface_tree_[first_leaf_node() + i] = surface_box(leaves_[i]);
-    }
-    for (std::pmr::vector<Box3f>* tree : {&tree_, &surface_tree_})
-        for (std::size_t node = first_leaf_node() - 1; node > 0; --node) {
-            (*tree)[node] = (*tree)[2 * node];
-            extend((*tree)[node], (*tree)[2 * node + 1]);
-        }
+    leaf_boxes_[leaf] = box3f(all);
+    surface_boxes_[leaf] = box3f(surface);
 }
 
 } // namespace vox

@@ -1,17 +1,21 @@
-// Queries between steps, on a copy of the enabled meshes at one moment and a tree of boxes over it. Once
-// prepared, it is only read, by any number of threads.
+// Queries on a copy of the enabled meshes at one moment and a tree of boxes over it. Once prepared, it is
+// only read, by any number of threads.
 #pragma once
 
+#include "base/parallel.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
-#include "mesh/topology.hpp"
+#include "query/box_tree.hpp"
+#include "query/tets.hpp"
 
 #include <vox/vox.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox {
@@ -19,95 +23,136 @@ namespace vox {
 // A mesh as prepare() takes it.
 struct QueryBody {
     Body body;
-    const Tiles* tiles;
-    const Topology* topology;
+    std::shared_ptr<const QueryTets> tets;
+    std::uint64_t user_data;
+};
+
+// Which meshes take part in a query.
+struct QueryMeshes {
+    std::uint64_t mask;
+    vox_mesh excluded = VOX_NULL_MESH;
 };
 
 class Queries {
 public:
     explicit Queries(std::pmr::memory_resource* memory);
 
-    // Copies the bodies, whose positions must be finite. Throws what the memory resource throws, and changes
-    // nothing then.
-    void prepare(std::span<const QueryBody> bodies);
+    // Copies the bodies, which are in the order of their ids and whose positions must be finite. Throws what
+    // the memory resource throws, and changes nothing then; also what a task system of the caller makes the
+    // workers throw, and nothing is prepared then. Enqueues at most two tasks.
+    void prepare(std::span<const QueryBody> bodies, Workers& workers);
     void invalidate() noexcept;
     // Throws Error(INVALID_STATE) when it is not prepared.
     void require_prepared() const;
+    // Throws Error(INVALID_HANDLE) for a mesh that took no part.
+    std::uint64_t user_data(vox_mesh mesh) const;
 
     // The hits of points[0], points[1], ... in canonical order, into an empty `hits`, whose memory resource
     // is used for everything.
-    void points(std::span<const Vec3d> points, std::uint64_t mask,
+    void points(std::span<const Vec3d> points, QueryMeshes which,
                 std::pmr::vector<vox_point_hit>& hits) const;
     // The tetrahedra sorted by mesh and tet, into an empty `hits`.
-    void box(const Vec3d& min, const Vec3d& max, std::uint64_t mask,
+    void box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
              std::pmr::vector<vox_tet_hit>& hits) const;
     // The mesh of a result is 0 when nothing was hit.
-    vox_surface_hit closest(const Vec3d& p, double radius, std::uint64_t mask) const noexcept;
-    vox_ray_hit ray(const Vec3d& from, const Vec3d& to, std::uint64_t mask) const noexcept;
+    vox_surface_hit closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept;
+    // One hit a point; `memory` is for temporary use.
+    void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
+                        std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
+    vox_ray_hit ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
+    // The facets sorted by (t, mesh, tet, facet), into an empty `hits`.
+    void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
+                  std::pmr::vector<vox_facet_hit>& hits) const;
+    bool ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:
     struct Mesh {
         vox_mesh id;
-        std::uint64_t category;
+        std::uint64_t category, user_data;
+        std::shared_ptr<const QueryTets> tets;
+        std::size_t first_vertex, first_tet; // in vertices_ and boxes_
     };
-    // A tile, that is, up to 64 tetrahedra that are close together.
+    // A tile of a mesh, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
-        std::uint32_t mesh;         // in meshes_
-        std::uint32_t first, count; // in tetrahedra_
-        Box3f box;
+        std::uint32_t mesh, tile; // in meshes_, in the tiles of its tets
     };
-    struct Tetrahedron {
-        std::uint32_t index;     // in its mesh
-        std::uint32_t facets;    // bit i is set when facet i (facet_corners) is on the surface
-        std::uint32_t corner[4]; // in vertices_
-    };
+    class LeafTets;
     struct Points {
         std::span<const Vec3d> points;
         std::span<const Box3f> boxes; // around each
-        std::uint64_t mask;
+        QueryMeshes which;
     };
     struct PointHit {
-        std::uint32_t point, mesh;
-        std::uint32_t tetrahedron; // in tetrahedra_
+        std::uint32_t point, mesh, tet; // the mesh in meshes_
         bool interior;
+        std::uint32_t leaf, place; // where the tetrahedron is, in leaves_ and in the tile
     };
+    using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
+    struct ClosestFacet;
 
-    void add(const QueryBody& body, std::uint32_t mesh) noexcept;
-    void sort_leaves() noexcept;
-    void build_trees() noexcept;
-    Box3f surface_box(const Leaf& leaf) const noexcept;
-    bool wants(const Leaf& leaf, std::uint64_t mask) const noexcept {
-        return (meshes_[leaf.mesh].category & mask) != 0;
+    void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
+    void make_boxes(std::uint32_t leaf) noexcept;
+    bool wants(const Leaf& leaf, QueryMeshes which) const noexcept {
+        const Mesh& mesh = meshes_[leaf.mesh];
+        return (mesh.category & which.mask) != 0 && mesh.id != which.excluded;
     }
-    std::size_t first_leaf_node() const noexcept { return tree_.size() / 2; }
+    LeafTets tets_of(const Leaf& leaf) const noexcept;
+    std::pmr::vector<PointHit> find_points(std::span<const Vec3d> points, QueryMeshes which,
+                                           std::pmr::memory_resource* memory) const;
     void find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
               std::pmr::vector<PointHit>& found) const;
-    void find_in_leaf(const Leaf& leaf, std::uint32_t point, const Points& asked,
+    void find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
                       std::pmr::vector<PointHit>& found) const;
-    const Vec3d& corner(const Tetrahedron& t, std::size_t i) const noexcept { return vertices_[t.corner[i]]; }
     template <class Bound, class Visit>
-    void visit_facets(std::uint64_t mask, const double& most, const Bound& bound,
-                      Visit&& visit) const noexcept;
-    void find_first_tet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,
+    void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
+    void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
+    void find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
                         vox_ray_hit& hit) const noexcept;
-    void find_first_facet(const Vec3d& from, const Vec3d& to, std::uint64_t mask,
+    void find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
                           vox_ray_hit& hit) const noexcept;
 
-    std::pmr::vector<Mesh> meshes_;
+    std::pmr::vector<Mesh> meshes_;    // ascending by id
     std::pmr::vector<Vec3d> vertices_; // mesh after mesh
-    std::pmr::vector<Tetrahedron> tetrahedra_;
-    // Of tetrahedra_. All boxes are rounded outwards, so that they miss nothing that doubles decide.
+    // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
+    // that they miss nothing that doubles decide.
     std::pmr::vector<Box3f> boxes_;
-    std::pmr::vector<Leaf> leaves_; // in the order of a space-filling curve
-    // For sorting leaves_, the place of each on the curve with its index, and a copy of the leaves.
-    std::pmr::vector<std::uint64_t> places_;
-    std::pmr::vector<Leaf> unsorted_;
-    // A complete binary tree, with the root 1, the children 2 i and 2 i + 1 of i, and the leaves in its
-    // second half.
-    std::pmr::vector<Box3f> tree_;
-    // The same over facets on the surface only, with empty boxes where there are none.
-    std::pmr::vector<Box3f> surface_tree_;
+    std::pmr::vector<Leaf> leaves_; // mesh after mesh
+    BoxTree tree_;                  // over leaves_
+    BoxTree surface_tree_;          // over the facets on the surface of those that have some
+    std::pmr::vector<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
     bool prepared_ = false;
 };
+
+// The tetrahedra of a leaf, 0 to size() - 1.
+class Queries::LeafTets {
+public:
+    LeafTets(const Mesh& mesh, const Tile& tile, const Vec3d* vertices, const Box3f* boxes) noexcept
+        : tets_(*mesh.tets), tile_(tile), positions_(vertices + mesh.first_vertex),
+          boxes_(boxes + mesh.first_tet + tile.first_tet) {}
+
+    std::size_t size() const noexcept { return tile_.tet_count; }
+    const Box3f& box(std::size_t i) const noexcept { return boxes_[i]; }
+    std::uint32_t index(std::size_t i) const noexcept {
+        return tets_.tets[tile_.first_tet + i];
+    } // in its mesh
+    // Bit f is set when facet f is on the surface.
+    unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
+    std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept { // in its mesh
+        return tets_.vertices[tile_.first_vertex + tets_.corners[tile_.first_tet + i][corner]];
+    }
+    const Vec3d& at(std::uint32_t vertex) const noexcept { return positions_[vertex]; }
+    const Vec3d& corner(std::size_t i, std::size_t corner) const noexcept { return at(vertex(i, corner)); }
+
+private:
+    const QueryTets& tets_;
+    const Tile& tile_;
+    const Vec3d* positions_;
+    const Box3f* boxes_;
+};
+
+inline Queries::LeafTets Queries::tets_of(const Leaf& leaf) const noexcept {
+    const Mesh& mesh = meshes_[leaf.mesh];
+    return {mesh, mesh.tets->tiles[leaf.tile], vertices_.data(), boxes_.data()};
+}
 
 } // namespace vox

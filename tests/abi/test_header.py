@@ -29,8 +29,8 @@ CONVENTIONS = {
 }
 
 # Functions with such a verb change what they are called for; no other does.
-CHANGES = re.compile(r"_(append|bind|clear|destroy|experiment_measure|insert|map|mark|prepare|remove|replace|reserve|set|step)"
-                     r"(_|$)")
+CHANGES = re.compile(r"_(append|bind|clear|destroy|experiment_measure|insert|map|mark|prepare|release|remove|replace|reserve|"
+                     r"retain|set|step|take)(_|$)")
 
 
 def base(type_text):

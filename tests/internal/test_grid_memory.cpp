@@ -28,7 +28,11 @@ START_TEST(nothing_from_the_default_resource) {
         vox_contact_view view{};
         ck_ok(vox_grid_contacts(grid, &view));
         ck_assert_uint_gt(view.count, 0);
+        vox_query_view* query_view = nullptr;
+        ck_ok(vox_grid_prepare_queries(grid));
+        ck_ok(vox_grid_take_query_view(grid, &query_view));
         vox_grid_destroy(grid);
+        vox_query_view_release(query_view);
     }
     std::pmr::set_default_resource(usual);
     free_body(&box);

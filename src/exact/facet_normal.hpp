@@ -1,0 +1,34 @@
+// Normals of single triangles, of any size and shape.
+#pragma once
+
+#include "base/vectors.hpp"
+#include "exact/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace vox {
+
+// `v` divided by its largest coordinate, so that products neither vanish nor overflow.
+inline Vec3d scaled(const Vec3d& v) noexcept {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return largest > 0 ? Vec3d{v.x / largest, v.y / largest, v.z / largest} : v;
+}
+
+// The unit normal of triangle abc out of the tetrahedron abcd. If that is flat, it points away from p, and if
+// p is in the plane of the triangle as well, to the side from which abc is counter-clockwise. If the triangle
+// has no area, it is along `way`, and (0, 0, 1) if that is zero.
+inline Vec3d facet_normal(Vec3d a, Vec3d b, Vec3d c, const Vec3d& d, const Vec3d& p, const Vec3d& way) {
+    std::uint64_t exact_tests = 0;
+    int side = orientation(a, b, c, d, exact_tests);
+    if (side == 0) side = orientation(a, b, c, p, exact_tests);
+    if (side > 0) std::swap(b, c);
+    Vec3d normal = normalised(cross(scaled(b - a), scaled(c - a)));
+    if (!(length(normal) > 0)) normal = normalised(scaled(way));
+    if (!(length(normal) > 0)) normal = {0, 0, 1};
+    return normal;
+}
+
+} // namespace vox

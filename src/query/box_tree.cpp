@@ -1,0 +1,84 @@
+#include "query/box_tree.hpp"
+
+#include "base/room.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+// Of one side of a box; a side without an end counts as if it were around zero.
+float centre(float lo, float hi) noexcept {
+    const float middle = 0.5f * lo + 0.5f * hi;
+    return std::isfinite(middle) ? middle : 0;
+}
+
+template <class Centre>
+int longest_side(std::span<const Centre> centres) noexcept {
+    float least[3], most[3];
+    for (int axis = 0; axis < 3; ++axis) least[axis] = most[axis] = centres[0].at[axis];
+    for (const Centre& centre : centres)
+        for (int axis = 0; axis < 3; ++axis) {
+            const float c = centre.at[axis];
+            least[axis] = c < least[axis] ? c : least[axis];
+            most[axis] = c > most[axis] ? c : most[axis];
+        }
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (most[axis] - least[axis] > most[longest] - least[longest]) longest = axis;
+    return longest;
+}
+
+} // namespace
+
+void BoxTree::reserve(std::size_t items) {
+    reserve_growing(boxes_, 2 * items);
+    reserve_growing(items_, items);
+    reserve_growing(centres_, items);
+}
+
+void BoxTree::build(std::span<const Box3f> boxes) noexcept {
+    centres_.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        const Box3f& box = boxes[i];
+        if (is_empty(box)) continue;
+        centres_.push_back(
+            {{centre(box.min.x, box.max.x), centre(box.min.y, box.max.y), centre(box.min.z, box.max.z)}, i});
+    }
+    items_.resize(centres_.size());
+    boxes_.resize(2 * centres_.size());
+    if (!centres_.empty()) split(1, centres_, boxes);
+}
+
+// Leaves are on two levels, since the nodes with numbers below twice their count are all there.
+std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
+    const std::size_t leaves = items_.size();
+    std::size_t first = node, last = node; // below `node`, on one level
+    while (2 * first < leaves) {
+        first = 2 * first;
+        last = 2 * last + 1;
+    }
+    const std::size_t inner = first < leaves ? std::min(last + 1, leaves) - first : 0;
+    return (last + 1 - first - inner) + 2 * inner;
+}
+
+void BoxTree::split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept {
+    if (is_leaf(node)) {
+        const std::uint32_t item = centres[0].item;
+        boxes_[node] = boxes[item];
+        items_[node - items_.size()] = item;
+        return;
+    }
+    const std::size_t left = leaves_below(2 * node);
+    const int axis = longest_side(std::span<const Centre>(centres));
+    std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(left), centres.end(),
+                     [axis](const Centre& x, const Centre& y) { return x.at[axis] < y.at[axis]; });
+    split(2 * node, centres.first(left), boxes);
+    split(2 * node + 1, centres.subspan(left), boxes);
+    boxes_[node] = boxes_[2 * node];
+    extend(boxes_[node], boxes_[2 * node + 1]);
+}
+
+} // namespace vox

@@ -1,0 +1,230 @@
+// Queries for what a segment meets, by branch and bound over the tree. Whether it meets a facet is decided
+// exactly, by the sides of the facet on which its ends are, and the sides of the segment on which the edges
+// of the facet are.
+#include "base/vectors.hpp"
+#include "exact/predicates.hpp"
+#include "query/facets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// What is computed of boxes is off by a few roundings, in proportion by less than this.
+constexpr double slack = 0x1p-48;
+
+double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) noexcept {
+    const Vec3d u = b - a, v = c - a, w = d - a;
+    return dot(cross(u, v), w);
+}
+
+// Where a segment meets a closed triangle. `t` runs from 0 at its beginning to 1 at its end, and is rounded.
+struct Crossing {
+    double t = infinity; // infinite when it does not
+    double weight[3] = {};
+    int from_side = 0, to_side = 0; // the ends' orientation() to the triangle
+};
+
+Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
+                       const Vec3d& c) noexcept {
+    std::uint64_t exact_tests = 0;
+    Crossing crossing;
+    crossing.from_side = orientation(a, b, c, from, exact_tests);
+    crossing.to_side = orientation(a, b, c, to, exact_tests);
+    if (crossing.from_side == crossing.to_side) return crossing; // both ends on one side, or in its plane
+    const Vec3d* const corner[3] = {&a, &b, &c};
+    bool positive = false, negative = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int side = orientation(from, to, *corner[(i + 1) % 3], *corner[(i + 2) % 3], exact_tests);
+        positive |= side > 0;
+        negative |= side < 0;
+    }
+    if (positive && negative) return crossing;
+    const double before = std::abs(volume(a, b, c, from)), after = std::abs(volume(a, b, c, to));
+    if (crossing.from_side == 0)
+        crossing.t = 0;
+    else if (crossing.to_side == 0)
+        crossing.t = 1;
+    else
+        crossing.t = before + after > 0 ? before / (before + after) : 0.5;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        crossing.weight[i] = std::abs(volume(from, to, *corner[(i + 1) % 3], *corner[(i + 2) % 3]));
+        sum += crossing.weight[i];
+    }
+    for (double& weight : crossing.weight) weight = sum > 0 ? weight / sum : 1.0 / 3;
+    return crossing;
+}
+
+// A lower bound of the t at which a segment enters a box, at most 1; infinite when the segment misses the
+// box.
+class EntryBound {
+public:
+    EntryBound(const Vec3d& from, const Vec3d& to) noexcept
+        : from_{from.x, from.y, from.z}, least_(min(from, to)), most_(max(from, to)) {
+        const double way[3] = {to.x - from.x, to.y - from.y, to.z - from.z};
+        constexpr double small = 0x1p-1000; // the inverse of much less is infinite
+        for (int axis = 0; axis < 3; ++axis) inverse_[axis] = std::abs(way[axis]) < small ? 0 : 1 / way[axis];
+    }
+
+    double operator()(const Box3f& box) const noexcept {
+        const float lo[3] = {box.min.x, box.min.y, box.min.z}, hi[3] = {box.max.x, box.max.y, box.max.z};
+        const bool is_apart = most_.x < double{lo[0]} || most_.y < double{lo[1]} || most_.z < double{lo[2]} ||
+                              least_.x > double{hi[0]} || least_.y > double{hi[1]} ||
+                              least_.z > double{hi[2]};
+        if (is_apart) return infinity;
+        double enter = 0, leave = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (inverse_[axis] == 0) continue; // the segment hardly moves along this axis
+            double t0 = (double{lo[axis]} - from_[axis]) * inverse_[axis];
+            double t1 = (double{hi[axis]} - from_[axis]) * inverse_[axis];
+            if (t0 > t1) std::swap(t0, t1);
+            enter = std::max(enter, t0 - std::abs(t0) * slack);
+            leave = std::min(leave, t1 + std::abs(t1) * slack);
+        }
+        return enter <= leave ? enter : infinity;
+    }
+
+private:
+    double from_[3], inverse_[3];
+    Vec3d least_, most_; // of the segment's box
+};
+
+// A segment and a facet of a tetrahedron.
+template <class Tets>
+Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Tets& tets, const OrderedFacet& f) noexcept {
+    return find_crossing(from, to, tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]));
+}
+
+// The t at which a segment first meets a closed tetrahedron; infinite when it does not, or when the
+// tetrahedron has no volume.
+template <class Tets>
+double find_entry(const Vec3d& from, const Vec3d& to, const Tets& tets, std::size_t tet) noexcept {
+    const Vec3d &a = tets.corner(tet, 0), &b = tets.corner(tet, 1), &c = tets.corner(tet, 2),
+                &d = tets.corner(tet, 3);
+    std::uint64_t exact_tests = 0;
+    const Containment where = locate_in_solid(from, a, b, c, d, exact_tests);
+    if (where == Containment::interior || where == Containment::boundary) return 0;
+    double t = infinity;
+    for (std::size_t facet = 0; facet < 4 && t > 0; ++facet)
+        t = std::min(t, find_crossing(from, to, tets, OrderedFacet(tets, tet, facet)).t);
+    return t < infinity && orientation(a, b, c, d, exact_tests) == 0 ? infinity : t;
+}
+
+// Whether a segment goes into the tetrahedron through its facet, or out of it.
+template <class Tets>
+vox_side side_of(const Crossing& crossing, const Tets& tets, std::size_t tet, std::uint32_t facet,
+                 const OrderedFacet& f) noexcept {
+    std::uint64_t exact_tests = 0;
+    const int inside = orientation(tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]),
+                                   tets.corner(tet, facet), exact_tests);
+    if (inside == 0) return VOX_SIDE_NONE;
+    const bool enters = crossing.to_side != 0 ? crossing.to_side == inside : crossing.from_side == -inside;
+    return enters ? VOX_SIDE_ENTERS : VOX_SIDE_LEAVES;
+}
+
+} // namespace
+
+vox_ray_hit Queries::ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
+    vox_ray_hit hit{};
+    find_first_tet(from, to, which, hit);
+    if (hit.mesh) find_first_facet(from, to, which, hit); // whatever meets a surface meets a tetrahedron
+    return hit;
+}
+
+void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
+                             vox_ray_hit& hit) const noexcept {
+    const EntryBound bound(from, to);
+    double most = 1;
+    std::pair<std::uint32_t, std::uint32_t> best; // mesh, tet
+    bool any = false;
+    tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
+        if (!wants(leaves_[leaf], which)) return;
+        const LeafTets tets = tets_of(leaves_[leaf]);
+        for (std::size_t i = 0; i < tets.size(); ++i) {
+            const double least = bound(tets.box(i));
+            if (!(least <= most)) continue;
+            const double t = std::max(find_entry(from, to, tets, i), least); // see visit_facets()
+            const std::pair key(leaves_[leaf].mesh, tets.index(i));
+            if (!(t < most || (t == most && (!any || key < best)))) continue;
+            most = t;
+            best = key;
+            any = true;
+        }
+    });
+    if (!any) return;
+    hit.mesh = meshes_[best.first].id;
+    hit.tet = best.second;
+    hit.t = most;
+}
+
+void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
+                               vox_ray_hit& hit) const noexcept {
+    const EntryBound bound(from, to);
+    double most = 1;
+    FacetKey best;
+    bool any = false;
+    visit_facets(
+        which, most, bound,
+        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
+            const OrderedFacet f(tets, tet, facet);
+            const Crossing crossing = find_crossing(from, to, tets, f);
+            const double t = std::max(crossing.t, least);
+            const FacetKey key(leaves_[leaf].mesh, tets.index(tet), facet);
+            if (!(t < most || (t == most && (!any || key < best)))) return;
+            most = t;
+            best = key;
+            any = true;
+            for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
+            hit.surface_side = side_of(crossing, tets, tet, facet, f);
+        });
+    if (!any) return;
+    const auto [mesh, tet, facet] = best;
+    hit.surface_mesh = meshes_[mesh].id;
+    hit.surface_tet = tet;
+    hit.surface_facet = facet;
+    hit.surface_t = most;
+}
+
+void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
+                       std::pmr::vector<vox_facet_hit>& hits) const {
+    const double most = 1;
+    visit_facets(
+        which, most, EntryBound(from, to),
+        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
+            const OrderedFacet f(tets, tet, facet);
+            const Crossing crossing = find_crossing(from, to, tets, f);
+            if (!(crossing.t <= 1)) return;
+            vox_facet_hit& hit = hits.emplace_back();
+            hit.mesh = meshes_[leaves_[leaf].mesh].id;
+            hit.tet = tets.index(tet);
+            hit.facet = facet;
+            hit.side = side_of(crossing, tets, tet, facet, f);
+            hit.t = std::max(crossing.t, least);
+            for (std::size_t n = 0; n < 3; ++n) hit.barycentric[f.place[n]] = crossing.weight[n];
+        });
+    std::sort(hits.begin(), hits.end(), [](const vox_facet_hit& x, const vox_facet_hit& y) {
+        return std::tie(x.t, x.mesh, x.tet, x.facet) < std::tie(y.t, y.mesh, y.tet, y.facet);
+    });
+}
+
+bool Queries::ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
+    const EntryBound bound(from, to);
+    double most = 1;
+    tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
+        if (!wants(leaves_[leaf], which)) return;
+        const LeafTets tets = tets_of(leaves_[leaf]);
+        for (std::size_t i = 0; i < tets.size() && most > 0; ++i)
+            if (bound(tets.box(i)) <= most && find_entry(from, to, tets, i) <= most)
+                most = -1; // no bound is that small: the search ends
+    });
+    return most < 0;
+}
+
+} // namespace vox
