@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox::depth {
@@ -15,38 +17,46 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
 
 class Normals {
 public:
-    explicit Normals(std::pmr::memory_resource* memory) : faces_(memory) {}
+    explicit Normals(std::pmr::memory_resource* memory) : places_(memory), faces_(memory) {}
 
-    // Makes room for surfaces of that many triangles.
-    void reserve(std::size_t triangles) {
-        if (triangles > faces_.size()) faces_.resize(triangles);
-    }
-
-    std::size_t capacity() const noexcept { return faces_.size(); }
-
-    // Call it before at(), for another solid or when positions have changed.
+    // Call it before the others, for another solid or when positions have changed. Throws what the memory
+    // throws, as prepare() does.
     void begin(const Solid& solid);
 
-    // The unit normal at a point of the surface, interpolated from normals at the corners, on the side of the
-    // triangle to which `outward` points. Zero where the triangle has no area.
-    Vec3d at(const SurfacePoint& point, const Vec3d& outward);
+    // Computes what at() needs of these triangles, unless that is known.
+    void prepare(std::span<const std::uint32_t> triangles);
+
+    // The unit normal at a point of a triangle that is prepared, interpolated from normals at the corners, on
+    // the side to which `outward` points. Zero where the triangle has no area.
+    Vec3d at(const SurfacePoint& point, const Vec3d& outward) const;
+
+    auto buffers() { return std::tie(places_, faces_); }
 
 private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
     struct Face {
-        std::uint32_t age = 0; // age_ when the rest was computed
-        bool has_corners = false;
-        bool is_flat = false;      // its tetrahedron is flat, so neither side is outside
-        Vec3d normal{};            // out of its tetrahedron; unit, or zero
-        double corner_weight[3]{}; // of `normal` in the normals of the corners
-        Vec3d corner[3]{};         // unit normals at the corners
+        std::uint32_t triangle;
+        std::uint32_t v[3]; // its corners
+        bool has_corner[3]; // whether corner[i] is known
+        bool is_flat;       // its tetrahedron is flat, so neither side is outside
+        Vec3d normal;       // out of its tetrahedron; unit, or zero
+        double weight[3];   // of `normal` in the normals of the corners
+        Vec3d corner[3];    // unit normals at the corners
+
+        int corner_at(std::uint32_t vertex) const noexcept { return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2; }
     };
 
-    Face& face(std::uint32_t triangle);
-    const Face& face_with_corners(std::uint32_t triangle);
+    void add(std::uint32_t triangle);
+    void compute_face(Face& face) const;
+    void compute_corner(Face& asking, int i);
+
+    const Face& face(std::uint32_t triangle) const { return faces_[places_[triangle]]; }
+    Face& face(std::uint32_t triangle) { return faces_[places_[triangle]]; }
 
     Solid solid_{};
-    std::uint32_t age_ = 0;
-    std::pmr::vector<Face> faces_;
+    std::pmr::vector<std::uint32_t> places_; // of each triangle, in faces_, or none
+    std::pmr::vector<Face> faces_;           // in the order in which they were needed
 };
 
 } // namespace vox::depth

@@ -29,6 +29,7 @@ struct Point {
 struct BodyPair {
     const Topology* topology_a;
     Positions positions_a;
+    std::uint32_t vertex_count_a;
     Solid b;
     bool self;
 };

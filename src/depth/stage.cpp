@@ -2,7 +2,6 @@
 
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
-#include "depth/consistent.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -116,14 +115,11 @@ void DepthStage::list_points(const Scene& scene, std::span<const vox_contact> co
 
 void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
-    const std::size_t count = range.last - range.first;
-    const std::size_t vertices = scene.bodies[hit.body_a].vertex_count;
-    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
-    if (worker.queue.size() < count) worker.queue.resize(count);
-    const BodyPair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions,
-                        scene.solid(hit.body_b), hit.body_a == hit.body_b};
-    find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,
-                           worker.normals, worker.counts);
+    const Body& a = scene.bodies[hit.body_a];
+    const BodyPair pair{scene.topologies[hit.body_a], a.positions, a.vertex_count, scene.solid(hit.body_b),
+                        hit.body_a == hit.body_b};
+    find_consistent_depths(pair, std::span(points_).subspan(range.first, range.last - range.first),
+                           worker.consistent, worker.counts);
 }
 
 void DepthStage::list_unresolved(const Scene& scene) {
@@ -162,9 +158,11 @@ void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& wo
         point.depth = 0;
         if (found) { // on the surface of a part of b that overlaps the part with the hit
             point.state = VOX_PENETRATION_COINCIDENT;
-            worker.normals.begin(solid);
+            Normals& normals = worker.consistent.normals;
+            normals.begin(solid);
+            normals.prepare({&closest.at.triangle, 1});
             const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
-            point.direction = worker.normals.at(closest.at, p - apex);
+            point.direction = normals.at(closest.at, p - apex);
         }
         if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);
     }

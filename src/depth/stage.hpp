@@ -5,7 +5,7 @@
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
-#include "depth/normals.hpp"
+#include "depth/consistent.hpp"
 #include "depth/points.hpp"
 #include "mesh/topology.hpp"
 
@@ -50,15 +50,13 @@ private:
         std::size_t point;
     };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory)
-            : number(memory), queue(memory), normals(memory), tree(memory) {}
+        explicit Worker(std::pmr::memory_resource* memory) : consistent(memory), tree(memory) {}
 
-        std::pmr::vector<std::uint32_t> number, queue;
-        depth::Normals normals;
+        depth::ConsistentScratch consistent;
         depth::SurfaceTree tree;
         depth::Counts counts;
 
-        auto buffers() { return std::tie(number, queue, normals, tree); }
+        auto buffers() { return std::tuple_cat(consistent.buffers(), std::tie(tree)); }
     };
     struct Scene {
         std::span<const Body> bodies;
