@@ -252,7 +252,7 @@ void Stages::finish_border_point() {
 // Each wave takes its means over all points of the waves before it.
 void Stages::propagate() {
     std::size_t first = 0;
-    for (std::uint32_t wave = 2; first < queued_; ++wave) {
+    for (std::uint32_t wave = 2; first < queued_ && queued_ < points_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
             const Point& from = points_[queue_[first]];
@@ -295,6 +295,7 @@ void Stages::take_mean(Point& point) const {
 // Points that no wave reached become CROSSING when they are connected to a CROSSING point, and stay ENCLOSED
 // otherwise.
 void Stages::mark_unreached() {
+    if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
     for (const Point& point : points_)
         if (point.wave == Point::unusable) push(point);

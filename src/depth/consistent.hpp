@@ -1,10 +1,10 @@
 // Consistent penetration depths of the colliding vertices of one body in another.
 #pragma once
 
+#include "base/bits.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
 
-#include <bit>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -36,7 +36,7 @@ public:
     std::uint32_t operator[](std::uint32_t vertex) const noexcept {
         const Word& word = words_[vertex / 64];
         if (!(word.bits & bit(vertex))) return none;
-        return word.first + static_cast<std::uint32_t>(std::popcount(word.bits & (bit(vertex) - 1)));
+        return word.first + bit_count(word.bits & (bit(vertex) - 1));
     }
 
 private:

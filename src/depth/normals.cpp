@@ -23,33 +23,42 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
 }
 
 void Normals::begin(const Solid& solid) {
-    for (const Face& face : faces_) places_[face.triangle] = none;
+    for (const Face& face : faces_) places_[face.triangle & ~flat_bit] = none;
     faces_.clear();
+    corners_.clear();
+    known_.clear();
     solid_ = solid;
     const std::size_t triangles = solid.topology->triangles.size();
     if (triangles > places_.size()) places_.resize(triangles, none);
 }
 
-void Normals::add(std::uint32_t triangle) {
-    if (places_[triangle] != none) return;
-    const Triangle& t = solid_.topology->triangles[triangle];
-    Face& face = faces_.emplace_back();
-    face.triangle = triangle;
-    std::copy_n(t.v, 3, face.v);
-    places_[triangle] = static_cast<std::uint32_t>(faces_.size() - 1);
+// The place of a triangle in faces_.
+std::uint32_t Normals::add(std::uint32_t triangle) {
+    std::uint32_t place = places_[triangle];
+    if (place != none) return place;
+    place = static_cast<std::uint32_t>(faces_.size());
+    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
+    faces_.push_back({{}, {}, {v[0], v[1], v[2]}, triangle});
+    places_[triangle] = place;
+    return place;
 }
 
 void Normals::prepare(std::span<const std::uint32_t> triangles) {
-    const std::size_t first = faces_.size();
-    for (const std::uint32_t triangle : triangles) add(triangle);
-    for (const std::uint32_t triangle : triangles)
-        for (int i = 0; i < 3; ++i)
-            if (!face(triangle).has_corner[i])
-                for (const std::uint32_t other : solid_.topology->ring_of(face(triangle).v[i])) add(other);
+    const std::size_t first = known_.size();
+    for (const std::uint32_t triangle : triangles) {
+        const std::uint32_t place = add(triangle);
+        if (place < first && known_[place] == all_corners) continue;
+        for (const std::uint32_t v : solid_.topology->triangles[triangle].v)
+            for (const std::uint32_t other : solid_.topology->ring_of(v)) add(other);
+    }
+    corners_.resize(faces_.size());
+    known_.resize(faces_.size(), 0);
     for (std::size_t i = first; i < faces_.size(); ++i) compute_face(faces_[i]);
-    for (const std::uint32_t triangle : triangles)
-        for (int i = 0; i < 3; ++i)
-            if (!face(triangle).has_corner[i]) compute_corner(face(triangle), i);
+    for (const std::uint32_t triangle : triangles) {
+        const std::uint32_t place = places_[triangle];
+        for (std::size_t i = 0; i < 3 && known_[place] != all_corners; ++i)
+            if (!(known_[place] >> i & 1)) compute_corner(place, i);
+    }
 }
 
 void Normals::compute_face(Face& face) const {
@@ -59,7 +68,7 @@ void Normals::compute_face(Face& face) const {
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
     const double inside = dot(doubled, apex - a);
-    face.is_flat = inside == 0;
+    if (inside == 0) face.triangle |= flat_bit;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
     const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
@@ -69,48 +78,43 @@ void Normals::compute_face(Face& face) const {
     face.weight[2] = weight(lbc, lca);
 }
 
-void Normals::compute_corner(Face& asking, int i) {
-    const std::uint32_t vertex = asking.v[i];
+void Normals::compute_corner(std::uint32_t asking, std::size_t i) {
+    constexpr double crease = 0.5; // the cosine of 60 degrees
+    const Face& ask = faces_[asking];
+    const std::uint32_t vertex = ask.v[i];
     const std::span<const std::uint32_t> ring = solid_.topology->ring_of(vertex);
     Vec3d sum{0, 0, 0};
+    bool all = true; // take part, as they are
     for (const std::uint32_t other : ring) {
-        const Face& f = face(other);
-        sum = sum + f.weight[f.corner_at(vertex)] * f.normal;
+        const Face& f = faces_[places_[other]];
+        const double cosine = dot(f.normal, ask.normal);
+        const bool turn = cosine < 0 && (f.is_flat() || ask.is_flat());
+        const bool close = (turn ? -cosine : cosine) >= crease;
+        const double weight = f.weight[f.corner_at(vertex)];
+        sum = sum + (!close ? 0.0 : turn ? -weight : weight) * f.normal;
+        all &= close && !turn && !f.is_flat();
     }
     const Vec3d mean = normalised(sum);
-    constexpr double close = 0.875; // the cosine of 29 degrees
-    const bool is_smooth = std::all_of(ring.begin(), ring.end(), [&](std::uint32_t other) {
-        const Face& f = face(other);
-        return !f.is_flat && dot(f.normal, mean) > close;
-    });
-    if (is_smooth) {
-        for (const std::uint32_t other : ring) {
-            Face& f = face(other);
-            const int at = f.corner_at(vertex);
-            f.corner[at] = mean;
-            f.has_corner[at] = true;
-        }
-        return;
-    }
-    constexpr double crease = 0.5; // the cosine of 60 degrees
-    sum = {0, 0, 0};
+    corners_[asking][i] = mean;
+    known_[asking] |= static_cast<std::uint8_t>(1u << i);
+    if (!all) return;
+    constexpr double near = 0.875; // the cosine of 29 degrees
+    for (const std::uint32_t other : ring)
+        if (!(dot(faces_[places_[other]].normal, mean) > near)) return;
     for (const std::uint32_t other : ring) {
-        const Face& f = face(other);
-        const double cosine = dot(f.normal, asking.normal);
-        const bool turn = cosine < 0 && (f.is_flat || asking.is_flat);
-        if ((turn ? -cosine : cosine) < crease) continue;
-        const double weight = f.weight[f.corner_at(vertex)];
-        sum = sum + (turn ? -weight : weight) * f.normal;
+        const std::uint32_t place = places_[other];
+        const std::size_t at = faces_[place].corner_at(vertex);
+        corners_[place][at] = mean;
+        known_[place] |= static_cast<std::uint8_t>(1u << at);
     }
-    asking.corner[i] = normalised(sum);
-    asking.has_corner[i] = true;
 }
 
 Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) const {
-    const Face& face = faces_[places_[point.triangle]];
-    const Vec3d normal = normalised(point.weight[0] * face.corner[0] + point.weight[1] * face.corner[1] +
-                                    point.weight[2] * face.corner[2]);
-    return dot(face.normal, outward) < 0 ? -1.0 * normal : normal;
+    const std::uint32_t place = places_[point.triangle];
+    const std::array<Vec3d, 3>& corner = corners_[place];
+    const Vec3d normal = normalised(point.weight[0] * corner[0] + point.weight[1] * corner[1] +
+                                    point.weight[2] * corner[2]);
+    return dot(faces_[place].normal, outward) < 0 ? -1.0 * normal : normal;
 }
 
 } // namespace vox::depth

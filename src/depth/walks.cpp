@@ -14,6 +14,7 @@
 #define HWY_TARGET_INCLUDE "depth/walks.cpp"
 #include <hwy/foreach_target.h>
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #ifndef VOX_DEPTH_WALKS_ONCE
@@ -340,91 +341,151 @@ void set_lane(double (&to)[3][walk_lanes], std::size_t lane, const Vec3d& from) 
     to[1][lane] = from.y;
     to[2][lane] = from.z;
 }
-Vec3d lane_of(const double (&from)[3][walk_lanes], std::size_t lane) {
-    return {from[0][lane], from[1][lane], from[2][lane]};
-}
 void set_lane(LaneCorners& to, std::size_t lane, const Solid& solid, std::uint32_t vertex) {
     set_lane(to.at, lane, solid.at(vertex));
     to.vertex[lane] = vertex;
 }
 
-// Calls visit(lane) for each bit that is set.
+// Calls visit(i) for each bit i that is set.
 template <class Visit>
-void for_each_lane(std::uint32_t bits, Visit&& visit) {
+void for_each_bit(std::uint64_t bits, Visit&& visit) {
     for (; bits; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-// Where walks are, to find out whether one goes round (walk.cpp).
-struct Trail {
-    std::uint32_t tet, remembered_tet;
-    std::uint64_t remembered_behind, remember_at;
-};
+// Walks that are made together, so that all wait for memory at the same time: each pass over them prefetches
+// what the next one reads.
+class WalkGroup {
+public:
+    static constexpr std::size_t size = 64;
 
-// A block of walks, step by step together.
-void walk_block(const Solid& solid, std::span<Walk> walks, WalkBlock& block) {
-    const Topology& topology = *solid.topology;
-    Trail trail[walk_lanes];
-    for (std::size_t i = 0; i < walks.size(); ++i) {
-        Walk& walk = walks[i];
+    WalkGroup(const Solid& solid, std::span<Walk> walks)
+        : solid_(solid), topology_(*solid.topology), walks_(walks) {
+        for (const Walk& walk : walks_) prefetch(walk.tet);
+        for (std::size_t i = 0; i < walks_.size(); ++i) begin(i);
+        // Whole registers are computed, so the last one is filled up.
+        for (std::size_t i = walks_.size(); i % walk_lanes; ++i) set_segment(i, walks_.back());
+    }
+
+    void run() {
+        const auto first_gates = VOX_SIMD_DISPATCH(FirstGates);
+        const auto next_gates = VOX_SIMD_DISPATCH(NextGates);
+        const auto cross_gates = VOX_SIMD_DISPATCH(CrossGates);
+        const std::size_t blocks = (walks_.size() + walk_lanes - 1) / walk_lanes;
+        std::uint64_t active = 0;
+        const auto take = [&](std::size_t b, const LaneBits& gates) {
+            active |= std::uint64_t{gates.found} << b * walk_lanes;
+            passed_ |= std::uint64_t{gates.passed} << b * walk_lanes;
+        };
+        for (std::size_t b = 0; b < blocks; ++b) take(b, first_gates(block_[b]));
+        active &= ~std::uint64_t{0} >> (size - walks_.size());
+        while (active) {
+            for_each_bit(active, [&](std::size_t i) { look_across(i); });
+            std::uint64_t going_on = 0;
+            for_each_bit(active, [&](std::size_t i) { going_on |= std::uint64_t{go_across(i)} << i; });
+            active = passed_ = 0;
+            for (std::size_t b = 0; b < blocks; ++b)
+                if (const auto lanes = static_cast<std::uint8_t>(going_on >> b * walk_lanes))
+                    take(b, next_gates(block_[b], lanes));
+        }
+        for (std::size_t b = 0; b < blocks; ++b)
+            if (const auto lanes = static_cast<std::uint8_t>(leaving_ >> b * walk_lanes))
+                for_each_bit(lanes & cross_gates(block_[b]), [&](std::size_t i) { leave(b, i); });
+    }
+
+private:
+    // Where a walk is, and where it was, to find out whether it goes round (walk.cpp).
+    struct Trail {
+        std::uint32_t tet, remembered_tet;
+        std::uint32_t behind, remembered_behind; // vertices
+        std::uint32_t across;
+        std::uint64_t remember_at;
+    };
+
+    void prefetch(std::uint32_t tet) const {
+        hwy::Prefetch(&solid_.tets[tet]);
+        hwy::Prefetch(&topology_.across[tet]);
+    }
+
+    void set_segment(std::size_t i, const Walk& walk) {
+        WalkBlock& block = block_[i / walk_lanes];
+        const std::size_t lane = i % walk_lanes;
+        set_lane(block.origin, lane, walk.p);
+        set_lane(block.way, lane, walk.q - walk.p);
+        const Tet& tet = solid_.tets[walk.tet];
+        for (std::size_t c = 0; c < 4; ++c) set_lane(block.corner[c], lane, solid_, tet.v[c]);
+    }
+
+    void begin(std::size_t i) {
+        Walk& walk = walks_[i];
         walk.leaves = false;
         walk.visited = 0;
-        set_lane(block.origin, i, walk.p);
-        set_lane(block.way, i, walk.q - walk.p);
-        const Tet& tet = solid.tets[walk.tet];
-        for (std::size_t c = 0; c < 4; ++c) set_lane(block.corner[c], i, solid, tet.v[c]);
-        trail[i] = {walk.tet, ~0u, 0, 1};
+        set_segment(i, walk);
+        trail_[i] = {walk.tet, ~0u, 0, 0, 0, 1};
     }
 
-    const auto next_gates = VOX_SIMD_DISPATCH(NextGates);
-    LaneBits gates = VOX_SIMD_DISPATCH(FirstGates)(block);
-    std::uint32_t leaving = 0; // lanes that came to the surface
-    std::uint32_t active = gates.found & ((1u << walks.size()) - 1);
-    while (active) {
-        std::uint32_t going_on = 0;
-        for_each_lane(active, [&](std::size_t i) {
-            Walk& walk = walks[i];
-            Trail& at = trail[i];
-            ++walk.visited;
-            if (at.tet == at.remembered_tet && block.behind[i] == at.remembered_behind) return;
-            if (walk.visited == at.remember_at) {
-                at.remembered_tet = at.tet;
-                at.remembered_behind = block.behind[i];
-                at.remember_at *= 2;
-            }
-            const Tet& from = solid.tets[at.tet];
-            std::size_t facet = 0;
-            while (from.v[facet] != block.behind[i]) ++facet;
-            const std::uint32_t across = topology.across[at.tet][facet];
-            if (across == Topology::nothing) return;
-            if (across & Topology::surface_bit) {
-                walk.exit.triangle = across & ~Topology::surface_bit;
-                leaving |= 1u << i;
-                return;
-            }
-            if (gates.passed >> i & 1) return;
-            const std::uint32_t* v = solid.tets[across].v;
-            const auto gate = static_cast<std::uint32_t>(
-                block.gate[0].vertex[i] ^ block.gate[1].vertex[i] ^ block.gate[2].vertex[i]);
-            set_lane(block.corner[0], i, solid, v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate);
-            at.tet = across;
-            going_on |= 1u << i;
-        });
-        if (!going_on) break;
-        gates = next_gates(block, going_on);
-        active = gates.found;
+    void look_across(std::size_t i) {
+        Trail& trail = trail_[i];
+        const auto behind = static_cast<std::uint32_t>(block_[i / walk_lanes].behind[i % walk_lanes]);
+        const std::uint32_t* v = solid_.tets[trail.tet].v;
+        // Without branches, which would be mispredicted.
+        const auto facet =
+            (v[1] == behind ? 1u : 0u) | (v[2] == behind ? 2u : 0u) | (v[3] == behind ? 3u : 0u);
+        trail.behind = behind;
+        trail.across = topology_.across[trail.tet][facet];
+        if (trail.across & Topology::surface_bit)
+            hwy::Prefetch(topology_.triangles.data() + (trail.across & ~Topology::surface_bit));
+        else
+            hwy::Prefetch(&solid_.tets[trail.across]);
     }
 
-    if (!leaving) return;
-    for_each_lane(leaving & VOX_SIMD_DISPATCH(CrossGates)(block), [&](std::size_t i) {
-        SurfacePoint& exit = walks[i].exit;
-        walks[i].leaves = true;
-        exit.point = lane_of(block.point, i);
-        const std::uint32_t* v = topology.triangles[exit.triangle].v;
+    // Whether the walk goes on in the tetrahedron across the gate.
+    bool go_across(std::size_t i) {
+        Trail& trail = trail_[i];
+        Walk& walk = walks_[i];
+        ++walk.visited;
+        if (trail.tet == trail.remembered_tet && trail.behind == trail.remembered_behind) return false;
+        if (walk.visited == trail.remember_at) {
+            trail.remembered_tet = trail.tet;
+            trail.remembered_behind = trail.behind;
+            trail.remember_at *= 2;
+        }
+        if (trail.across == Topology::nothing) return false;
+        if (trail.across & Topology::surface_bit) {
+            walk.exit.triangle = trail.across & ~Topology::surface_bit;
+            leaving_ |= std::uint64_t{1} << i;
+            return false;
+        }
+        if (passed_ >> i & 1) return false;
+        WalkBlock& block = block_[i / walk_lanes];
+        const std::size_t lane = i % walk_lanes;
+        const std::uint32_t* v = solid_.tets[trail.across].v;
+        const auto gate = static_cast<std::uint32_t>(
+            block.gate[0].vertex[lane] ^ block.gate[1].vertex[lane] ^ block.gate[2].vertex[lane]);
+        set_lane(block.corner[0], lane, solid_, v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate);
+        trail.tet = trail.across;
+        hwy::Prefetch(&topology_.across[trail.tet]);
+        return true;
+    }
+
+    void leave(std::size_t b, std::size_t lane) {
+        const WalkBlock& block = block_[b];
+        Walk& walk = walks_[b * walk_lanes + lane];
+        walk.leaves = true;
+        walk.exit.point = {block.point[0][lane], block.point[1][lane], block.point[2][lane]};
+        const std::uint32_t* v = topology_.triangles[walk.exit.triangle].v;
         for (std::size_t corner = 0; corner < 3; ++corner)
             for (std::size_t k = 0; k < 3; ++k)
-                if (block.gate[k].vertex[i] == v[corner]) exit.weight[corner] = block.weight[k][i];
-    });
-}
+                if (block.gate[k].vertex[lane] == v[corner]) walk.exit.weight[corner] = block.weight[k][lane];
+    }
+
+    const Solid& solid_;
+    const Topology& topology_;
+    std::span<Walk> walks_;
+    std::uint64_t leaving_ = 0, passed_ = 0; // bits of walks at the surface, and of those that end before
+                                             // their gate
+    Trail trail_[size];
+    WalkBlock block_[size / walk_lanes];
+};
 
 } // namespace
 
@@ -436,9 +497,8 @@ void walk_out(const Solid& solid, std::span<Walk> walks) {
         }
         return;
     }
-    WalkBlock block{};
-    for (std::size_t first = 0; first < walks.size(); first += walk_lanes)
-        walk_block(solid, walks.subspan(first, std::min(walk_lanes, walks.size() - first)), block);
+    for (std::size_t first = 0; first < walks.size(); first += WalkGroup::size)
+        WalkGroup(solid, walks.subspan(first, std::min(WalkGroup::size, walks.size() - first))).run();
 }
 
 } // namespace vox::depth
