@@ -77,7 +77,7 @@ public:
 
 private:
     Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
-    std::span<const std::uint32_t> neighbours(const Point& point) const {
+    NeighbourRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
     // The point of a vertex, or null when the vertex does not collide.
