@@ -8,6 +8,8 @@
 #include "depth/walks.hpp"
 #include "exact/predicates.hpp"
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <cstddef>
 
@@ -87,6 +89,7 @@ private:
     }
     void push(const Point& point) { queue_[queued_++] = static_cast<std::uint32_t>(&point - points_.data()); }
 
+    void prefetch_links(std::size_t next) const;
     void find_border();
     bool is_coincident(Point& point) const;
     Vec3d inside(const Point& point) const;
@@ -119,9 +122,21 @@ private:
     } border_;
 };
 
+// Of points that follow: far enough ahead to hide the latency of memory.
+void Stages::prefetch_links(std::size_t next) const {
+    constexpr std::size_t places_ahead = 16, records_ahead = 8;
+    const VertexLinks& links = pair_.topology_a->links;
+    if (links.empty()) return;
+    if (next + places_ahead < points_.size())
+        hwy::Prefetch(links.place_of(points_[next + places_ahead].vertex));
+    if (next + records_ahead < points_.size())
+        hwy::Prefetch(links.record_of(points_[next + records_ahead].vertex));
+}
+
 // The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        prefetch_links(i);
         Point& point = points_[i];
         const bool coincident = !point.interior && is_coincident(point);
         bool border = false;

@@ -9,6 +9,8 @@
 
 #include "base/vectors.hpp"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 
 namespace vox::depth {
@@ -23,42 +25,67 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
 }
 
 void Normals::begin(const Solid& solid) {
-    for (const Face& face : faces_) places_[face.triangle & ~flat_bit] = none;
-    faces_.clear();
-    corners_.clear();
-    known_.clear();
     solid_ = solid;
-    const std::size_t triangles = solid.topology->triangles.size();
-    if (triangles > places_.size()) places_.resize(triangles, none);
+    face_places_.clear();
+    ring_places_.clear();
+    asked_places_.clear();
+    faces_.clear();
+    rings_.clear();
+    ring_faces_.clear();
+    asked_.clear();
 }
 
 // The place of a triangle in faces_.
-std::uint32_t Normals::add(std::uint32_t triangle) {
-    std::uint32_t place = places_[triangle];
-    if (place != none) return place;
-    place = static_cast<std::uint32_t>(faces_.size());
-    const std::uint32_t* v = solid_.topology->triangles[triangle].v;
-    faces_.push_back({{}, {}, {v[0], v[1], v[2]}, triangle});
-    places_[triangle] = place;
+std::uint32_t Normals::add_face(std::uint32_t triangle) {
+    const std::uint32_t place = face_places_.add(triangle);
+    if (place == faces_.size()) {
+        const std::uint32_t* v = solid_.topology->triangles[triangle].v;
+        faces_.push_back({{}, {}, {v[0], v[1], v[2]}, triangle});
+    }
     return place;
 }
 
 void Normals::prepare(std::span<const std::uint32_t> triangles) {
-    const std::size_t first = known_.size();
+    const std::size_t first_face = faces_.size(), first_asked = asked_.size();
     for (const std::uint32_t triangle : triangles) {
-        const std::uint32_t place = add(triangle);
-        if (place < first && known_[place] == all_corners) continue;
-        for (const std::uint32_t v : solid_.topology->triangles[triangle].v)
-            for (const std::uint32_t other : solid_.topology->ring_of(v)) add(other);
+        if (asked_places_.add(triangle) < asked_.size()) continue;
+        Asked& asked = asked_.emplace_back();
+        asked.face = add_face(triangle);
+        for (const std::uint32_t v : faces_[asked.face].v) hwy::Prefetch(solid_.topology->links.place_of(v));
     }
-    corners_.resize(faces_.size());
-    known_.resize(faces_.size(), 0);
-    for (std::size_t i = first; i < faces_.size(); ++i) compute_face(faces_[i]);
-    for (const std::uint32_t triangle : triangles) {
-        const std::uint32_t place = places_[triangle];
-        for (std::size_t i = 0; i < 3 && known_[place] != all_corners; ++i)
-            if (!(known_[place] >> i & 1)) compute_corner(place, i);
+    if (first_asked == asked_.size()) return;
+    list_rings(first_asked);
+    for (std::size_t i = first_face; i < faces_.size(); ++i) compute_face(faces_[i]);
+    for (std::size_t i = first_asked; i < asked_.size(); ++i) {
+        Asked& asked = asked_[i];
+        const Face& face = faces_[asked.face];
+        for (std::size_t c = 0; c < 3; ++c)
+            asked.normal[c] = corner_normal(face, face.v[c], rings_[asked.ring[c]]);
     }
+}
+
+// Those around the corners of triangles from `first_asked` on. These are anywhere in memory, so each pass
+// prefetches what the next one reads.
+void Normals::list_rings(std::size_t first_asked) {
+    const Topology& topology = *solid_.topology;
+    for (std::size_t i = first_asked; i < asked_.size(); ++i)
+        for (const std::uint32_t v : faces_[asked_[i].face].v) hwy::Prefetch(topology.links.record_of(v));
+    const std::size_t first_ring = rings_.size();
+    for (std::size_t i = first_asked; i < asked_.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t v = faces_[asked_[i].face].v[c];
+            asked_[i].ring[c] = ring_places_.add(v);
+            if (asked_[i].ring[c] < rings_.size()) continue;
+            const auto first = static_cast<std::uint32_t>(ring_faces_.size());
+            for (const std::uint32_t triangle : topology.ring_of(v)) {
+                ring_faces_.push_back(triangle); // its place comes later
+                hwy::Prefetch(&topology.triangles[triangle]);
+            }
+            rings_.push_back({first, static_cast<std::uint32_t>(ring_faces_.size()), false, false, {}});
+        }
+    if (first_ring == rings_.size()) return;
+    for (std::size_t i = rings_[first_ring].first; i < ring_faces_.size(); ++i)
+        ring_faces_[i] = add_face(ring_faces_[i]);
 }
 
 void Normals::compute_face(Face& face) const {
@@ -68,7 +95,7 @@ void Normals::compute_face(Face& face) const {
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
     const double inside = dot(doubled, apex - a);
-    if (inside == 0) face.triangle |= flat_bit;
+    if (inside == 0) face.triangle |= Face::flat_bit;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
     const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
@@ -78,43 +105,38 @@ void Normals::compute_face(Face& face) const {
     face.weight[2] = weight(lbc, lca);
 }
 
-void Normals::compute_corner(std::uint32_t asking, std::size_t i) {
+// The normal at a corner of the triangle `asking`.
+Vec3d Normals::corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const {
+    if (ring.is_smooth) return ring.normal;
     constexpr double crease = 0.5; // the cosine of 60 degrees
-    const Face& ask = faces_[asking];
-    const std::uint32_t vertex = ask.v[i];
-    const std::span<const std::uint32_t> ring = solid_.topology->ring_of(vertex);
     Vec3d sum{0, 0, 0};
     bool all = true; // take part, as they are
-    for (const std::uint32_t other : ring) {
-        const Face& f = faces_[places_[other]];
-        const double cosine = dot(f.normal, ask.normal);
-        const bool turn = cosine < 0 && (f.is_flat() || ask.is_flat());
+    for (std::uint32_t i = ring.first; i < ring.last; ++i) {
+        const Face& f = faces_[ring_faces_[i]];
+        const double cosine = dot(f.normal, asking.normal);
+        const bool turn = cosine < 0 && (f.is_flat() || asking.is_flat());
         const bool close = (turn ? -cosine : cosine) >= crease;
-        const double weight = f.weight[f.corner_at(vertex)];
+        const double weight = f.weight_at(vertex);
         sum = sum + (!close ? 0.0 : turn ? -weight : weight) * f.normal;
         all &= close && !turn && !f.is_flat();
     }
     const Vec3d mean = normalised(sum);
-    corners_[asking][i] = mean;
-    known_[asking] |= static_cast<std::uint8_t>(1u << i);
-    if (!all) return;
-    constexpr double near = 0.875; // the cosine of 29 degrees
-    for (const std::uint32_t other : ring)
-        if (!(dot(faces_[places_[other]].normal, mean) > near)) return;
-    for (const std::uint32_t other : ring) {
-        const std::uint32_t place = places_[other];
-        const std::size_t at = faces_[place].corner_at(vertex);
-        corners_[place][at] = mean;
-        known_[place] |= static_cast<std::uint8_t>(1u << at);
+    if (all && !ring.is_rough) {
+        constexpr double near = 0.875; // the cosine of 29 degrees
+        ring.is_smooth = true;
+        for (std::uint32_t i = ring.first; i < ring.last; ++i)
+            ring.is_smooth &= dot(faces_[ring_faces_[i]].normal, mean) > near;
+        ring.is_rough = !ring.is_smooth;
+        ring.normal = mean;
     }
+    return mean;
 }
 
 Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) const {
-    const std::uint32_t place = places_[point.triangle];
-    const std::array<Vec3d, 3>& corner = corners_[place];
-    const Vec3d normal = normalised(point.weight[0] * corner[0] + point.weight[1] * corner[1] +
-                                    point.weight[2] * corner[2]);
-    return dot(faces_[place].normal, outward) < 0 ? -1.0 * normal : normal;
+    const Asked& asked = asked_[asked_places_[point.triangle]];
+    const Vec3d normal = normalised(point.weight[0] * asked.normal[0] + point.weight[1] * asked.normal[1] +
+                                    point.weight[2] * asked.normal[2]);
+    return dot(faces_[asked.face].normal, outward) < 0 ? -1.0 * normal : normal;
 }
 
 } // namespace vox::depth
