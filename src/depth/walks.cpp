@@ -473,9 +473,11 @@ private:
         walk.leaves = true;
         walk.exit.point = {block.point[0][lane], block.point[1][lane], block.point[2][lane]};
         const std::uint32_t* v = topology_.triangles[walk.exit.triangle].v;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (block.gate[k].vertex[lane] == v[corner]) walk.exit.weight[corner] = block.weight[k][lane];
+        for (std::size_t corner = 0; corner < 3; ++corner) { // without branches, as above
+            const auto k = (block.gate[1].vertex[lane] == v[corner] ? 1u : 0u) |
+                           (block.gate[2].vertex[lane] == v[corner] ? 2u : 0u);
+            walk.exit.weight[corner] = block.weight[k][lane];
+        }
     }
 
     const Solid& solid_;
