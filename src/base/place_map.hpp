@@ -16,6 +16,8 @@ class PlaceMap {
 public:
     explicit PlaceMap(std::pmr::memory_resource* memory) noexcept : slots_(memory) {}
 
+    static constexpr std::uint32_t none = 0xffffffffu;
+
     std::uint32_t size() const noexcept { return size_; }
     void clear() {
         size_ = 0;
@@ -27,14 +29,17 @@ public:
     // The place of a number, which is size() as it was before when the number is new. Throws what the memory
     // throws, and changes nothing then.
     std::uint32_t add(std::uint32_t number) {
-        if (2 * (std::size_t{size_} + 1) > slots_.size()) reserve(std::max<std::size_t>(2 * slots_.size(), 64));
-        Slot& slot = find(number);
+        if (2 * (std::size_t{size_} + 1) > slots_.size())
+            reserve(std::max<std::size_t>(2 * slots_.size(), 64));
+        Slot& slot = slots_[slot_of(number)];
         if (slot.age != age_) slot = {number, size_++, age_};
         return slot.place;
     }
-    // The place of a number that was added.
+    // The place of a number, or none.
     std::uint32_t operator[](std::uint32_t number) const noexcept {
-        return const_cast<PlaceMap*>(this)->find(number).place;
+        if (slots_.empty()) return none;
+        const Slot& slot = slots_[slot_of(number)];
+        return slot.age == age_ ? slot.place : none;
     }
 
     // The length of the table, a power of two.
@@ -45,7 +50,7 @@ public:
         slots_.swap(before);
         shift_ = 64 - static_cast<int>(std::bit_width(slots_.size() - 1));
         for (const Slot& slot : before)
-            if (slot.age == age_) find(slot.number) = slot;
+            if (slot.age == age_) slots_[slot_of(slot.number)] = slot;
     }
 
 private:
@@ -55,10 +60,10 @@ private:
     };
 
     // The slot of a number, or the free one where it belongs.
-    Slot& find(std::uint32_t number) noexcept {
+    std::size_t slot_of(std::uint32_t number) const noexcept {
         std::size_t i = number * std::uint64_t{0x9e3779b97f4a7c15u} >> shift_;
         while (slots_[i].age == age_ && slots_[i].number != number) i = (i + 1) & (slots_.size() - 1);
-        return slots_[i];
+        return i;
     }
 
     std::pmr::vector<Slot> slots_;

@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
+    Vec3d position(std::uint32_t vertex) const { return exact_position(pair_.positions_a, vertex); }
     NeighbourRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
@@ -91,7 +91,7 @@ private:
 
     void prefetch_links(std::size_t next) const;
     void find_border();
-    bool is_coincident(Point& point) const;
+    bool is_coincident(Point& point);
     Vec3d inside(const Point& point) const;
     void follow(std::uint32_t place, const Vec3d& from, std::uint32_t neighbour);
     void take_walks();
@@ -158,7 +158,7 @@ void Stages::find_border() {
 
 // Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
 // whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
-bool Stages::is_coincident(Point& point) const {
+bool Stages::is_coincident(Point& point) {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[point.tet];
     const Vec3d p = position(point.vertex);
@@ -182,7 +182,6 @@ bool Stages::is_coincident(Point& point) const {
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
         const Closest closest = closest_point(b, t, p);
-        normals_.prepare({&t, 1});
         point.direction = normals_.at(closest.at, closest.at.point - b.at(triangle.apex));
         if (length(point.direction) > 0) break;
     }
@@ -258,8 +257,8 @@ void Stages::finish_border_point() {
     if (!border_.point) return;
     Point& point = *border_.point;
     if (point.state != VOX_PENETRATION_COINCIDENT)
-        point.state = !border_.lost && border_.mean.write(point) ? VOX_PENETRATION_SURFACE
-                                                                 : VOX_PENETRATION_CROSSING;
+        point.state =
+            !border_.lost && border_.mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
     point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
     push(point);
 }

@@ -132,8 +132,13 @@ Vec3d Normals::corner_normal(const Face& asking, std::uint32_t vertex, Ring& rin
     return mean;
 }
 
-Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) const {
-    const Asked& asked = asked_[asked_places_[point.triangle]];
+Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
+    std::uint32_t place = asked_places_[point.triangle];
+    if (place == PlaceMap::none) {
+        prepare({&point.triangle, 1});
+        place = asked_places_[point.triangle];
+    }
+    const Asked& asked = asked_[place];
     const Vec3d normal = normalised(point.weight[0] * asked.normal[0] + point.weight[1] * asked.normal[1] +
                                     point.weight[2] * asked.normal[2]);
     return dot(faces_[asked.face].normal, outward) < 0 ? -1.0 * normal : normal;

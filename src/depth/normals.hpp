@@ -25,12 +25,13 @@ public:
     // Call it before the others, for another solid or when positions have changed.
     void begin(const Solid& solid);
 
-    // Computes what at() needs of these triangles, unless that is known. Throws what the memory throws.
+    // Computes what at() needs of these triangles, unless that is known: for many triangles sooner than one
+    // by one. Throws what the memory throws.
     void prepare(std::span<const std::uint32_t> triangles);
 
-    // The unit normal at a point of a triangle that is prepared, interpolated from normals at the corners, on
-    // the side to which `outward` points. Zero where the triangle has no area.
-    Vec3d at(const SurfacePoint& point, const Vec3d& outward) const;
+    // The unit normal at a point of a triangle, interpolated from normals at the corners, on the side to
+    // which `outward` points. Zero where the triangle has no area. Throws as prepare(), of other triangles.
+    Vec3d at(const SurfacePoint& point, const Vec3d& outward);
 
     auto buffers() {
         return std::tie(face_places_, ring_places_, asked_places_, faces_, rings_, ring_faces_, asked_);

@@ -160,7 +160,6 @@ void DepthStage::find_closest(const Scene& scene, const Range& range, Worker& wo
             point.state = VOX_PENETRATION_COINCIDENT;
             Normals& normals = worker.consistent.normals;
             normals.begin(solid);
-            normals.prepare({&closest.at.triangle, 1});
             const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
             point.direction = normals.at(closest.at, p - apex);
         }

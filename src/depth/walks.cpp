@@ -159,16 +159,13 @@ HWY_INLINE Areas AreasOf(const Corner& a, const Corner& b) {
     const D first = hn::Mul(a.x, b.y), second = hn::Mul(b.x, a.y);
     return {hn::Sub(first, second), hn::Sub(second, first)};
 }
-HWY_INLINE D Area(const Corner& a, const Corner& b) {
-    return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y));
-}
+HWY_INLINE D Area(const Corner& a, const Corner& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y)); }
 
 // left() where the origin is on the edge.
 HWY_INLINE M LeftOfEdge(const Corner& a, const Corner& b) {
     const Numbers di;
     const M same_x = hn::Eq(a.x, b.x), same_y = hn::Eq(a.y, b.y);
-    const M before =
-        hn::RebindMask(Doubles(), hn::Lt(hn::BitCast(di, a.vertex), hn::BitCast(di, b.vertex)));
+    const M before = hn::RebindMask(Doubles(), hn::Lt(hn::BitCast(di, a.vertex), hn::BitCast(di, b.vertex)));
     const M by_x = hn::Or(hn::AndNot(same_x, hn::Lt(a.x, b.x)), hn::And(same_x, before));
     return hn::Or(hn::AndNot(same_y, hn::Gt(a.y, b.y)), hn::And(same_y, by_x));
 }
@@ -188,9 +185,7 @@ HWY_INLINE Edge EdgeOf(const Corner& a, const Corner& b) {
     const Areas area = AreasOf(a, b);
     return {area, Left(a, b, area.ab), Left(b, a, area.ba)};
 }
-HWY_INLINE Edge Reversed(const Edge& edge) {
-    return {{edge.area.ba, edge.area.ab}, edge.ba, edge.ab};
-}
+HWY_INLINE Edge Reversed(const Edge& edge) { return {{edge.area.ba, edge.area.ab}, edge.ba, edge.ab}; }
 
 HWY_INLINE D Height(D weight_a, D a, D weight_b, D b, D weight_c, D c) {
     return hn::Add(hn::Add(hn::Mul(weight_a, a), hn::Mul(weight_b, b)), hn::Mul(weight_c, c));
@@ -213,8 +208,8 @@ HWY_INLINE void TryFacet(double facet, D az, D bz, D cz, const Edge& ab, const E
     const D weight_a = hn::IfThenElse(swap, bc.area.ba, bc.area.ab);
     const D weight_b = hn::IfThenElse(swap, ab.area.ba, ca.area.ab);
     const D weight_c = hn::IfThenElse(swap, ca.area.ba, ab.area.ab);
-    const D above = Height(weight_a, az, weight_b, hn::IfThenElse(swap, cz, bz), weight_c,
-                           hn::IfThenElse(swap, bz, cz));
+    const D above =
+        Height(weight_a, az, weight_b, hn::IfThenElse(swap, cz, bz), weight_c, hn::IfThenElse(swap, bz, cz));
     const D below = hn::Add(hn::Add(weight_a, weight_b), weight_c);
     const D z = hn::IfThenElse(hn::Gt(below, hn::Zero(d)), hn::Div(above, below), Max3(az, bz, cz));
     const M take = hn::AndNot(hn::And(best.found, hn::Le(z, best.z)), is_gate);
@@ -249,10 +244,10 @@ LaneBits FirstGates(WalkBlock& block) {
         StoreCorner(Select(is_0, c1, c0), block.gate[0], i);
         StoreCorner(Select(best.swapped, c, b), block.gate[1], i);
         StoreCorner(Select(best.swapped, b, c), block.gate[2], i);
-        StoreNumber(hn::IfThenElse(is_0, c0.vertex,
-                                   hn::IfThenElse(is_1, c1.vertex,
-                                                  hn::IfThenElse(is_2, c2.vertex, c3.vertex))),
-                    block.behind + i);
+        StoreNumber(
+            hn::IfThenElse(is_0, c0.vertex,
+                           hn::IfThenElse(is_1, c1.vertex, hn::IfThenElse(is_2, c2.vertex, c3.vertex))),
+            block.behind + i);
         bits.found |= Bits(hn::AndNot(hn::Eq(frame.dz, hn::Zero(d)), best.found), i);
         bits.passed |= Bits(best.passed, i);
     }
@@ -276,8 +271,8 @@ LaneBits NextGates(WalkBlock& block, std::uint32_t active) {
         const M found = hn::And(is_active, hn::Or(through_ab, hn::Or(through_bc, through_ca)));
         const Corner out_b = Select(through_ab, in_a, Select(through_bc, in_b, in_c));
         const Corner out_c = Select(through_ab, in_b, Select(through_bc, in_c, in_a));
-        const D behind = hn::IfThenElse(through_ab, in_c.vertex,
-                                        hn::IfThenElse(through_bc, in_a.vertex, in_b.vertex));
+        const D behind =
+            hn::IfThenElse(through_ab, in_c.vertex, hn::IfThenElse(through_bc, in_a.vertex, in_b.vertex));
         StoreCorner(Select(found, apex, in_a), block.gate[0], i);
         StoreCorner(Select(found, out_b, in_b), block.gate[1], i);
         StoreCorner(Select(found, out_c, in_c), block.gate[2], i);
@@ -459,8 +454,8 @@ private:
         WalkBlock& block = block_[i / walk_lanes];
         const std::size_t lane = i % walk_lanes;
         const std::uint32_t* v = solid_.tets[trail.across].v;
-        const auto gate = static_cast<std::uint32_t>(
-            block.gate[0].vertex[lane] ^ block.gate[1].vertex[lane] ^ block.gate[2].vertex[lane]);
+        const auto gate = static_cast<std::uint32_t>(block.gate[0].vertex[lane] ^ block.gate[1].vertex[lane] ^
+                                                     block.gate[2].vertex[lane]);
         set_lane(block.corner[0], lane, solid_, v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate);
         trail.tet = trail.across;
         hwy::Prefetch(&topology_.across[trail.tet]);

@@ -79,7 +79,8 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
     GrowingRings rings(vertex_count, memory);
     made.clear(tets.size());
     made.links.resize(vertex_count);
-    constexpr std::size_t usual_words = 10; // for a vertex with 14 neighbours, and some that are on the surface
+    constexpr std::size_t usual_words =
+        10; // for a vertex with 14 neighbours, and some that are on the surface
     made.links.reserve(usual_words * vertex_count);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
