@@ -58,8 +58,9 @@ constexpr std::size_t walks_at_once = 64;
 class Stages {
 public:
     Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), points_(points), places_(scratch.places), queue_(scratch.queue),
+        : pair_(pair), points_(points), places_(scratch.places), waves_(scratch.waves), queue_(scratch.queue),
           normals_(scratch.normals), counts_(counts) {
+        waves_.assign(points_.size(), unreached);
         if (queue_.size() < points_.size()) queue_.resize(points_.size());
         normals_.begin(pair_.b);
         places_.reserve(pair_.vertex_count_a);
@@ -82,12 +83,16 @@ private:
     NeighbourRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
-    // The point of a vertex, or null when the vertex does not collide.
-    Point* colliding(std::uint32_t vertex) const {
-        const std::uint32_t place = places_[vertex];
-        return place == VertexPlaces::none ? nullptr : &points_[place];
+    void push(std::uint32_t place, std::uint32_t wave) {
+        waves_[place] = wave;
+        queue_[queued_++] = place;
     }
-    void push(const Point& point) { queue_[queued_++] = static_cast<std::uint32_t>(&point - points_.data()); }
+    // Calls visit(vertex, place) for each neighbour of a point that collides.
+    template <class Visit>
+    void for_colliding(const Point& point, Visit&& visit) const {
+        for (const std::uint32_t neighbour : neighbours(point))
+            if (places_.has(neighbour)) visit(neighbour, places_[neighbour]);
+    }
 
     void prefetch_links(std::size_t next) const;
     void find_border();
@@ -98,12 +103,16 @@ private:
     void take_edge(Point& point, const Walk& walk);
     void finish_border_point();
     void propagate();
-    void take_mean(Point& point) const;
+    void take_mean(std::uint32_t place) const;
     void mark_unreached();
 
     const BodyPair& pair_;
     std::span<Point> points_;
+    static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
+
     VertexPlaces& places_; // of body a's vertices, in points_
+    // For each point the wave in which depth and direction were found.
+    std::pmr::vector<std::uint32_t>& waves_;
     std::pmr::vector<std::uint32_t>& queue_;
     std::size_t queued_ = 0;
     Normals& normals_;
@@ -149,8 +158,7 @@ void Stages::find_border() {
             follow(i, from, q);
         }
         if (!border || !coincident) continue;
-        point.wave = 1;
-        push(point);
+        push(i, 1);
     }
     take_walks();
     finish_border_point();
@@ -259,8 +267,8 @@ void Stages::finish_border_point() {
     if (point.state != VOX_PENETRATION_COINCIDENT)
         point.state =
             !border_.lost && border_.mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
-    point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
-    push(point);
+    push(static_cast<std::uint32_t>(&point - points_.data()),
+         point.state == VOX_PENETRATION_CROSSING ? unusable : 1);
 }
 
 // Each wave takes its means over all points of the waves before it.
@@ -269,40 +277,33 @@ void Stages::propagate() {
     for (std::uint32_t wave = 2; first < queued_ && queued_ < points_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
-            const Point& from = points_[queue_[first]];
-            if (from.wave == Point::unusable) continue;
-            for (const std::uint32_t neighbour : neighbours(from)) {
-                Point* to = colliding(neighbour);
-                if (!to || to->wave != Point::unreached) continue;
-                to->wave = wave;
-                push(*to);
-            }
+            const std::uint32_t from = queue_[first];
+            if (waves_[from] == unusable) continue;
+            for_colliding(points_[from], [&](std::uint32_t, std::uint32_t to) {
+                if (waves_[to] == unreached) push(to, wave);
+            });
         }
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(points_[queue_[i]]);
+            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i]);
         // Only now, because points of one wave must not see each other.
-        for (std::size_t i = last; i < queued_; ++i) {
-            Point& point = points_[queue_[i]];
-            if (point.state == VOX_PENETRATION_CROSSING) point.wave = Point::unusable;
-        }
+        for (std::size_t i = last; i < queued_; ++i)
+            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) waves_[queue_[i]] = unusable;
     }
 }
 
-void Stages::take_mean(Point& point) const {
+void Stages::take_mean(std::uint32_t place) const {
+    Point& point = points_[place];
     const Vec3d p = position(point.vertex);
     NeighbourMean mean;
-    for (const std::uint32_t neighbour : neighbours(point)) {
-        const Point* from = colliding(neighbour);
-        if (!from || from->wave >= point.wave || from->wave == Point::unreached) continue;
+    bool at_one = false; // a neighbour is at the same place: what is known there counts alone
+    for_colliding(point, [&](std::uint32_t neighbour, std::uint32_t from) {
+        if (at_one || waves_[from] >= waves_[place] || waves_[from] == unreached) return;
         const Vec3d way = position(neighbour) - p;
         const double squared = dot(way, way);
-        if (!(squared > no_distance)) { // at the same place
-            mean = NeighbourMean();
-            mean.add(1, way, from->depth, from->direction);
-            break;
-        }
-        mean.add(1 / squared, way, from->depth, from->direction);
-    }
+        at_one = !(squared > no_distance);
+        if (at_one) mean = NeighbourMean();
+        mean.add(at_one ? 1 : 1 / squared, way, points_[from].depth, points_[from].direction);
+    });
     point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
 }
 
@@ -311,16 +312,14 @@ void Stages::take_mean(Point& point) const {
 void Stages::mark_unreached() {
     if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
-    for (const Point& point : points_)
-        if (point.wave == Point::unusable) push(point);
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+        if (waves_[i] == unusable) push(i, unusable);
     for (std::size_t first = 0; first < queued_; ++first)
-        for (const std::uint32_t neighbour : neighbours(points_[queue_[first]])) {
-            Point* to = colliding(neighbour);
-            if (!to || to->wave != Point::unreached) continue;
-            to->wave = Point::unusable;
-            if (to->state != VOX_PENETRATION_COINCIDENT) to->state = VOX_PENETRATION_CROSSING;
-            push(*to);
-        }
+        for_colliding(points_[queue_[first]], [&](std::uint32_t, std::uint32_t to) {
+            if (waves_[to] != unreached) return;
+            if (points_[to].state != VOX_PENETRATION_COINCIDENT) points_[to].state = VOX_PENETRATION_CROSSING;
+            push(to, unusable);
+        });
 }
 
 } // namespace

@@ -52,13 +52,13 @@ private:
 // What find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory)
-        : places(memory), queue(memory), normals(memory) {}
+        : places(memory), waves(memory), queue(memory), normals(memory) {}
 
     VertexPlaces places; // empty between calls
-    std::pmr::vector<std::uint32_t> queue;
+    std::pmr::vector<std::uint32_t> waves, queue; // of points
     Normals normals;
 
-    auto buffers() { return std::tuple_cat(std::tie(places.buffer(), queue), normals.buffers()); }
+    auto buffers() { return std::tuple_cat(std::tie(places.buffer(), waves, queue), normals.buffers()); }
 };
 
 // Sets the states of `points`, which are in the order of their vertices, and depth and direction of all that
