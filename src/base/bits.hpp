@@ -13,6 +13,15 @@ inline bool has_bit(std::span<const std::uint64_t> words, std::size_t i) noexcep
     return i / 64 < words.size() && (words[i / 64] >> i % 64 & 1) != 0;
 }
 
+// std::popcount() without a call, on machines that may have no instruction for it (D. E. Knuth, The Art of
+// Computer Programming 4A, Sect. 7.1.3).
+inline std::uint32_t bit_count(std::uint64_t x) noexcept {
+    x -= x >> 1 & 0x5555555555555555u;
+    x = (x & 0x3333333333333333u) + (x >> 2 & 0x3333333333333333u);
+    x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return static_cast<std::uint32_t>(x * 0x0101010101010101u >> 56);
+}
+
 // A set that was never added to holds no memory.
 class Bits {
 public:

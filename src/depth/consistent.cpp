@@ -5,8 +5,12 @@
 
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
+#include "depth/walks.hpp"
 #include "exact/predicates.hpp"
 
+#include <hwy/cache_control.h>
+
+#include <array>
 #include <cstddef>
 
 namespace vox::depth {
@@ -48,65 +52,121 @@ private:
     Vec3d way_{0, 0, 0}, direction_{0, 0, 0};
 };
 
+// What edges from border points are followed together.
+constexpr std::size_t walks_at_once = 64;
+
 class Stages {
 public:
-    Stages(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
-           std::span<std::uint32_t> queue, Normals& normals, Counts& counts)
-        : pair_(pair), points_(points), number_(number), queue_(queue), normals_(normals), counts_(counts) {}
+    Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
+        : pair_(pair), points_(points), places_(scratch.places), waves_(scratch.waves), queue_(scratch.queue),
+          normals_(scratch.normals), counts_(counts) {
+        waves_.assign(points_.size(), unreached);
+        if (queue_.size() < points_.size()) queue_.resize(points_.size());
+        normals_.begin(pair_.b);
+        places_.reserve(pair_.vertex_count_a);
+        for (std::uint32_t i = 0; i < points_.size(); ++i) places_.add(points_[i].vertex, i);
+    }
+    ~Stages() {
+        for (const Point& point : points_) places_.remove(point.vertex);
+    }
+    Stages(const Stages&) = delete;
+    Stages& operator=(const Stages&) = delete;
 
     void run() {
-        normals_.begin(pair_.b); // the only call that can fail
-        for (std::uint32_t i = 0; i < points_.size(); ++i) number_[points_[i].vertex] = i + 1;
         find_border();
         propagate();
         mark_unreached();
-        for (const Point& point : points_) number_[point.vertex] = 0;
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
-    std::span<const std::uint32_t> neighbours(const Point& point) const {
+    Vec3d position(std::uint32_t vertex) const { return exact_position(pair_.positions_a, vertex); }
+    NeighbourRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
-    // The point of a vertex, or null when the vertex does not collide.
-    Point* colliding(std::uint32_t vertex) const {
-        const std::uint32_t number = number_[vertex];
-        return number == 0 ? nullptr : &points_[number - 1];
+    void push(std::uint32_t place, std::uint32_t wave) {
+        waves_[place] = wave;
+        queue_[queued_++] = place;
     }
-    void push(const Point& point) { queue_[queued_++] = static_cast<std::uint32_t>(&point - points_.data()); }
+    // Calls visit(vertex, place) for each neighbour of a point that collides.
+    template <class Visit>
+    void for_colliding(const Point& point, Visit&& visit) const {
+        for (const std::uint32_t neighbour : neighbours(point))
+            if (places_.has(neighbour)) visit(neighbour, places_[neighbour]);
+    }
 
+    void prefetch_links(std::size_t next) const;
     void find_border();
-    bool is_coincident(Point& point) const;
-    void trace_edges(Point& point);
+    bool is_coincident(Point& point);
+    Vec3d inside(const Point& point) const;
+    void follow(std::uint32_t place, const Vec3d& from, std::uint32_t neighbour);
+    void take_walks();
+    void take_edge(Point& point, const Walk& walk);
+    void finish_border_point();
     void propagate();
-    void take_mean(Point& point) const;
+    void take_mean(std::uint32_t place) const;
     void mark_unreached();
 
     const BodyPair& pair_;
     std::span<Point> points_;
-    std::span<std::uint32_t> number_; // by vertex of body a, its place in points_ plus 1, or 0
-    std::span<std::uint32_t> queue_;
+    static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
+
+    VertexPlaces& places_; // of body a's vertices, in points_
+    // For each point the wave in which depth and direction were found.
+    std::pmr::vector<std::uint32_t>& waves_;
+    std::pmr::vector<std::uint32_t>& queue_;
     std::size_t queued_ = 0;
     Normals& normals_;
     Counts& counts_;
+
+    // Edges that wait to be followed, and their points.
+    std::array<Walk, walks_at_once> walks_;
+    std::array<std::uint32_t, walks_at_once> places_of_walks_;
+    std::size_t waiting_ = 0;
+    // The border point whose edges are being taken.
+    struct Border {
+        Point* point = nullptr;
+        Vec3d position{};
+        NeighbourMean mean{};
+        bool lost = false; // an edge does not lead out
+    } border_;
 };
+
+// Of points that follow: far enough ahead to hide the latency of memory.
+void Stages::prefetch_links(std::size_t next) const {
+    constexpr std::size_t places_ahead = 16, records_ahead = 8;
+    const VertexLinks& links = pair_.topology_a->links;
+    if (links.empty()) return;
+    if (next + places_ahead < points_.size())
+        hwy::Prefetch(links.place_of(points_[next + places_ahead].vertex));
+    if (next + records_ahead < points_.size())
+        hwy::Prefetch(links.record_of(points_[next + records_ahead].vertex));
+}
 
 // The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
-    for (Point& point : points_) {
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        prefetch_links(i);
+        Point& point = points_[i];
         const bool coincident = !point.interior && is_coincident(point);
         bool border = false;
-        for (const std::uint32_t q : neighbours(point)) border |= number_[q] == 0;
-        if (!border) continue;
-        if (!coincident) trace_edges(point);
-        point.wave = point.state == VOX_PENETRATION_CROSSING ? Point::unusable : 1;
-        push(point);
+        Vec3d from;
+        for (const std::uint32_t q : neighbours(point)) {
+            if (places_.has(q)) continue;
+            if (!border && !coincident) from = inside(point);
+            border = true;
+            if (coincident) break;
+            follow(i, from, q);
+        }
+        if (!border || !coincident) continue;
+        push(i, 1);
     }
+    take_walks();
+    finish_border_point();
 }
 
 // Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
 // whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
-bool Stages::is_coincident(Point& point) const {
+bool Stages::is_coincident(Point& point) {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[point.tet];
     const Vec3d p = position(point.vertex);
@@ -140,106 +200,133 @@ bool Stages::is_coincident(Point& point) const {
     return true;
 }
 
-void Stages::trace_edges(Point& point) {
+// Where walks from a point begin: at the point, or where no facet or edge of its tetrahedron can be missed.
+Vec3d Stages::inside(const Point& point) const {
     const Vec3d p = position(point.vertex);
-    Vec3d inside = p;
-    if (!point.interior) { // start from where no facet or edge can be missed
-        const Solid& b = pair_.b;
-        const std::uint32_t* v = b.tets[point.tet].v;
-        const Vec3d middle = 0.25 * ((b.at(v[0]) + b.at(v[1])) + (b.at(v[2]) + b.at(v[3])));
-        inside = p + 0x1p-20 * (middle - p);
-    }
-    NeighbourMean mean;
-    bool lost = false;
-    for (const std::uint32_t neighbour : neighbours(point)) {
-        if (number_[neighbour] != 0) continue;
-        ++counts_.leaving_edges;
-        const Vec3d q = position(neighbour);
-        SurfacePoint crossing;
-        Vec3d normal{0, 0, 0};
-        if (walk_out(pair_.b, point.tet, inside, q, crossing, counts_.edge_tests) &&
-            !(pair_.self && has_corner(pair_.b.topology->triangles[crossing.triangle], point.vertex)))
-            normal = normals_.at(crossing, q - p);
-        if (!(length(normal) > 0)) {
-            lost = true;
-            continue;
+    if (point.interior) return p;
+    const Solid& b = pair_.b;
+    const std::uint32_t* v = b.tets[point.tet].v;
+    const Vec3d middle = 0.25 * ((b.at(v[0]) + b.at(v[1])) + (b.at(v[2]) + b.at(v[3])));
+    return p + 0x1p-20 * (middle - p);
+}
+
+void Stages::follow(std::uint32_t place, const Vec3d& from, std::uint32_t neighbour) {
+    if (waiting_ == walks_.size()) take_walks();
+    Walk& walk = walks_[waiting_];
+    walk.p = from;
+    walk.q = position(neighbour);
+    walk.tet = points_[place].tet;
+    places_of_walks_[waiting_++] = place;
+}
+
+// Follows the edges that wait. Those of a point may come in several parts.
+void Stages::take_walks() {
+    const std::span<Walk> walks = std::span(walks_).first(waiting_);
+    waiting_ = 0;
+    walk_out(pair_.b, walks);
+    std::array<std::uint32_t, walks_at_once> triangles;
+    std::size_t count = 0;
+    for (const Walk& walk : walks)
+        if (walk.leaves) triangles[count++] = walk.exit.triangle;
+    normals_.prepare(std::span(triangles).first(count));
+    for (std::size_t i = 0; i < walks.size(); ++i) {
+        Point& point = points_[places_of_walks_[i]];
+        if (&point != border_.point) {
+            finish_border_point();
+            border_ = {.point = &point, .position = position(point.vertex)};
         }
-        const Vec3d way = crossing.point - p;
-        const double squared = dot(way, way);
-        if (!(squared > no_distance)) {
-            point.state = VOX_PENETRATION_COINCIDENT;
-            point.direction = normal;
-            return;
-        }
-        mean.add(1 / squared, way, 0, normal);
+        if (point.state != VOX_PENETRATION_COINCIDENT) take_edge(point, walks[i]);
     }
-    point.state = !lost && mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
+}
+
+void Stages::take_edge(Point& point, const Walk& walk) {
+    ++counts_.leaving_edges;
+    counts_.edge_tests += walk.visited;
+    const Vec3d& p = border_.position;
+    Vec3d normal{0, 0, 0};
+    if (walk.leaves &&
+        !(pair_.self && has_corner(pair_.b.topology->triangles[walk.exit.triangle], point.vertex)))
+        normal = normals_.at(walk.exit, walk.q - p);
+    if (!(dot(normal, normal) > 0)) {
+        border_.lost = true;
+        return;
+    }
+    const Vec3d way = walk.exit.point - p;
+    const double squared = dot(way, way);
+    if (squared > no_distance)
+        border_.mean.add(1 / squared, way, 0, normal);
+    else {
+        point.state = VOX_PENETRATION_COINCIDENT;
+        point.direction = normal;
+    }
+}
+
+void Stages::finish_border_point() {
+    if (!border_.point) return;
+    Point& point = *border_.point;
+    if (point.state != VOX_PENETRATION_COINCIDENT)
+        point.state =
+            !border_.lost && border_.mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
+    push(static_cast<std::uint32_t>(&point - points_.data()),
+         point.state == VOX_PENETRATION_CROSSING ? unusable : 1);
 }
 
 // Each wave takes its means over all points of the waves before it.
 void Stages::propagate() {
     std::size_t first = 0;
-    for (std::uint32_t wave = 2; first < queued_; ++wave) {
+    for (std::uint32_t wave = 2; first < queued_ && queued_ < points_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
-            const Point& from = points_[queue_[first]];
-            if (from.wave == Point::unusable) continue;
-            for (const std::uint32_t neighbour : neighbours(from)) {
-                Point* to = colliding(neighbour);
-                if (!to || to->wave != Point::unreached) continue;
-                to->wave = wave;
-                push(*to);
-            }
+            const std::uint32_t from = queue_[first];
+            if (waves_[from] == unusable) continue;
+            for_colliding(points_[from], [&](std::uint32_t, std::uint32_t to) {
+                if (waves_[to] == unreached) push(to, wave);
+            });
         }
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(points_[queue_[i]]);
+            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i]);
         // Only now, because points of one wave must not see each other.
-        for (std::size_t i = last; i < queued_; ++i) {
-            Point& point = points_[queue_[i]];
-            if (point.state == VOX_PENETRATION_CROSSING) point.wave = Point::unusable;
-        }
+        for (std::size_t i = last; i < queued_; ++i)
+            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) waves_[queue_[i]] = unusable;
     }
 }
 
-void Stages::take_mean(Point& point) const {
+void Stages::take_mean(std::uint32_t place) const {
+    Point& point = points_[place];
     const Vec3d p = position(point.vertex);
     NeighbourMean mean;
-    for (const std::uint32_t neighbour : neighbours(point)) {
-        const Point* from = colliding(neighbour);
-        if (!from || from->wave >= point.wave || from->wave == Point::unreached) continue;
+    bool at_one = false; // a neighbour is at the same place: what is known there counts alone
+    for_colliding(point, [&](std::uint32_t neighbour, std::uint32_t from) {
+        if (at_one || waves_[from] >= waves_[place] || waves_[from] == unreached) return;
         const Vec3d way = position(neighbour) - p;
         const double squared = dot(way, way);
-        if (!(squared > no_distance)) { // at the same place
-            mean = NeighbourMean();
-            mean.add(1, way, from->depth, from->direction);
-            break;
-        }
-        mean.add(1 / squared, way, from->depth, from->direction);
-    }
+        at_one = !(squared > no_distance);
+        if (at_one) mean = NeighbourMean();
+        mean.add(at_one ? 1 : 1 / squared, way, points_[from].depth, points_[from].direction);
+    });
     point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
 }
 
 // Points that no wave reached become CROSSING when they are connected to a CROSSING point, and stay ENCLOSED
 // otherwise.
 void Stages::mark_unreached() {
+    if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
-    for (const Point& point : points_)
-        if (point.wave == Point::unusable) push(point);
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+        if (waves_[i] == unusable) push(i, unusable);
     for (std::size_t first = 0; first < queued_; ++first)
-        for (const std::uint32_t neighbour : neighbours(points_[queue_[first]])) {
-            Point* to = colliding(neighbour);
-            if (!to || to->wave != Point::unreached) continue;
-            to->wave = Point::unusable;
-            if (to->state != VOX_PENETRATION_COINCIDENT) to->state = VOX_PENETRATION_CROSSING;
-            push(*to);
-        }
+        for_colliding(points_[queue_[first]], [&](std::uint32_t, std::uint32_t to) {
+            if (waves_[to] != unreached) return;
+            if (points_[to].state != VOX_PENETRATION_COINCIDENT) points_[to].state = VOX_PENETRATION_CROSSING;
+            push(to, unusable);
+        });
 }
 
 } // namespace
 
-void find_consistent_depths(const BodyPair& pair, std::span<Point> points, std::span<std::uint32_t> number,
-                            std::span<std::uint32_t> queue, Normals& normals, Counts& counts) {
-    Stages(pair, points, number, queue, normals, counts).run();
+void find_consistent_depths(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch,
+                            Counts& counts) {
+    Stages(pair, points, scratch, counts).run();
 }
 
 } // namespace vox::depth

@@ -54,7 +54,7 @@ private:
         Normals normals;
         Counts counts;
 
-        auto buffers() { return std::tie(normals); }
+        auto buffers() { return normals.buffers(); }
     };
     struct Scene {
         std::span<const Body> bodies;

@@ -2,9 +2,14 @@
 // the lengths of the two edges, which is exact for corners on a sphere (Max, "Weights for computing vertex
 // normals from facet normals", Journal of Graphics Tools 4, 1999). Triangles whose normals are more than 60
 // degrees from that of the triangle in question are left out, so that the faces of a box stay flat.
+//
+// Where all triangles around a corner are within 29 degrees of their mean, none of them leaves out another,
+// and the sum is the same for each.
 #include "depth/normals.hpp"
 
 #include "base/vectors.hpp"
+
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 
@@ -21,62 +26,122 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i) {
 
 void Normals::begin(const Solid& solid) {
     solid_ = solid;
-    reserve(solid.topology->triangles.size());
-    if (++age_ == 0) { // after 2^32 calls
-        std::fill(faces_.begin(), faces_.end(), Face{});
-        age_ = 1;
+    face_places_.clear();
+    ring_places_.clear();
+    asked_places_.clear();
+    faces_.clear();
+    rings_.clear();
+    ring_faces_.clear();
+    asked_.clear();
+}
+
+// The place of a triangle in faces_.
+std::uint32_t Normals::add_face(std::uint32_t triangle) {
+    const std::uint32_t place = face_places_.add(triangle);
+    if (place == faces_.size()) {
+        const std::uint32_t* v = solid_.topology->triangles[triangle].v;
+        faces_.push_back({{}, {}, {v[0], v[1], v[2]}, triangle});
+    }
+    return place;
+}
+
+void Normals::prepare(std::span<const std::uint32_t> triangles) {
+    const std::size_t first_face = faces_.size(), first_asked = asked_.size();
+    for (const std::uint32_t triangle : triangles) {
+        if (asked_places_.add(triangle) < asked_.size()) continue;
+        Asked& asked = asked_.emplace_back();
+        asked.face = add_face(triangle);
+        for (const std::uint32_t v : faces_[asked.face].v) hwy::Prefetch(solid_.topology->links.place_of(v));
+    }
+    if (first_asked == asked_.size()) return;
+    list_rings(first_asked);
+    for (std::size_t i = first_face; i < faces_.size(); ++i) compute_face(faces_[i]);
+    for (std::size_t i = first_asked; i < asked_.size(); ++i) {
+        Asked& asked = asked_[i];
+        const Face& face = faces_[asked.face];
+        for (std::size_t c = 0; c < 3; ++c)
+            asked.normal[c] = corner_normal(face, face.v[c], rings_[asked.ring[c]]);
     }
 }
 
-Normals::Face& Normals::face(std::uint32_t triangle) {
-    Face& face = faces_[triangle];
-    if (face.age == age_) return face;
-    face.age = age_;
-    face.has_corners = false;
-    const Triangle& t = solid_.topology->triangles[triangle];
-    const Vec3d a = solid_.at(t.v[0]), b = solid_.at(t.v[1]), c = solid_.at(t.v[2]);
+// Those around the corners of triangles from `first_asked` on. These are anywhere in memory, so each pass
+// prefetches what the next one reads.
+void Normals::list_rings(std::size_t first_asked) {
+    const Topology& topology = *solid_.topology;
+    for (std::size_t i = first_asked; i < asked_.size(); ++i)
+        for (const std::uint32_t v : faces_[asked_[i].face].v) hwy::Prefetch(topology.links.record_of(v));
+    const std::size_t first_ring = rings_.size();
+    for (std::size_t i = first_asked; i < asked_.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t v = faces_[asked_[i].face].v[c];
+            asked_[i].ring[c] = ring_places_.add(v);
+            if (asked_[i].ring[c] < rings_.size()) continue;
+            const auto first = static_cast<std::uint32_t>(ring_faces_.size());
+            for (const std::uint32_t triangle : topology.ring_of(v)) {
+                ring_faces_.push_back(triangle); // its place comes later
+                hwy::Prefetch(&topology.triangles[triangle]);
+            }
+            rings_.push_back({first, static_cast<std::uint32_t>(ring_faces_.size()), false, false, {}});
+        }
+    if (first_ring == rings_.size()) return;
+    for (std::size_t i = rings_[first_ring].first; i < ring_faces_.size(); ++i)
+        ring_faces_[i] = add_face(ring_faces_[i]);
+}
+
+void Normals::compute_face(Face& face) const {
+    const Vec3d a = solid_.at(face.v[0]), b = solid_.at(face.v[1]), c = solid_.at(face.v[2]);
+    const Vec3d apex = solid_.at(solid_.topology->triangles[face.triangle].apex);
     const Vec3d ab = b - a, bc = c - b, ca = a - c;
     const Vec3d doubled = cross(ab, c - a);
     const double area = length(doubled);
-    const double inside = dot(doubled, solid_.at(t.apex) - a);
-    face.is_flat = inside == 0;
+    const double inside = dot(doubled, apex - a);
+    if (inside == 0) face.triangle |= Face::flat_bit;
     face.normal = normalised(inside > 0 ? -1.0 * doubled : doubled);
     // `area` is sin(angle) * e * f at each corner, with the lengths e and f of its edges.
     const double lab = dot(ab, ab), lbc = dot(bc, bc), lca = dot(ca, ca);
     const auto weight = [area](double e, double f) { return e > 0 && f > 0 ? area / e / f : 0; };
-    face.corner_weight[0] = weight(lab, lca);
-    face.corner_weight[1] = weight(lab, lbc);
-    face.corner_weight[2] = weight(lbc, lca);
-    return face;
+    face.weight[0] = weight(lab, lca);
+    face.weight[1] = weight(lab, lbc);
+    face.weight[2] = weight(lbc, lca);
 }
 
-const Normals::Face& Normals::face_with_corners(std::uint32_t triangle) {
+// The normal at a corner of the triangle `asking`.
+Vec3d Normals::corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const {
+    if (ring.is_smooth) return ring.normal;
     constexpr double crease = 0.5; // the cosine of 60 degrees
-    Face& asking = face(triangle);
-    if (asking.has_corners) return asking;
-    asking.has_corners = true;
-    const Triangle& t = solid_.topology->triangles[triangle];
-    for (int i = 0; i < 3; ++i) {
-        Vec3d sum{0, 0, 0};
-        for (const std::uint32_t other : solid_.topology->ring_of(t.v[i])) {
-            const Face& f = face(other);
-            const double cosine = dot(f.normal, asking.normal);
-            const bool turn = cosine < 0 && (f.is_flat || asking.is_flat);
-            if ((turn ? -cosine : cosine) < crease) continue;
-            const std::uint32_t* v = solid_.topology->triangles[other].v;
-            const double weight = f.corner_weight[v[0] == t.v[i] ? 0 : v[1] == t.v[i] ? 1 : 2];
-            sum = sum + (turn ? -weight : weight) * f.normal;
-        }
-        asking.corner[i] = normalised(sum);
+    Vec3d sum{0, 0, 0};
+    bool all = true; // take part, as they are
+    for (std::uint32_t i = ring.first; i < ring.last; ++i) {
+        const Face& f = faces_[ring_faces_[i]];
+        const double cosine = dot(f.normal, asking.normal);
+        const bool turn = cosine < 0 && (f.is_flat() || asking.is_flat());
+        const bool close = (turn ? -cosine : cosine) >= crease;
+        const double weight = f.weight_at(vertex);
+        sum = sum + (!close ? 0.0 : turn ? -weight : weight) * f.normal;
+        all &= close && !turn && !f.is_flat();
     }
-    return asking;
+    const Vec3d mean = normalised(sum);
+    if (all && !ring.is_rough) {
+        constexpr double near = 0.875; // the cosine of 29 degrees
+        ring.is_smooth = true;
+        for (std::uint32_t i = ring.first; i < ring.last; ++i)
+            ring.is_smooth &= dot(faces_[ring_faces_[i]].normal, mean) > near;
+        ring.is_rough = !ring.is_smooth;
+        ring.normal = mean;
+    }
+    return mean;
 }
 
 Vec3d Normals::at(const SurfacePoint& point, const Vec3d& outward) {
-    const Face& face = face_with_corners(point.triangle);
-    const Vec3d normal = normalised(point.weight[0] * face.corner[0] + point.weight[1] * face.corner[1] +
-                                    point.weight[2] * face.corner[2]);
-    return dot(face.normal, outward) < 0 ? -1.0 * normal : normal;
+    std::uint32_t place = asked_places_[point.triangle];
+    if (place == PlaceMap::none) {
+        prepare({&point.triangle, 1});
+        place = asked_places_[point.triangle];
+    }
+    const Asked& asked = asked_[place];
+    const Vec3d normal = normalised(point.weight[0] * asked.normal[0] + point.weight[1] * asked.normal[1] +
+                                    point.weight[2] * asked.normal[2]);
+    return dot(faces_[asked.face].normal, outward) < 0 ? -1.0 * normal : normal;
 }
 
 } // namespace vox::depth

@@ -1,11 +1,14 @@
 // Smooth normals of a surface. Each is computed when it is first needed, and kept.
 #pragma once
 
+#include "base/place_map.hpp"
 #include "depth/walk.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox::depth {
@@ -15,38 +18,64 @@ Vec3d facet_normal(const Solid& solid, std::uint32_t tet, int i);
 
 class Normals {
 public:
-    explicit Normals(std::pmr::memory_resource* memory) : faces_(memory) {}
+    explicit Normals(std::pmr::memory_resource* memory)
+        : face_places_(memory), ring_places_(memory), asked_places_(memory), faces_(memory), rings_(memory),
+          ring_faces_(memory), asked_(memory) {}
 
-    // Makes room for surfaces of that many triangles.
-    void reserve(std::size_t triangles) {
-        if (triangles > faces_.size()) faces_.resize(triangles);
-    }
-
-    std::size_t capacity() const noexcept { return faces_.size(); }
-
-    // Call it before at(), for another solid or when positions have changed.
+    // Call it before the others, for another solid or when positions have changed.
     void begin(const Solid& solid);
 
-    // The unit normal at a point of the surface, interpolated from normals at the corners, on the side of the
-    // triangle to which `outward` points. Zero where the triangle has no area.
+    // Computes what at() needs of these triangles, unless that is known: for many triangles sooner than one
+    // by one. Throws what the memory throws.
+    void prepare(std::span<const std::uint32_t> triangles);
+
+    // The unit normal at a point of a triangle, interpolated from normals at the corners, on the side to
+    // which `outward` points. Zero where the triangle has no area. Throws as prepare(), of other triangles.
     Vec3d at(const SurfacePoint& point, const Vec3d& outward);
 
+    auto buffers() {
+        return std::tie(face_places_, ring_places_, asked_places_, faces_, rings_, ring_faces_, asked_);
+    }
+
 private:
-    struct Face {
-        std::uint32_t age = 0; // age_ when the rest was computed
-        bool has_corners = false;
-        bool is_flat = false;      // its tetrahedron is flat, so neither side is outside
-        Vec3d normal{};            // out of its tetrahedron; unit, or zero
-        double corner_weight[3]{}; // of `normal` in the normals of the corners
-        Vec3d corner[3]{};         // unit normals at the corners
+    // A triangle, in one cache line.
+    struct alignas(64) Face {
+        static constexpr std::uint32_t flat_bit = 0x80000000u;
+
+        Vec3d normal;           // out of its tetrahedron; unit, or zero
+        double weight[3];       // of `normal` in the normals of the corners
+        std::uint32_t v[3];     // its corners
+        std::uint32_t triangle; // and flat_bit: its tetrahedron is flat, so neither side is outside
+
+        bool is_flat() const noexcept { return (triangle & flat_bit) != 0; }
+        double weight_at(std::uint32_t vertex) const noexcept {
+            return weight[v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2];
+        }
+    };
+    // The triangles around a vertex.
+    struct Ring {
+        std::uint32_t first, last; // in ring_faces_
+        bool is_smooth, is_rough;  // whether all triangles have `normal` here; neither: not known yet
+        Vec3d normal;
+    };
+    // A triangle that was prepared.
+    struct Asked {
+        std::uint32_t face;
+        std::uint32_t ring[3];
+        Vec3d normal[3]; // at its corners; unit
     };
 
-    Face& face(std::uint32_t triangle);
-    const Face& face_with_corners(std::uint32_t triangle);
+    std::uint32_t add_face(std::uint32_t triangle);
+    void list_rings(std::size_t first_asked);
+    void compute_face(Face& face) const;
+    Vec3d corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const;
 
     Solid solid_{};
-    std::uint32_t age_ = 0;
+    PlaceMap face_places_, ring_places_, asked_places_; // by triangle, vertex, triangle
     std::pmr::vector<Face> faces_;
+    std::pmr::vector<Ring> rings_;
+    std::pmr::vector<std::uint32_t> ring_faces_;
+    std::pmr::vector<Asked> asked_;
 };
 
 } // namespace vox::depth

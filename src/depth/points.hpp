@@ -14,13 +14,10 @@ constexpr std::uint32_t no_triangle = 0xffffffffu;
 
 // A colliding vertex of one body, and what is found for it.
 struct Point {
-    static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
-
     std::size_t hit;   // the first hit of the pair with this vertex
     std::size_t place; // index of its penetration
     std::uint32_t vertex;
     std::uint32_t tet;              // of the hit
-    std::uint32_t wave = unreached; // the one in which depth and direction were found
     vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
     bool interior; // certainly in the interior of `tet`; else it may be on its boundary
     double depth = 0;
@@ -32,6 +29,7 @@ struct Point {
 struct BodyPair {
     const Topology* topology_a;
     Positions positions_a;
+    std::uint32_t vertex_count_a;
     Solid b;
     bool self;
 };

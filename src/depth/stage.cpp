@@ -2,7 +2,6 @@
 
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
-#include "depth/consistent.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -112,14 +111,11 @@ std::size_t DepthStage::list_points(const Scene& scene, std::span<const vox_cont
 
 void DepthStage::find_consistent(const Scene& scene, const Range& range, Worker& worker) {
     const Hit& hit = scene.hits[points_[range.first].hit];
-    const std::size_t count = range.last - range.first;
-    const std::size_t vertices = scene.bodies[hit.body_a].vertex_count;
-    if (worker.number.size() < vertices) worker.number.resize(vertices, 0);
-    if (worker.queue.size() < count) worker.queue.resize(count);
-    const BodyPair pair{scene.topologies[hit.body_a], scene.bodies[hit.body_a].positions,
-                        scene.solid(hit.body_b), hit.body_a == hit.body_b};
-    find_consistent_depths(pair, std::span(points_).subspan(range.first, count), worker.number, worker.queue,
-                           worker.normals, worker.counts);
+    const Body& a = scene.bodies[hit.body_a];
+    const BodyPair pair{scene.topologies[hit.body_a], a.positions, a.vertex_count, scene.solid(hit.body_b),
+                        hit.body_a == hit.body_b};
+    find_consistent_depths(pair, std::span(points_).subspan(range.first, range.last - range.first),
+                           worker.consistent, worker.counts);
 }
 
 } // namespace vox

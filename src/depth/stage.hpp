@@ -4,8 +4,8 @@
 
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
+#include "depth/consistent.hpp"
 #include "depth/fallback.hpp"
-#include "depth/normals.hpp"
 #include "depth/penetrations.hpp"
 #include "depth/points.hpp"
 #include "mesh/topology.hpp"
@@ -50,13 +50,12 @@ private:
         std::size_t place; // index of its penetration
     };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory) : number(memory), queue(memory), normals(memory) {}
+        explicit Worker(std::pmr::memory_resource* memory) : consistent(memory) {}
 
-        std::pmr::vector<std::uint32_t> number, queue;
-        depth::Normals normals;
+        depth::ConsistentScratch consistent;
         depth::Counts counts;
 
-        auto buffers() { return std::tie(number, queue, normals); }
+        auto buffers() { return consistent.buffers(); }
     };
     struct Scene {
         std::span<const Body> bodies;

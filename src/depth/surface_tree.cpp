@@ -235,7 +235,7 @@ bool SurfaceTree::fits_frame() {
 // algorithm", Journal of the ACM 22, 1975).
 void SurfaceTree::find_parts() {
     const Topology& topology = *solid_.topology;
-    const auto count = static_cast<std::uint32_t>(topology.neighbours.size());
+    const auto count = static_cast<std::uint32_t>(topology.links.size());
     part_.resize(count);
     for (std::uint32_t v = 0; v < count; ++v) part_[v] = v;
     const auto root = [&](std::uint32_t v) {

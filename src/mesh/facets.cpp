@@ -71,10 +71,13 @@ void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<c
         count += lowest ? 3 : 1;
     }
     facets.resize(count);
+}
+
+void sort_facets(std::span<TetFacet> facets) {
     constexpr std::size_t few = 48;
-    if (count > few) return std::sort(facets.begin(), facets.end());
+    if (facets.size() > few) return std::sort(facets.begin(), facets.end());
     // By insertion, as each element costs one mispredicted branch.
-    for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t i = 1; i < facets.size(); ++i) {
         const TetFacet facet = facets[i];
         std::size_t j = i;
         for (; j > 0 && facet < facets[j - 1]; --j) facets[j] = facets[j - 1];
@@ -106,12 +109,56 @@ void MatchedFacets::match(std::span<const Tet> tets, std::span<const TetFacet> s
     }
 }
 
+void FacetMatcher::match_at(std::uint32_t vertex, std::span<const std::uint32_t> around) {
+    list_facets_at(vertex, tets_, around, facets_);
+    if (facets_.size() <= most_hashed && match_pairs(vertex)) return;
+    sort_facets(facets_);
+    for_equal_facets(facets_, [&](std::span<const TetFacet> same) { out_.match(tets_, same); });
+}
+
+// Almost all facets belong to one tetrahedron or two different ones, which a small hash table finds sooner
+// than sorting does. Returns false, and has matched nothing, where a facet does not.
+bool FacetMatcher::match_pairs(std::uint32_t vertex) {
+    constexpr std::uint32_t none = 0xffffffffu;
+    constexpr std::size_t last = (std::size_t{1} << table_bits) - 1;
+    const auto count = static_cast<std::uint32_t>(facets_.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const TetFacet& facet = facets_[i];
+        // Multiplicative hashing (D. E. Knuth, The Art of Computer Programming 3, Sect. 6.4).
+        std::size_t place = facet.others * 0x9e3779b97f4a7c15u >> (64 - table_bits);
+        while (table_[place].used_at == vertex + 1 && table_[place].others != facet.others)
+            place = (place + 1) & last;
+        Slot& slot = table_[place];
+        partner_[i] = none;
+        if (slot.used_at != vertex + 1) {
+            slot = {facet.others, vertex + 1, i};
+            continue;
+        }
+        if (partner_[slot.first] != none || facets_[slot.first].opposite == facet.opposite) return false;
+        partner_[slot.first] = facet.tet();
+        partner_[i] = facets_[slot.first].tet();
+    }
+    std::size_t alone = 0; // they move to the front
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const TetFacet facet = facets_[i];
+        if (partner_[i] != none)
+            out_.across[facet.tet()][facet.index()] = partner_[i];
+        else
+            facets_[alone++] = facet;
+    }
+    facets_.resize(alone);
+    sort_facets(facets_);
+    for (const TetFacet& facet : facets_) out_.match(tets_, {&facet, 1});
+    return true;
+}
+
 void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out) {
     std::pmr::memory_resource* memory = out.across.get_allocator().resource();
     MatchedFacets made(memory);
     made.clear(tets.size());
-    for_each_facet(tets, vertex_count, memory,
-                   [&](std::uint32_t, std::span<const TetFacet> same) { made.match(tets, same); });
+    const IndexLists around = list_by_lowest(tets, vertex_count, memory);
+    FacetMatcher matcher(tets, made);
+    for (std::uint32_t v = 0; v < vertex_count; ++v) matcher.match_at(v, around[v]);
     out = std::move(made);
 }
 

@@ -73,9 +73,10 @@ struct TetFacet {
 IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
                            std::pmr::memory_resource* memory);
 
-// The facets whose lowest vertex is `vertex`, sorted; `around` lists the tetrahedra there.
+// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
 void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
                     std::pmr::vector<TetFacet>& facets);
+void sort_facets(std::span<TetFacet> facets);
 
 // Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
 template <class Visit>
@@ -99,6 +100,7 @@ void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::
     std::pmr::vector<TetFacet> facets(memory);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
         list_facets_at(v, tets, around[v], facets);
+        sort_facets(facets);
         for_equal_facets(facets, [&](std::span<const TetFacet> same) { visit(v, same); });
     }
 }
@@ -126,6 +128,33 @@ struct MatchedFacets {
     void clear(std::size_t tets);
     // Matches the tetrahedra that have one facet.
     void match(std::span<const Tet> tets, std::span<const TetFacet> same);
+};
+
+// Matches facets vertex by vertex, in ascending order.
+class FacetMatcher {
+public:
+    // `out` is prepared for `tets`.
+    FacetMatcher(std::span<const Tet> tets, MatchedFacets& out)
+        : tets_(tets), out_(out), facets_(out.across.get_allocator()) {}
+
+    // Those whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
+    void match_at(std::uint32_t vertex, std::span<const std::uint32_t> around);
+
+private:
+    static constexpr std::size_t most_hashed = 96, table_bits = 8;
+    struct Slot {
+        std::uint64_t others = 0;
+        std::uint32_t used_at = 0; // the vertex plus 1
+        std::uint32_t first = 0;   // of facets_
+    };
+
+    bool match_pairs(std::uint32_t vertex);
+
+    std::span<const Tet> tets_;
+    MatchedFacets& out_;
+    std::pmr::vector<TetFacet> facets_;
+    std::array<std::uint32_t, most_hashed> partner_{}; // the tetrahedron on the other side of each facet
+    std::array<Slot, std::size_t{1} << table_bits> table_{};
 };
 
 // More tetrahedra cannot be matched: lists of three corners of four facets have 32-bit ends.

@@ -5,6 +5,7 @@
 #include "mesh/check.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vox {
 
@@ -41,7 +42,8 @@ MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::mem
     std::uint64_t before = 0; // ends at the vertices before v
     for_stratified(ends, wanted, 0.5, [&](std::uint64_t end) {
         while (end >= before + topology.neighbours_of(v).size()) before += topology.neighbours_of(v++).size();
-        sample.edges.push_back({v, topology.neighbours_of(v)[static_cast<std::size_t>(end - before)]});
+        sample.edges.push_back(
+            {v, *std::next(topology.neighbours_of(v).begin(), static_cast<std::ptrdiff_t>(end - before))});
     });
 
     sample.boundary_facet_count = topology.triangles.size();

@@ -16,6 +16,55 @@ void check_tet_count(std::uint64_t tets) {
                            static_cast<unsigned long long>(tets), most_tets));
 }
 
+namespace {
+
+// Sorts numbers that are all different. Where they are few, each is counted below the others, because a sort
+// would mispredict a branch for each of them.
+void sort_distinct(std::span<std::uint32_t> numbers) {
+    constexpr std::size_t few = 32;
+    const std::size_t count = numbers.size();
+    if (count > few) return std::sort(numbers.begin(), numbers.end());
+    const std::size_t padded = (count + 7) / 8 * 8;
+    std::int32_t number[few], below[few];
+    for (std::size_t i = 0; i < padded; ++i) {
+        number[i] = i < count ? static_cast<std::int32_t>(numbers[i] ^ 0x80000000u) : 0; // in the same order
+        below[i] = 0;
+    }
+    for (std::size_t j = 0; j < count; ++j)
+        for (std::size_t i = 0; i < padded; ++i) below[i] += number[j] < number[i];
+    for (std::size_t i = 0; i < count; ++i)
+        numbers[static_cast<std::size_t>(below[i])] = static_cast<std::uint32_t>(number[i]) ^ 0x80000000u;
+}
+
+// The triangles around vertices, while triangles are added at their lowest vertices: lists that are linked
+// from their last triangle to their first one.
+class GrowingRings {
+public:
+    GrowingRings(std::uint32_t vertex_count, std::pmr::memory_resource* memory)
+        : last_(vertex_count, none, memory), before_(memory) {}
+
+    void add(const std::pmr::vector<Triangle>& triangles) {
+        for (auto t = static_cast<std::uint32_t>(before_.size()); t < triangles.size(); ++t) {
+            std::array<std::uint32_t, 3>& before = before_.emplace_back();
+            for (std::size_t i = 0; i < 3; ++i)
+                before[i] = std::exchange(last_[triangles[t].v[i]], 4 * t + static_cast<std::uint32_t>(i));
+        }
+    }
+    void list(std::uint32_t vertex, std::pmr::vector<std::uint32_t>& ring) const {
+        ring.clear();
+        for (std::uint32_t at = last_[vertex]; at != none; at = before_[at / 4][at % 4])
+            ring.push_back(at / 4);
+        std::reverse(ring.begin(), ring.end());
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+    std::pmr::vector<std::uint32_t> last_; // 4 * triangle + corner
+    std::pmr::vector<std::array<std::uint32_t, 3>> before_;
+};
+
+} // namespace
+
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out) {
     std::pmr::memory_resource* memory = out.across.get_allocator().resource();
     Topology made(memory);
@@ -26,24 +75,32 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
     check_tet_count(tets.size());
     const IndexLists tets_around = list_whole_tets(tets, vertex_count, memory);
     std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
-    std::pmr::vector<TetFacet> facets(memory);
-    made.neighbours.reserve(vertex_count);
+    std::pmr::vector<std::uint32_t> neighbours(memory), ring(memory);
+    GrowingRings rings(vertex_count, memory);
     made.clear(tets.size());
+    made.links.resize(vertex_count);
+    constexpr std::size_t usual_words =
+        10; // for a vertex with 14 neighbours, and some that are on the surface
+    made.links.reserve(usual_words * vertex_count);
+    FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        made.neighbours.begin_list();
-        for (const std::uint32_t t : tets_around[v])
-            for (const std::uint32_t w : tets[t].v)
-                if (w != v && std::exchange(met[w], v + 1) != v + 1) made.neighbours.push(w);
-        const std::span<std::uint32_t> neighbours = made.neighbours[v];
-        std::sort(neighbours.begin(), neighbours.end());
-        list_facets_at(v, tets, tets_around[v], facets);
-        for_equal_facets(facets, [&](std::span<const TetFacet> same) { made.match(tets, same); });
+        const std::span<const std::uint32_t> around = tets_around[v];
+        matcher.match_at(v, around);
+        rings.add(made.triangles);
+        rings.list(v, ring); // later triangles have higher vertices alone
+        if (neighbours.size() < 4 * around.size()) neighbours.resize(4 * around.size());
+        std::size_t count = 0;
+        met[v] = v + 1;
+        for (const std::uint32_t t : around)
+            for (const std::uint32_t w : tets[t].v) {
+                neighbours[count] = w;
+                count += std::exchange(met[w], v + 1) != v + 1;
+            }
+        sort_distinct(std::span(neighbours).first(count));
+        made.links.assign(v, std::span(neighbours).first(count), ring);
     }
-    made.neighbours.shrink_to_fit();
+    made.links.shrink_to_fit();
     made.triangles.shrink_to_fit();
-    made.rings.list_by_vertex(
-        static_cast<std::uint32_t>(made.triangles.size()), vertex_count,
-        [&](std::uint32_t t) { return std::span<const std::uint32_t>(made.triangles[t].v); });
     out = std::move(made);
 }
 
@@ -55,7 +112,7 @@ class Repair {
 public:
     Repair(std::span<const Tet> tets, const IndexLists& tets_of, Topology& topology)
         : tets_(tets), tets_of_(tets_of), topology_(topology), facets_(tets_of.memory()),
-          found_(tets_of.memory()) {}
+          neighbours_(tets_of.memory()), ring_(tets_of.memory()) {}
 
     void run(std::span<const TetChange> changes) {
         constexpr std::array<std::uint32_t, 4> nothing{Topology::nothing, Topology::nothing,
@@ -81,11 +138,15 @@ private:
         if (found == ring.end()) return;
         const std::uint32_t hole = *found;
         const auto last = static_cast<std::uint32_t>(topology_.triangles.size() - 1);
-        for (const std::uint32_t v : {key.low, key.middle, key.high}) topology_.rings.remove(v, hole);
+        for (const std::uint32_t v : {key.low, key.middle, key.high}) {
+            copy_links(v);
+            std::erase(ring_, hole);
+            topology_.links.assign(v, neighbours_, ring_);
+        }
         if (hole != last) {
             const FacetKey moved = topology_.key(last);
             for (const std::uint32_t v : {moved.low, moved.middle, moved.high})
-                for (std::uint32_t& t : topology_.rings[v])
+                for (std::uint32_t& t : topology_.links.ring(v))
                     if (t == last) t = hole;
             for_tets_at(moved, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
                 std::uint32_t& across = topology_.across[tet][i];
@@ -107,44 +168,50 @@ private:
         if (!facets_.empty()) topology_.match(tets_, facets_);
         if (topology_.triangles.size() == triangle) return;
         for (const std::uint32_t v : {key.low, key.middle, key.high}) {
-            const std::span<const std::uint32_t> ring = topology_.ring_of(v);
-            const auto place = std::find_if(ring.begin(), ring.end(),
-                                            [&](std::uint32_t t) { return topology_.before(triangle, t); });
-            topology_.rings.insert(v, static_cast<std::size_t>(place - ring.begin()), triangle);
+            copy_links(v);
+            ring_.insert(std::find_if(ring_.begin(), ring_.end(),
+                                      [&](std::uint32_t t) { return topology_.before(triangle, t); }),
+                         triangle);
+            topology_.links.assign(v, neighbours_, ring_);
         }
     }
 
     void find_neighbours(std::uint32_t vertex) {
-        found_.clear();
+        copy_links(vertex);
+        neighbours_.clear();
         for (const std::uint32_t t : tets_of_[vertex]) {
             if (names_a_vertex_twice(tets_[t])) continue;
             for (const std::uint32_t v : tets_[t].v)
-                if (v != vertex) found_.push_back(v);
+                if (v != vertex) neighbours_.push_back(v);
         }
-        std::sort(found_.begin(), found_.end());
-        found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-        topology_.neighbours.assign(vertex, found_);
+        std::sort(neighbours_.begin(), neighbours_.end());
+        neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+        topology_.links.assign(vertex, neighbours_, ring_);
+    }
+
+    void copy_links(std::uint32_t vertex) {
+        const NeighbourRange neighbours = topology_.neighbours_of(vertex);
+        const std::span<const std::uint32_t> ring = topology_.ring_of(vertex);
+        neighbours_.assign(neighbours.begin(), neighbours.end());
+        ring_.assign(ring.begin(), ring.end());
     }
 
     std::span<const Tet> tets_;
     const IndexLists& tets_of_;
     Topology& topology_;
     std::pmr::vector<TetFacet> facets_;
-    std::pmr::vector<std::uint32_t> found_;
+    std::pmr::vector<std::uint32_t> neighbours_, ring_; // of a vertex
 };
 
 } // namespace
 
 void add_vertices(std::uint32_t vertex_count, Topology& topology) {
-    if (topology.neighbours.empty()) return; // there are no tetrahedra yet
-    topology.neighbours.resize(vertex_count);
-    topology.rings.resize(vertex_count);
+    if (!topology.links.empty()) topology.links.resize(vertex_count); // else there are no tetrahedra yet
 }
 
 void repair_topology(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                      Topology& topology) {
-    topology.neighbours.resize(tets_of.size());
-    topology.rings.resize(tets_of.size());
+    topology.links.resize(tets_of.size());
     Repair(tets, tets_of, topology).run(changes);
 }
 

@@ -8,6 +8,7 @@
 #include "base/scene.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/tet_changes.hpp"
+#include "mesh/vertex_links.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,19 +20,17 @@ namespace vox {
 
 // All empty for a mesh without tetrahedra.
 struct Topology : MatchedFacets {
-    explicit Topology(std::pmr::memory_resource* memory) noexcept
-        : MatchedFacets(memory), neighbours(memory), rings(memory) {}
+    explicit Topology(std::pmr::memory_resource* memory) noexcept : MatchedFacets(memory), links(memory) {}
 
-    IndexLists neighbours; // of each vertex, over edges, ascending
-    IndexLists rings;      // of each vertex the triangles around it, in the order of before()
+    // Of each vertex the neighbours over edges, and the triangles around it in the order of before().
+    VertexLinks links;
 
-    std::span<const std::uint32_t> neighbours_of(std::uint32_t vertex) const noexcept {
-        if (neighbours.empty()) return {};
-        return neighbours[vertex];
+    NeighbourRange neighbours_of(std::uint32_t vertex) const noexcept {
+        return links.empty() ? NeighbourRange() : links.neighbours(vertex);
     }
     std::span<const std::uint32_t> ring_of(std::uint32_t vertex) const noexcept {
-        if (rings.empty()) return {};
-        return rings[vertex];
+        if (links.empty()) return {};
+        return links.ring(vertex);
     }
 
     // The order of triangles by their sorted vertices, which does not depend on earlier edits.
