@@ -265,8 +265,8 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
         auto next = std::lower_bound(by_x.begin(), by_x.end(), box.lo[0],
                                      [&](std::uint32_t v, float x) { return mesh.positions[v].x < x; });
         for (; next != by_x.end() && mesh.positions[*next].x <= box.hi[0]; ++next)
-            if (!in_foreign[*next] && overlap(box, box_around(mesh.positions[*next])) &&
-                !owns(tet, *next) && holds(locate_in(mesh, tet, mesh.positions[*next])))
+            if (!in_foreign[*next] && overlap(box, box_around(mesh.positions[*next])) && !owns(tet, *next) &&
+                holds(locate_in(mesh, tet, mesh.positions[*next])))
                 in_foreign[*next] = true;
     }
     checked.inside = std::size_t(std::count(in_foreign.begin(), in_foreign.end(), true));
@@ -279,9 +279,11 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
         std::uint64_t exact_tests = 0;
         const std::vector<Box> supers = super_boxes_of(mesh, tiles);
         const std::vector<std::uint8_t> upright(supers.size());
-        const fast::WindingBody body{tiles,        surface,      packed(mesh),  vertex_count(mesh),
-                                     box_of(mesh), cell_size,    supers.data(), upright.data(),
-                                     boxes.data(), known.data(), turning,       nullptr};
+        const std::vector<float> unknown(supers.size(), float_infinity);
+        const fast::WindingBody body{tiles,          surface,      packed(mesh),  vertex_count(mesh),
+                                     box_of(mesh),   cell_size,    supers.data(), unknown.data(),
+                                     upright.data(), boxes.data(), known.data(),  turning,
+                                     nullptr};
         checked.certified = fast::certify(body, certificate, exact_tests);
         if (!checked.certified) return;
         const std::vector<std::uint8_t> cells(certificate.certified.begin(), certificate.certified.end());
@@ -301,7 +303,8 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
                           "%s: the box of vertex %u is certified, the vertex is not", name, v);
         }
         for (const Box& box : supers) { // as its cells one by one
-            const fast::WindowCell lo = certificate.lattice.cell(box.lo), hi = certificate.lattice.cell(box.hi);
+            const fast::WindowCell lo = certificate.lattice.cell(box.lo),
+                                   hi = certificate.lattice.cell(box.hi);
             bool all = true;
             fast::WindowCell c = lo;
             for (c.index[2] = lo.index[2]; c.index[2] <= hi.index[2]; ++c.index[2])
@@ -311,7 +314,7 @@ Checked check_certificate(const Mesh& prepared, const Mesh& mesh, double cell_si
             ck_assert_msg(all || !certificate.holds(box), "%s: a box of uncertified cells is certified",
                           name);
         }
-        ck_assert(turning.is_known);
+        ck_assert(turning.is_used);
     });
     return checked;
 }

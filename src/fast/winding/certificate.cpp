@@ -163,7 +163,7 @@ public:
 
     bool run() {
         const bool certified = certify();
-        if (!oriented_) body_.orientation.is_known = false; // it was not used, so it is not worth keeping
+        if (!oriented_) body_.orientation.is_used = false; // not worth following then
         return certified;
     }
 
@@ -227,35 +227,12 @@ private:
 
     // Finds the tets that are not certainly positive, among those that may have turned over.
     void orient_tets() {
-        const Tiles& tiles = body_.tiles;
-        OrientationCache& cache = body_.orientation;
-        const std::uint32_t supers = tiles.super_tile_count();
-        const auto positive = static_cast<std::uint32_t>(
-            std::count(body_.super_positive, body_.super_positive + supers, std::uint8_t{1}));
-        measure_ = wants_reference(cache, supers - positive, supers);
-        if (measure_) {
-            const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
-            cache.is_known = false;
-            cache.reference.assign(body_.positions, body_.positions + coordinates);
-            cache.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
-            cache.slack.resize(supers);
-        }
-        const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
-        const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t s = begin; s < end; ++s) {
-                if (!measure_ && body_.super_positive[s]) continue;
-                const float width = orient(tiles, body_.boundary, body_.positions, body_.rounded,
-                                           tiles.super_first[s], tiles.super_first[s + 1], body_.tile_boxes,
-                                           body_.tile_known, out_.bad.data(), measure_);
-                if (measure_) cache.slack[s] = width - rounding;
-            }
-        };
-        constexpr std::size_t task_supers = 16; // are worth a task: by bench_stages, 20 microseconds
-        if (body_.workers)
-            body_.workers->for_ranges(supers, task_supers, part);
-        else
-            part(0, supers, 0);
-        if (measure_) cache.is_known = true;
+        const OrientedBody oriented{body_.tiles,        body_.boundary,
+                                    body_.positions,    body_.vertex_count,
+                                    body_.rounded,      body_.rounded ? slack_of_rounding(body_.box) : 0,
+                                    body_.super_change, body_.super_positive,
+                                    body_.tile_boxes,   body_.tile_known};
+        orient(oriented, body_.orientation, out_.bad.data(), body_.workers);
     }
 
     // Intersects the sets of some cells with `set`. False when that becomes too much work.
@@ -352,7 +329,7 @@ private:
         const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            if (!measure_ && body_.super_positive[s]) continue; // it has none
+            if (body_.super_positive[s]) continue; // it has none
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                     const Vertices corners =
@@ -482,7 +459,7 @@ private:
     std::uint64_t& exact_tests_;
     std::uint32_t nx_ = 0, nxy_ = 0;
     std::size_t cells_ = 0, work_left_ = 0;
-    bool oriented_ = false, measure_ = false;
+    bool oriented_ = false;
     std::size_t known_ = 0, inside_ = 0; // components; untouched cells that are not outside
     std::size_t first_cell_[most_components];
 };

@@ -72,6 +72,7 @@ struct WindingBody {
     Box box;
     double cell_size;                   // of the lattice
     const Box* super_boxes;             // boxes that hold the super-tiles
+    const float* super_change;          // see track_orientation()
     const std::uint8_t* super_positive; // whether all tets of a super-tile are known to be positive
     Box* tile_boxes;                    // boxes that are needed are made
     std::uint8_t* tile_known;
