@@ -316,11 +316,11 @@ START_TEST(positive_to_the_last) {
 END_TEST
 
 START_TEST(a_super_tile_too_fast_to_follow) {
-    const auto references = [](auto&& failed) {
+    const auto references = [](auto&& failed, std::uint32_t flat = 0) {
         fast::Shape shape{};
         int count = 0;
         for (std::uint32_t step = 1; step <= 400; ++step) {
-            if (!fast::wants_reference(shape, failed(step - shape.measured), 100, step)) continue;
+            if (!fast::wants_reference(shape, failed(step - shape.measured), flat, 100, step)) continue;
             ++count;
             shape.is_known = true;
             shape.measured = step;
@@ -331,7 +331,10 @@ START_TEST(a_super_tile_too_fast_to_follow) {
     ck_assert_int_gt(too_fast, 5); // it may calm down
     ck_assert_int_lt(too_fast, 20);
     ck_assert_int_gt(references([](std::uint32_t age) { return 4 * age; }), 40); // a few more in each step
-    ck_assert_int_eq(references([](std::uint32_t) { return 40u; }), 1); // the same ones at once: no use
+    // The same ones at once, or flat ones: tried again, but rarely.
+    ck_assert_int_lt(references([](std::uint32_t) { return 40u; }), 15);
+    ck_assert_int_lt(references([](std::uint32_t) { return 0u; }, 60), 15);
+    ck_assert_int_gt(references([](std::uint32_t) { return 0u; }, 60), 5);
 }
 END_TEST
 

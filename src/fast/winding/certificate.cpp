@@ -205,7 +205,7 @@ private:
             if (out_.directions[0] != untouched) return false;
             judge(true);
         }
-        find_with_next();
+        out_.complete = out_.touched.empty();
         return true;
     }
 
@@ -294,7 +294,7 @@ private:
         bool safe[most_components + 1];
         for (std::size_t i = 0; i <= most_components; ++i)
             safe[i] = i == 0 || (i < known_ && (!count || covered_at_most_once(first_cell_[i])));
-        out_.certified.assign(cells_, 0);
+        out_.certified.assign(cells_ + Certificate::run, 0);
         for (const Components::Run& run : components.runs)
             std::fill(out_.certified.begin() + run.first, out_.certified.begin() + run.end,
                       std::uint8_t{safe[std::min<std::size_t>(run.component, most_components)]});
@@ -439,16 +439,6 @@ private:
             }
             touched.resize(kept);
         }
-    }
-
-    // At the far end of a row the next cell is the first of another row: one condition too many, which does
-    // no harm.
-    void find_with_next() {
-        out_.complete = out_.touched.empty();
-        std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
-        with_next = out_.certified;
-        for (const std::size_t step : {std::size_t{1}, std::size_t{nx_}, std::size_t{nxy_}})
-            for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
     }
 
     static constexpr std::size_t most_components =

@@ -305,6 +305,7 @@ namespace vox::fast {
 namespace {
 
 constexpr float nothing_known = float_infinity; // of a change
+constexpr std::uint32_t pause = 32;             // steps
 
 // A symmetric matrix with entries {xx, yy, zz, xy, yz, zx}, known up to roundings of doubles.
 using Symmetric = std::array<double, 6>;
@@ -459,22 +460,22 @@ void OrientationCache::forget(std::uint32_t super_tile) noexcept {
     shapes[super_tile].count = 0;
 }
 
-bool wants_reference(Shape& shape, std::uint32_t failed, std::uint32_t tiles, std::uint32_t step) noexcept {
+bool wants_reference(Shape& shape, std::uint32_t failed, std::uint32_t flat, std::uint32_t tiles,
+                     std::uint32_t step) noexcept {
     // Measuring costs about as much as orienting twice, so it has to serve several steps. A super-tile for
     // which it did not deforms too fast, and is left alone for a while. Tiles that fail at once will do so
-    // again after the next reference.
-    constexpr std::uint32_t young = 4, pause = 32; // steps
+    // again after the next reference, and flat ones may stay flat; it is tried now and then.
+    constexpr std::uint32_t young = 4; // steps
     if (!shape.is_known) return step >= shape.resumes;
     const std::uint32_t age = step - shape.measured;
     if (age == 1) shape.failed_at_first = failed;
-    const bool is_too_fast =
-        age == 1 ? failed > tiles / 2 : age < young && failed > shape.failed_at_first + tiles / 4;
-    if (is_too_fast) {
+    const std::uint32_t expected = shape.failed_at_first + tiles / 4;
+    if (age < young && failed > (age == 1 ? tiles / 2 : expected)) {
         shape.is_known = false;
         shape.resumes = step + pause;
         return false;
     }
-    return age >= young && failed > shape.failed_at_first + tiles / 4;
+    return (age >= young && failed > expected) || (age >= pause && failed + flat > tiles / 4);
 }
 
 namespace {
@@ -589,18 +590,22 @@ void measure(const OrientedBody& body, std::uint32_t super, OrientationCache& ca
     const float scale =
         VOX_SIMD_DISPATCH(Place)(body.positions, shape.holds_last_vertex, shape.count, points);
     weigh_samples(*points, shape);
-    shape.is_known = true;
     shape.measured = cache.step;
+    shape.failed_at_first = 0;
     shape.least_slack = float_infinity;
     shape.most_slack = 0;
     for (std::uint32_t t = body.tiles.super_first[super]; t < body.tiles.super_first[super + 1]; ++t) {
         const float width = measure_tile(body.tiles, body.boundary, body.positions, body.rounded, t,
                                          body.tile_boxes[t], bad[t]);
         body.tile_known[t] = 1;
+        cache.slack[t] = width;
+        if (width == float_infinity) continue; // no tets
         cache.slack[t] = (width - body.rounding) * scale * (1 - 0x1p-20f) - 2;
         shape.least_slack = std::min(shape.least_slack, cache.slack[t]);
         shape.most_slack = std::max(shape.most_slack, cache.slack[t]);
     }
+    shape.is_known = shape.most_slack > 0;
+    shape.resumes = cache.step + pause; // unless it is known
 }
 
 void orient_super(const OrientedBody& body, std::uint32_t super, const OrientationCache& cache,
@@ -614,19 +619,17 @@ void orient_super(const OrientedBody& body, std::uint32_t super, const Orientati
     }
 }
 
-// Whether a super-tile is to be measured. Tiles with tets far flatter than the others would soon fail again,
-// and do not count.
+// Whether a super-tile is to be measured. Tiles with tets far flatter than the others would soon fail again.
 bool wants_reference(const OrientedBody& body, std::uint32_t super, OrientationCache& cache) noexcept {
     if (body.positive[super]) return false;
     Shape& shape = cache.shapes[super];
     const std::uint32_t first = body.tiles.super_first[super], last = body.tiles.super_first[super + 1];
-    std::uint32_t failed = 0, followed = 0;
+    std::uint32_t failed = 0, flat = 0;
     for (std::uint32_t t = first; shape.is_known && t < last; ++t) {
-        if (cache.slack[t] < shape.most_slack / 8) continue;
-        ++followed;
-        failed += !(body.change[super] < cache.slack[t]);
+        if (body.change[super] < cache.slack[t]) continue;
+        (cache.slack[t] < shape.most_slack / 8 ? flat : failed) += 1;
     }
-    return wants_reference(shape, failed, followed, cache.step);
+    return wants_reference(shape, failed, flat, last - first, cache.step);
 }
 
 } // namespace

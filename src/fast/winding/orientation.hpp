@@ -105,8 +105,10 @@ void orient(const OrientedBody& body, OrientationCache& cache, std::uint64_t* ba
 float measure_tile(const Tiles& tiles, const Boundary& boundary, const float* positions, bool rounded,
                    std::uint32_t tile, Box& box, std::uint64_t& bad);
 
-// Whether to measure a super-tile anew, of which so many tiles could not be followed but may be afterwards.
-// Called once in each step in which it is not all positive.
-bool wants_reference(Shape& shape, std::uint32_t failed, std::uint32_t tiles, std::uint32_t step) noexcept;
+// Whether to measure a super-tile anew, of whose tiles so many could not be followed; `flat` are those that
+// hardly can be, as they were too flat in the reference step. Called once in each step in which not all tiles
+// are positive.
+bool wants_reference(Shape& shape, std::uint32_t failed, std::uint32_t flat, std::uint32_t tiles,
+                     std::uint32_t step) noexcept;
 
 } // namespace vox::fast
