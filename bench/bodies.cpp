@@ -3,6 +3,8 @@
 #include "scenes/solids.h"
 #include "scenes/waves.h"
 
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -33,12 +35,14 @@ Solid lattice_ball(double tets, std::uint64_t seed) { return taken(make_solid_ba
 
 double ball_radius(double tets) { return solid_ball_radius(tets); }
 
+double cube_ball_radius(double tets) { return std::cbrt(tets / 5 * 3 / (4 * std::numbers::pi)); }
+
 #if defined(BENCH_IO)
-Solid read_solid(const std::string& path) {
-    vox_io_mesh* mesh = nullptr;
+namespace {
+
+Solid taken(vox_result made, vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    if (vox_io_load(path.c_str(), nullptr, &mesh) != VOX_OK || vox_io_mesh_get(mesh, &view) != VOX_OK)
-        throw std::runtime_error(vox_last_error());
+    if (made != VOX_OK || vox_io_mesh_get(mesh, &view) != VOX_OK) throw std::runtime_error(vox_last_error());
     Solid solid;
     for (std::uint64_t v = 0; v < view.vertex_count; ++v)
         solid.positions.push_back(
@@ -47,7 +51,24 @@ Solid read_solid(const std::string& path) {
     vox_io_mesh_destroy(mesh);
     return solid;
 }
+
+} // namespace
+
+Solid read_solid(const std::string& path) {
+    vox_io_mesh* mesh = nullptr;
+    const vox_result made = vox_io_load(path.c_str(), nullptr, &mesh);
+    return taken(made, mesh);
+}
+
+Solid cube_ball(double tets) {
+    vox_io_mesh* mesh = nullptr;
+    const vox_result made =
+        vox_io_make_lattice_ball(static_cast<std::uint64_t>(tets), cube_ball_radius(tets), &mesh);
+    return taken(made, mesh);
+}
 #else
+Solid cube_ball(double) { throw std::runtime_error("this build has no such balls (VOX_BUILD_IO=OFF)"); }
+
 Solid read_solid(const std::string& path) {
     throw std::runtime_error("this build has no mesh readers (VOX_BUILD_IO=OFF): cannot read " + path);
 }

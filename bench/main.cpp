@@ -6,6 +6,8 @@
 #include "scenes.hpp"
 #include "timing.h"
 
+#include "base/simd.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -23,13 +25,16 @@ namespace {
 struct Options {
     std::vector<double> tets = {84000};
     std::vector<std::string> scenes, entrants;
-    std::string mesh_folder, csv;
+    std::string mesh_folder, csv, level = "avx512";
     double seconds = 2;
     std::size_t steps = 60;
     bool shuffle = false;
     bool growth = false;
     bool list = false;
 };
+
+// As vox::simd::Level; peers are as they were compiled.
+const std::vector<std::string> levels = {"portable", "sse4", "avx2", "avx512"};
 
 // For the growth of time with size: only vox and the floors.
 constexpr double growth_sizes[] = {1e4, 3e4, 1e5, 3e5, 1e6, 2e6, 5e6};
@@ -161,7 +166,9 @@ int run_all(const Options& options, const std::string& command) {
         throw std::runtime_error("no such scene or entrant; --list shows them");
 
     stay_on_one_core();
-    std::printf("%s\n%s\n%s\n", cpu_name().c_str(), vox_build_info(), command.c_str());
+    const auto level = std::ranges::find(levels, options.level) - levels.begin();
+    const char* in_force = vox::simd::level_name(vox::simd::force_level(vox::simd::Level(level)));
+    std::printf("%s\n%s, %s in use\n%s\n", cpu_name().c_str(), vox_build_info(), in_force, command.c_str());
     std::unique_ptr<Csv> csv;
     if (!options.csv.empty()) csv = std::make_unique<Csv>(options.csv, command);
     bool agree = true;
@@ -206,6 +213,9 @@ int main(int argc, char** argv) {
         ->check(CLI::PositiveNumber);
     app.add_option("--steps", options.steps, "most steps of one entrant in one scene (default 60)")
         ->check(CLI::PositiveNumber);
+    app.add_option("--level", options.level,
+                   "highest instruction set that vox uses: portable, sse4, avx2 or avx512 (default)")
+        ->check(CLI::IsMember(bench::levels));
     app.add_flag("--shuffle", options.shuffle, "number vertices and tetrahedra at random");
     app.add_flag("--list", options.list, "name the scenes and entrants, then stop");
     CLI11_PARSE(app, argc, argv);

@@ -29,12 +29,18 @@ std::vector<float> frame_positions(const Solid& solid, const Pose& pose, std::si
 }
 
 // Three waves across a body of the given radius, moved by `offset`. In each frame they advance a little, and
-// vertices by at most a tenth of the amplitude. The strain is 3 % with the default amplitude.
-Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0.01) {
+// vertices by at most `speed` of the amplitude. The strain is 3 % with the default amplitude.
+Pose waves(double radius, const Vec3& offset, double phase, double amplitude = 0.01, double speed = 0.1) {
     return [=](const Vec3& p, std::size_t frame) {
         return waved({offset.x + p.x, offset.y + p.y, offset.z + p.z}, p, amplitude * radius, pi / radius,
-                     0.1 * static_cast<double>(frame) + phase);
+                     speed * static_cast<double>(frame) + phase);
     };
+}
+
+// Waves so high that vertices move by up to 0.15 edges, of length 1, in each frame.
+Pose lively_waves(double radius, double height) {
+    constexpr double edges_a_frame = 0.15;
+    return waves(radius, {0, 0, 0}, 0, height / radius, edges_a_frame / height);
 }
 
 // The poses of two bodies side by side, `distance` apart and a little off the common axis.
@@ -115,9 +121,8 @@ Scene two_balls_by_contacts(double tets, bool shuffled, double share) {
 }
 
 // One body, whose waves advance from frame to frame.
-Scene alone(Solid solid, double radius, bool shuffled, double amplitude = 0.01) {
+Scene alone(Solid solid, const Pose& pose, bool shuffled) {
     if (shuffled) shuffle(solid, 1);
-    const Pose pose = waves(radius, {0, 0, 0}, 0, amplitude);
     Scene scene;
     add(scene, solid, pose, true);
     scene.bodies[0].later = [solid = std::move(solid), pose](std::size_t frame) {
@@ -127,7 +132,23 @@ Scene alone(Solid solid, double radius, bool shuffled, double amplitude = 0.01) 
 }
 
 Scene one_ball(double tets, bool shuffled) {
-    return alone(lattice_ball(tets, 1), ball_radius(tets), shuffled);
+    return alone(lattice_ball(tets, 1), waves(ball_radius(tets), {0, 0, 0}, 0), shuffled);
+}
+
+constexpr double lively_height = 0.5; // edges
+
+Scene lively_ball(double tets, bool shuffled) {
+    return alone(lattice_ball(tets, 1), lively_waves(ball_radius(tets), lively_height), shuffled);
+}
+
+// Edges are stretched and sheared by up to 40 %.
+Scene strained_ball(double tets, bool shuffled) {
+    const double radius = ball_radius(tets);
+    return alone(lattice_ball(tets, 1), lively_waves(radius, 0.4 * radius / pi), shuffled);
+}
+
+Scene lively_cube_ball(double tets, bool shuffled) {
+    return alone(cube_ball(tets), lively_waves(cube_ball_radius(tets), lively_height), shuffled);
 }
 
 // Balls in a cubic lattice, 3.5 % closer than touching, each a little off its place.
@@ -206,7 +227,7 @@ Scene file_pair(const std::string& path, bool shuffled, double share) {
 
 Scene file_self(const std::string& path, bool shuffled) {
     const Solid solid = read_solid(path);
-    return alone(solid, half_longest_side(solid), shuffled, file_amplitude);
+    return alone(solid, waves(half_longest_side(solid), {0, 0, 0}, 0, file_amplitude), shuffled);
 }
 
 } // namespace
@@ -277,6 +298,14 @@ std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
         {"contact-1", "two bodies, 1 % of tets in contact", true,
          [](double n, bool s) { return two_balls_by_contacts(n, s, 0.01); }},
         {"self", "one compact body, self, no contact", true, [](double n, bool s) { return one_ball(n, s); }},
+        {"self-lively", "one compact body, self, waves of half an edge", true,
+         [](double n, bool s) { return lively_ball(n, s); }},
+        {"self-strain", "one compact body, self, strained by 40 %", true,
+         [](double n, bool s) { return strained_ball(n, s); }},
+#if defined(BENCH_IO)
+        {"self-cubes", "ball of the paper with flat tets, self, waves of half an edge", true,
+         [](double n, bool s) { return lively_cube_ball(n, s); }},
+#endif
         {"coil", "coil, self, in contact", true, [](double n, bool s) { return coil(n, s); }},
         {"bodies-5k", "bodies of 5k, light contact", true,
          [](double n, bool s) { return many_balls(n, s, 5000); }},

@@ -124,10 +124,11 @@ struct Bodies {
     std::uint32_t vertices;
     Tiles tiles{memory};
     Boundary surface{memory};
-    std::vector<Box> blocks, moves, super_boxes, tile_boxes, many;
-    std::vector<std::uint8_t> known, positive, sides;
+    std::vector<Box> blocks, super_boxes, tile_boxes, many;
+    std::vector<float> change, followed;
+    std::vector<std::uint8_t> known, positive, all_positive, sides;
     std::vector<std::uint64_t> bad;
-    fast::OrientationCache turning{memory};
+    fast::OrientationCache turning{memory}, unknown{memory}, known_before{memory};
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
     std::pmr::vector<fast::Pair> pairs;
@@ -160,13 +161,15 @@ struct Bodies {
         make_boundary(a.tets, vertices, view(a), tiles, surface);
         super_boxes.resize(tiles.super_tile_count());
         positive.resize(super_boxes.size());
-        moves.resize(blocks.size());
+        all_positive.resize(super_boxes.size());
+        followed.resize(super_boxes.size());
+        change.assign(super_boxes.size(), float_infinity);
         bad.resize(tiles.tiles.size());
-        fast::track_orientation(tiles, turning, blocks.data(), nullptr, 0, 0, tiles.super_tile_count(),
-                                super_boxes.data(), positive.data());
-        turning.boxes.assign(super_boxes.begin(), super_boxes.end());
-        turning.slack.assign(super_boxes.size(), 0.1f);
-        turning.is_known = true;
+        fast::track_orientation(tiles, turning, packed(a), blocks.data(), 0, 0, tiles.super_tile_count(),
+                                super_boxes.data(), change.data(), positive.data());
+        orient(known_before); // measures
+        unknown.prepare(tiles);
+        for (fast::Shape& shape : unknown.shapes) shape.resumes = ~0u;
         std::fill(positive.begin(), positive.end(), std::uint8_t{1});
         rest.positions.resize(std::size_t{vertices} * 3);
         rest.parts.resize(1);
@@ -183,6 +186,12 @@ struct Bodies {
         lattice = fast::make_lattice(points, fast::bounds(points), cell_size, 2 * std::size_t{points.count});
         bin();
         scatter();
+    }
+
+    void orient(fast::OrientationCache& cache) {
+        fast::orient({tiles, surface, packed(a), vertices, false, 0, change.data(), positive.data(),
+                      tile_boxes.data(), known.data()},
+                     cache, bad.data(), nullptr);
     }
 
     static constexpr double cell_size = 1.7; // 0.6 sides of a tile, about
@@ -246,6 +255,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
                                           s.box_a,
                                           2.3,
                                           s.super_boxes.data(),
+                                          s.change.data(),
                                           s.positive.data(),
                                           s.tile_boxes.data(),
                                           s.known.data(),
@@ -288,18 +298,17 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
              fast::bin_tree(s.sparse, Bodies::cell_size, s.cell_of, s.sparse_bins);
          }},
         {"look up tiles", "tet", tets, [&s] { s.look_up(); }},
-        {"track", "tet", tets,
+        {"follow", "tet", tets,
          [&s] {
              const auto supers = s.tiles.super_tile_count();
-             fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a, packed(s.a),
-                                s.moves.data());
-             fast::track_orientation(s.tiles, s.turning, s.blocks.data(), s.moves.data(), 0, 0, supers,
-                                     s.super_boxes.data(), s.positive.data());
+             fast::track_orientation(s.tiles, s.known_before, packed(s.a), s.blocks.data(), 0, 0, supers,
+                                     s.super_boxes.data(), s.followed.data(), s.all_positive.data());
          }},
         {"orient", "tet", tets,
          [&s] {
-             fast::orient(s.tiles, s.surface, packed(s.a), false, 0, s.tiles.super_first.back(),
-                          s.tile_boxes.data(), s.known.data(), s.bad.data(), false);
+             std::fill(s.positive.begin(), s.positive.end(), std::uint8_t{0});
+             s.orient(s.unknown);
+             std::fill(s.positive.begin(), s.positive.end(), std::uint8_t{1});
          }},
     };
 }

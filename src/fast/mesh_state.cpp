@@ -21,13 +21,9 @@ void MeshState::update(const TiledMesh& mesh, std::uint32_t version, std::uint32
         return;
     }
     make_room(mesh.tiles, vertex_count);
-    if (orientation.is_known) {
-        orientation.reference.resize(last_positions.positions.size()); // any value: their tets are new
-        orientation.slack.resize(mesh.tiles.super_tile_count());
-        orientation.boxes.resize(mesh.tiles.super_tile_count());
-        for (std::size_t s = 0; changes_ < mesh.places.changes && s < orientation.slack.size(); ++s)
-            if (mesh.places.changed_at[s] > changes_) orientation.slack[s] = 0;
-    }
+    for (std::uint32_t s = 0; changes_ < mesh.places.changes && s < orientation.shapes.size(); ++s)
+        if (mesh.places.changed_at[s] > changes_) orientation.forget(s);
+    if (!orientation.shapes.empty()) orientation.prepare(mesh.tiles);
     changes_ = mesh.places.changes;
 }
 

@@ -1,7 +1,5 @@
 #include "fast/step.hpp"
 
-#include "fast/winding/orientation.hpp"
-
 #include <cmath>
 #include <limits>
 
@@ -53,7 +51,7 @@ void begin_step(std::span<const Body> bodies, Workers* workers, Step& step) {
 void lay_out(Step& step, StepBoxes& boxes) {
     step.origin = choose_origin(step.bodies);
     const bool moved_origin = step.origin.x != 0 || step.origin.y != 0 || step.origin.z != 0;
-    std::size_t blocks = 0, supers = 0, tiles = 0, moves = 0;
+    std::size_t blocks = 0, supers = 0, tiles = 0;
     step.block_pieces.clear();
     step.super_pieces.clear();
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
@@ -64,9 +62,6 @@ void lay_out(Step& step, StepBoxes& boxes) {
         body.first_block = static_cast<std::uint32_t>(blocks);
         body.first_super = static_cast<std::uint32_t>(supers);
         body.first_tile = static_cast<std::uint32_t>(tiles);
-        body.has_moves = body.orientation && body.orientation->is_known;
-        body.first_move = static_cast<std::uint32_t>(moves);
-        if (body.has_moves) moves += own_blocks;
         blocks += own_blocks;
         supers += own_supers;
         tiles += body.tiles->tiles.size();
@@ -77,8 +72,8 @@ void lay_out(Step& step, StepBoxes& boxes) {
     step.super_count = supers;
     step.tile_count = tiles;
     boxes.blocks.resize(blocks);
-    boxes.moves.resize(moves);
     boxes.super_tiles.resize(supers);
+    boxes.super_change.resize(supers);
     boxes.super_positive.resize(supers);
     boxes.tiles.resize(tiles);
     boxes.tile_known.assign(tiles, 0);

@@ -40,10 +40,8 @@ struct StepBody {
     bool moved;                    // since the last step, or may have; stream() adds what it finds
 
     // Set by lay_out().
-    bool rounded;   // positions are the nearest floats of the exact ones less Step::origin, else as they are
-    bool has_moves; // stream() makes boxes around displacements
+    bool rounded; // positions are the nearest floats of the exact ones less Step::origin, else as they are
     std::uint32_t first_block, first_super, first_tile;
-    std::uint32_t first_move; // in StepBoxes::moves, of its first block
 
     // Set by stream().
     const float* positions; // packed
@@ -81,15 +79,15 @@ struct Step {
 // Boxes of tiles are made by the first stage that needs them; `tile_known` has which were.
 struct StepBoxes {
     explicit StepBoxes(std::pmr::memory_resource* memory)
-        : bodies(memory), blocks(memory), moves(memory), super_tiles(memory), tiles(memory),
+        : bodies(memory), blocks(memory), super_tiles(memory), tiles(memory), super_change(memory),
           super_positive(memory), tile_known(memory) {}
 
     std::pmr::vector<Box> bodies, blocks;
-    std::pmr::vector<Box> moves; // around displacements of blocks from the reference of OrientationCache
     // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of
     // reach.
     std::pmr::vector<Box> super_tiles;
     std::pmr::vector<Box> tiles;
+    std::pmr::vector<float> super_change;          // see track_orientation()
     std::pmr::vector<std::uint8_t> super_positive; // whether all tets of the super-tile certainly are
     std::pmr::vector<std::uint8_t> tile_known;
 };

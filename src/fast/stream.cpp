@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/simd.hpp"
 #include "fast/last_positions.hpp"
-#include "fast/winding/orientation.hpp"
 #include "mesh/check.hpp"
 #include "mesh/tiles.hpp"
 
@@ -100,10 +99,8 @@ HWY_INLINE hn::Vec<Four> Fold(hn::Vec<Wide> v, Reduce reduce) {
     return FirstFour(v);
 }
 
-template <bool kMoves>
-HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
-                       const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
-                       Box* HWY_RESTRICT moves, Box& all) {
+bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
+                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
     const Four d;
     bool finite = true;
     const std::uint32_t count = first[blocks];
@@ -122,7 +119,7 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
         }
         const float* p = positions + std::size_t{first[b]} * 3;
         const std::uint32_t n = end - first[b];
-        if (!kMoves && wide_positions > 1 && n >= wide_positions && n <= block_size && count - end >= 2) {
+        if (wide_positions > 1 && n >= wide_positions && n <= block_size && count - end >= 2) {
             auto lo = hn::LoadU(dw, p + std::size_t{3} * (n - wide_positions)), hi = lo;
             for (std::uint32_t i = 0; i + wide_positions < block_size; i += wide_positions) {
                 const std::uint32_t at = i + wide_positions < n ? i : n - wide_positions;
@@ -136,13 +133,11 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
             hn::Store(Fold(hi, most), d, boxes[b].hi);
             continue;
         }
-        const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
         std::uint32_t left = n;
-        auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity), move_lo = lo, move_hi = hi;
+        auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity);
         if (end == count) {
             --left;
             lo = hi = LoadLastVertex(p, left);
-            if constexpr (kMoves) move_lo = move_hi = hn::Sub(lo, LoadLastVertex(q, left));
         }
         BoxOf(
             left, [&](std::uint32_t i) HWY_ATTR { return LoadVertex(p, i); }, lo, hi);
@@ -150,24 +145,10 @@ HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RES
         hn::Store(hi, d, boxes[b].hi);
         all_lo = hn::Min(all_lo, lo);
         all_hi = hn::Max(all_hi, hi);
-        if constexpr (kMoves) {
-            const auto move = [&](std::uint32_t i)
-                                  HWY_ATTR { return hn::Sub(LoadVertex(p, i), LoadVertex(q, i)); };
-            BoxOf(left, move, move_lo, move_hi);
-            hn::Store(move_lo, d, moves[b].lo);
-            hn::Store(move_hi, d, moves[b].hi);
-        }
     }
     hn::Store(hn::Min(all_lo, Fold(wide_lo, least)), d, all.lo);
     hn::Store(hn::Max(all_hi, Fold(wide_hi, most)), d, all.hi);
     return finite;
-}
-
-bool StreamBoxes(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
-                 const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
-                 Box* HWY_RESTRICT moves, Box& all) {
-    return reference ? Stream<true>(positions, reference, first, blocks, boxes, moves, all)
-                     : Stream<false>(positions, nullptr, first, blocks, boxes, nullptr, all);
 }
 
 // nearest_float() of the coordinates of positions that are three packed doubles.
@@ -227,10 +208,8 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
     }
 }
 
-bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all,
-                  const float* reference, Box* moves) {
-    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, reference, first.data(), first.size() - 1, boxes, moves,
-                                          all);
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
+    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
 }
 
 namespace {
@@ -280,9 +259,7 @@ bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& b
             std::memcpy(body.packed + std::size_t{v} * 3, &p, sizeof p);
         }
     Box* out = boxes.blocks.data() + body.first_block + piece.first;
-    const float* reference = body.has_moves ? body.orientation->reference.data() : nullptr;
-    Box* moves = body.has_moves ? boxes.moves.data() + body.first_move + piece.first : nullptr;
-    const bool finite = stream_boxes(body.positions, first, out, box, reference, moves);
+    const bool finite = stream_boxes(body.positions, first, out, box);
     if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
     if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);
     return finite;

@@ -20,11 +20,9 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
                      float* out);
 
 // Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
-// of them together to `all`; with `reference`, which are packed positions too, also the boxes around the
-// displacements from there to `moves`. Reads no other positions. Returns false when one is not finite; the
-// boxes are undefined then.
-bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all,
-                  const float* reference = nullptr, Box* moves = nullptr);
+// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes are
+// undefined then.
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
 
 // Buffers of stream(), kept from step to step.
 struct StreamBuffers {

@@ -34,6 +34,17 @@ HWY_INLINE hn::Vec<Four> LoadLastVertex(const float* positions, std::uint32_t v)
     return hn::Load(Four(), copy);
 }
 
+// Either of them, as a type, so that calls are inlined wherever it is passed on to.
+template <bool kHoldsLastVertex>
+struct VertexLoader {
+    HWY_INLINE hn::Vec<Four> operator()(const float* positions, std::uint32_t v) const {
+        if constexpr (kHoldsLastVertex)
+            return LoadLastVertex(positions, v);
+        else
+            return LoadVertex(positions, v);
+    }
+};
+
 template <class Load>
 HWY_INLINE void BoxOf(const float* positions, const std::uint32_t* vertices, std::uint32_t padded, Load load,
                       Box& box) {
@@ -147,6 +158,23 @@ struct Table {
 #endif
 
 using V = hn::Vec<Floats>;
+
+// The four floats at(i) as a structure of arrays, those of at(i) in lane i, without the last one.
+template <class At>
+HWY_INLINE void LoadLanes(At at, V* xyz) {
+    const auto block_of = [&](std::size_t i) HWY_ATTR { // i, and four, eight, twelve lanes on
+#if HWY_MAX_BYTES >= 64
+        const hn::FixedTag<float, 8> d8;
+        return hn::Combine(Floats(), hn::Combine(d8, at(i + 12), at(i + 8)),
+                           hn::Combine(d8, at(i + 4), at(i)));
+#elif HWY_MAX_BYTES >= 32
+        return hn::Combine(Floats(), at(i + 4), at(i));
+#else
+        return at(i);
+#endif
+    };
+    Transpose(Floats(), block_of(0), block_of(1), block_of(2), block_of(3), xyz);
+}
 
 HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
 

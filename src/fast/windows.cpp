@@ -84,6 +84,7 @@ bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBo
                               boxes.bodies[b],
                               winding_cell_in_tile_sides * size.mean(),
                               boxes.super_tiles.data() + body.first_super,
+                              boxes.super_change.data() + body.first_super,
                               boxes.super_positive.data() + body.first_super,
                               boxes.tiles.data() + body.first_tile,
                               boxes.tile_known.data() + body.first_tile,

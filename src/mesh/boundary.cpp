@@ -20,16 +20,15 @@ std::array<std::uint32_t, 3> triangle_of(const SortedFacet& facet) noexcept {
 
 namespace {
 
-// Finds the tets that are mirrored or ignored, for each tile, and the vertices of no other tets. Returns for
-// each tet whether it is mirrored.
+// Finds the tets that are ignored, for each tile, and the vertices of no other tets. Returns for each tet
+// whether it is negative.
 std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
                                             const Positions& positions, const Tiles& tiles, Boundary& made) {
     std::pmr::memory_resource* memory = made.triangles.get_allocator().resource();
     std::pmr::vector<std::uint8_t> negative(tets.size(), 0, memory), used(vertex_count, 0, memory);
-    made.mirrored.reserve(tiles.tiles.size());
     made.ignored.reserve(tiles.tiles.size());
     for (const Tile& tile : tiles.tiles) {
-        std::uint64_t mirrored = 0, ignored = 0;
+        std::uint64_t ignored = 0;
         for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
             const std::uint32_t t = tiles.tets[tile.first_tet + i];
             if (names_a_vertex_twice(tets[t])) {
@@ -37,15 +36,61 @@ std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint
                 continue;
             }
             negative[t] = is_negative(tets[t], positions);
-            mirrored |= std::uint64_t{negative[t]} << i;
             for (const std::uint32_t v : tets[t].v) used[v] = 1;
         }
-        made.mirrored.push_back(mirrored);
         made.ignored.push_back(ignored);
     }
     for (std::uint32_t v = 0; v < vertex_count; ++v)
         if (!used[v]) made.loose.push_back(v);
     return negative;
+}
+
+// Calls visit(facet, other, its facet) for each neighbour of a tet across a facet that they alone share.
+template <class Visit>
+void for_neighbours(const MatchedFacets& facets, std::uint32_t t, Visit&& visit) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t across = facets.across[t][i];
+        if (across & MatchedFacets::surface_bit) continue; // also of `nothing`
+        const auto& back = facets.across[across];
+        const auto j = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), t) - back.begin());
+        if (j < 4) visit(i, across, j);
+    }
+}
+
+// Tets that have turned over are negative beside neighbours that are not. Calls each tet negative, or not, so
+// that neighbours are on different sides of their facet, and so that as few as possible of a connected part
+// change. False where that cannot be.
+bool agree_with_neighbours(std::span<const Tet> tets, const MatchedFacets& facets,
+                           std::span<std::uint8_t> negative) {
+    std::pmr::memory_resource* memory = facets.across.get_allocator().resource();
+    std::pmr::vector<std::uint8_t> seen(tets.size(), 0, memory),
+        found(negative.begin(), negative.end(), memory);
+    std::pmr::vector<std::uint32_t> part(memory);
+    for (std::uint32_t first = 0; first < tets.size(); ++first) {
+        if (seen[first] || names_a_vertex_twice(tets[first])) continue;
+        part.assign(1, first);
+        seen[first] = 1;
+        std::size_t changed = 0;
+        bool agree = true;
+        for (std::size_t next = 0; next < part.size(); ++next) {
+            const std::uint32_t t = part[next];
+            changed += found[t] != negative[t];
+            for_neighbours(facets, t, [&](std::uint32_t i, std::uint32_t other, std::uint32_t j) {
+                const bool same = sorted_facet(tets[t], i).even == sorted_facet(tets[other], j).even;
+                const auto wanted = static_cast<std::uint8_t>(same != (found[t] != 0));
+                if (seen[other]) {
+                    agree = agree && found[other] == wanted;
+                    return;
+                }
+                seen[other] = 1;
+                found[other] = wanted;
+                part.push_back(other);
+            });
+        }
+        if (!agree) return false;
+        for (const std::uint32_t t : part) negative[t] = found[t] != (2 * changed > part.size());
+    }
+    return true;
 }
 
 // Makes the triangles; false where tets on different sides of a facet do not cancel.
@@ -95,23 +140,37 @@ void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positi
         return;
     }
     std::pmr::vector<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
+    const auto close = [&](std::span<const Tet> of, const MatchedFacets& matched,
+                           std::span<std::uint8_t> sign) {
+        return make_triangles(of, sign, matched, made) ||
+               (agree_with_neighbours(of, matched, sign) && make_triangles(of, sign, matched, made));
+    };
+    const auto for_places = [&](auto&& visit) { // of tets in tiles
+        for (std::size_t tile = 0; tile < tiles.tiles.size(); ++tile)
+            for (std::uint32_t i = 0; i < tiles.tiles[tile].tet_count; ++i)
+                visit(tile, i, tiles.tets[tiles.tiles[tile].first_tet + i]);
+    };
     if (facets) {
-        made.is_closed = make_triangles(tets, negative, *facets, made);
+        made.is_closed = close(tets, *facets, negative);
     } else { // in the order of the tiles, in which neighbours are near each other in memory
         std::pmr::vector<Tet> ordered(memory);
         std::pmr::vector<std::uint8_t> signs(memory);
         ordered.reserve(tets.size());
         signs.reserve(tets.size());
-        for (const Tile& tile : tiles.tiles)
-            for (std::uint32_t i = 0; i < tile.tet_count; ++i) {
-                const std::uint32_t t = tiles.tets[tile.first_tet + i];
-                ordered.push_back(tets[t]);
-                signs.push_back(negative[t]);
-            }
+        for_places([&](std::size_t, std::uint32_t, std::uint32_t t) {
+            ordered.push_back(tets[t]);
+            signs.push_back(negative[t]);
+        });
         MatchedFacets matched(memory);
         match_facets(ordered, vertex_count, matched);
-        made.is_closed = make_triangles(ordered, signs, matched, made);
+        made.is_closed = close(ordered, matched, signs);
+        auto sign = signs.begin();
+        for_places([&](std::size_t, std::uint32_t, std::uint32_t t) { negative[t] = *sign++; });
     }
+    made.mirrored.assign(made.is_closed ? tiles.tiles.size() : 0, 0);
+    for_places([&](std::size_t tile, std::uint32_t i, std::uint32_t t) {
+        if (made.is_closed) made.mirrored[tile] |= std::uint64_t{negative[t]} << i;
+    });
     out = made.is_closed ? std::move(made) : Boundary(memory);
 }
 

@@ -17,14 +17,16 @@ struct Boundary {
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
     // Whether the triangles are the boundary of all tets: their facets, where those on different sides
-    // cancel. This holds when every facet belongs to one tet, or to two on different sides of it, and in some
+    // cancel, with each tet as it is meant to be. This holds when every facet belongs to one tet, or to two on different sides of it, and in some
     // other cases. Else all that follows is empty.
     bool is_closed = false;
     // Facets whose tet is not cancelled by another one; counter-clockwise from outside when that tet is
     // positive.
     std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
-    // For each tile a bit for each tet: those that were negative when they were prepared, whose last two
-    // corners are to be swapped, and those that name a corner twice and never hold a vertex.
+    // For each tile a bit for each tet: those that are meant to be negative, whose last two corners are to be
+    // swapped, and those that name a corner twice and never hold a vertex. The former are those that were
+    // negative when they were prepared, if so neighbours were on different sides of their facets; else some
+    // tets had turned over, and their neighbours say what was meant.
     std::pmr::vector<std::uint64_t> mirrored, ignored;
     std::pmr::vector<std::uint32_t> loose; // vertices that are in no tet, ignored ones aside; ascending
 };

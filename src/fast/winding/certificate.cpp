@@ -163,7 +163,7 @@ public:
 
     bool run() {
         const bool certified = certify();
-        if (!oriented_) body_.orientation.is_known = false; // it was not used, so it is not worth keeping
+        if (!oriented_) body_.orientation.is_used = false; // not worth following then
         return certified;
     }
 
@@ -205,7 +205,7 @@ private:
             if (out_.directions[0] != untouched) return false;
             judge(true);
         }
-        find_with_next();
+        out_.complete = out_.touched.empty();
         return true;
     }
 
@@ -227,35 +227,12 @@ private:
 
     // Finds the tets that are not certainly positive, among those that may have turned over.
     void orient_tets() {
-        const Tiles& tiles = body_.tiles;
-        OrientationCache& cache = body_.orientation;
-        const std::uint32_t supers = tiles.super_tile_count();
-        const auto positive = static_cast<std::uint32_t>(
-            std::count(body_.super_positive, body_.super_positive + supers, std::uint8_t{1}));
-        measure_ = wants_reference(cache, supers - positive, supers);
-        if (measure_) {
-            const std::size_t coordinates = 3 * std::size_t{body_.vertex_count};
-            cache.is_known = false;
-            cache.reference.assign(body_.positions, body_.positions + coordinates);
-            cache.boxes.assign(body_.super_boxes, body_.super_boxes + supers);
-            cache.slack.resize(supers);
-        }
-        const float rounding = body_.rounded ? slack_of_rounding(body_.box) : 0;
-        const auto part = [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            for (std::size_t s = begin; s < end; ++s) {
-                if (!measure_ && body_.super_positive[s]) continue;
-                const float width = orient(tiles, body_.boundary, body_.positions, body_.rounded,
-                                           tiles.super_first[s], tiles.super_first[s + 1], body_.tile_boxes,
-                                           body_.tile_known, out_.bad.data(), measure_);
-                if (measure_) cache.slack[s] = width - rounding;
-            }
-        };
-        constexpr std::size_t task_supers = 16; // are worth a task: by bench_stages, 20 microseconds
-        if (body_.workers)
-            body_.workers->for_ranges(supers, task_supers, part);
-        else
-            part(0, supers, 0);
-        if (measure_) cache.is_known = true;
+        const OrientedBody oriented{body_.tiles,        body_.boundary,
+                                    body_.positions,    body_.vertex_count,
+                                    body_.rounded,      body_.rounded ? slack_of_rounding(body_.box) : 0,
+                                    body_.super_change, body_.super_positive,
+                                    body_.tile_boxes,   body_.tile_known};
+        orient(oriented, body_.orientation, out_.bad.data(), body_.workers);
     }
 
     // Intersects the sets of some cells with `set`. False when that becomes too much work.
@@ -317,7 +294,7 @@ private:
         bool safe[most_components + 1];
         for (std::size_t i = 0; i <= most_components; ++i)
             safe[i] = i == 0 || (i < known_ && (!count || covered_at_most_once(first_cell_[i])));
-        out_.certified.assign(cells_, 0);
+        out_.certified.assign(cells_ + Certificate::run, 0);
         for (const Components::Run& run : components.runs)
             std::fill(out_.certified.begin() + run.first, out_.certified.begin() + run.end,
                       std::uint8_t{safe[std::min<std::size_t>(run.component, most_components)]});
@@ -352,7 +329,7 @@ private:
         const Tiles& tiles = body_.tiles;
         std::size_t bad = 0;
         for (std::uint32_t s = 0; s < tiles.super_tile_count(); ++s) {
-            if (!measure_ && body_.super_positive[s]) continue; // it has none
+            if (body_.super_positive[s]) continue; // it has none
             for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t)
                 for (std::uint64_t left = out_.bad[t]; left; left &= left - 1) {
                     const Vertices corners =
@@ -464,16 +441,6 @@ private:
         }
     }
 
-    // At the far end of a row the next cell is the first of another row: one condition too many, which does
-    // no harm.
-    void find_with_next() {
-        out_.complete = out_.touched.empty();
-        std::pmr::vector<std::uint8_t>& with_next = out_.with_next;
-        with_next = out_.certified;
-        for (const std::size_t step : {std::size_t{1}, std::size_t{nx_}, std::size_t{nxy_}})
-            for (std::size_t c = 0; c + step < cells_; ++c) with_next[c] &= with_next[c + step];
-    }
-
     static constexpr std::size_t most_components =
         64; // whose cells can be certified; a body with more is no solid
 
@@ -482,7 +449,7 @@ private:
     std::uint64_t& exact_tests_;
     std::uint32_t nx_ = 0, nxy_ = 0;
     std::size_t cells_ = 0, work_left_ = 0;
-    bool oriented_ = false, measure_ = false;
+    bool oriented_ = false;
     std::size_t known_ = 0, inside_ = 0; // components; untouched cells that are not outside
     std::size_t first_cell_[most_components];
 };

@@ -8,6 +8,7 @@
 #include "mesh/boundary.hpp"
 
 #include <cstdint>
+#include <cstring>
 #include <memory_resource>
 #include <span>
 #include <tuple>
@@ -22,8 +23,7 @@ namespace vox::fast {
 // Cells of a lattice around a body. In a certified cell, a point is covered by at most one tet.
 struct Certificate {
     explicit Certificate(std::pmr::memory_resource* memory)
-        : directions(memory), touched(memory), bad(memory), components(memory), certified(memory),
-          with_next(memory) {}
+        : directions(memory), touched(memory), bad(memory), components(memory), certified(memory) {}
 
     // Buffers.
     std::pmr::vector<std::uint32_t> directions, touched;
@@ -31,32 +31,30 @@ struct Certificate {
     Components components;
 
     WindowLattice lattice;
-    std::pmr::vector<std::uint8_t> certified; // of each cell
-    std::pmr::vector<std::uint8_t> with_next; // of each cell together with its next ones, up along any axes
+    static constexpr std::uint32_t run = 8;
+    std::pmr::vector<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
     bool complete = false;                    // whether all cells are certified
 
-    auto buffers() {
-        return std::tie(directions, touched, bad, components.runs, components.rows, certified, with_next);
-    }
+    auto buffers() { return std::tie(directions, touched, bad, components.runs, components.rows, certified); }
 
     // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
     bool holds(const Box& box) const noexcept {
+        static constexpr std::uint8_t ones[2 * run] = {1, 1, 1, 1, 1, 1, 1, 1};
+        constexpr std::uint32_t few = 16; // vertices of such a block are looked up one by one
         const WindowCell lo = lattice.cell(box.lo), hi = lattice.cell(box.hi);
-        std::uint64_t cells = 1;
-        bool is_small = true;
-        for (int a = 0; a < 3; ++a) {
-            cells *= hi.index[a] - lo.index[a] + 1;
-            is_small &= hi.index[a] - lo.index[a] <= 1;
-        }
-        if (is_small && with_next[lattice.offset(lo)]) return true;
-        constexpr std::uint32_t few =
-            16; // a block has at most half as many vertices, which are looked up one by one then
-        if (cells > few) return false;
-        for (WindowCell c = lo; c.index[2] <= hi.index[2]; ++c.index[2])
-            for (c.index[1] = lo.index[1]; c.index[1] <= hi.index[1]; ++c.index[1])
-                for (c.index[0] = lo.index[0]; c.index[0] <= hi.index[0]; ++c.index[0])
-                    if (!certified[lattice.offset(c)]) return false;
-        return true;
+        std::uint32_t more[3];
+        for (int a = 0; a < 3; ++a) more[a] = hi.index[a] - lo.index[a];
+        if (more[0] >= run || (std::size_t{more[1]} + 1) * (more[2] + 1) > few) return false;
+        std::uint64_t wanted, found, missing = 0;
+        std::memcpy(&wanted, ones + (run - 1 - more[0]), run);
+        const std::uint8_t* plane = certified.data() + lattice.offset(lo);
+        for (std::uint32_t z = 0; z <= more[2];
+             ++z, plane += std::size_t{lattice.cells[0]} * lattice.cells[1])
+            for (std::uint32_t y = 0; y <= more[1]; ++y) {
+                std::memcpy(&found, plane + std::size_t{y} * lattice.cells[0], run);
+                missing |= wanted & ~found;
+            }
+        return missing == 0;
     }
     bool holds(const float* p) const noexcept {
         const WindowCell c{{lattice.cell(p[0], 0), lattice.cell(p[1], 1), lattice.cell(p[2], 2), 0}};
@@ -72,6 +70,7 @@ struct WindingBody {
     Box box;
     double cell_size;                   // of the lattice
     const Box* super_boxes;             // boxes that hold the super-tiles
+    const float* super_change;          // see track_orientation()
     const std::uint8_t* super_positive; // whether all tets of a super-tile are known to be positive
     Box* tile_boxes;                    // boxes that are needed are made
     std::uint8_t* tile_known;
