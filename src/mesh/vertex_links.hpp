@@ -80,6 +80,7 @@ class VertexLinks {
 public:
     explicit VertexLinks(std::pmr::memory_resource* memory) noexcept : places_(memory), words_(memory) {}
 
+    std::size_t size() const noexcept { return places_.size(); } // vertices
     bool empty() const noexcept { return places_.empty(); }
     std::size_t capacity() const noexcept { return places_.capacity() + words_.capacity(); }
     NeighbourRange neighbours(std::uint32_t vertex) const noexcept {
