@@ -100,25 +100,25 @@ void Fallback::update_trees(const Scene& scene, Workers* workers) {
             used_.push_back(b);
         }
     for (const std::uint32_t b : used_) tree_of_body_[b].tree = &trees_[scene.bodies[b].mesh_id];
-    std::size_t large = 0;
-    // Workers share a large tree, and each takes some of the small ones.
-    constexpr std::size_t least_shared = 4096; // triangles
-    const auto is_large = [&](std::uint32_t b) {
+    // Workers share one or two large trees, and otherwise each takes some of the trees. To share one takes a
+    // few tasks, so their number is limited to stay below VOX_MAX_TASKS.
+    constexpr std::size_t least_shared = 4096, most_shared = 2; // triangles, trees
+    const auto has_many = [&](std::uint32_t b) {
         return scene.topologies[b]->triangles.size() >= least_shared;
     };
+    const auto large = static_cast<std::size_t>(std::ranges::count_if(used_, has_many));
+    const bool shares = workers && large <= most_shared;
+    const auto is_large = [&](std::uint32_t b) { return shares && has_many(b); };
     const auto update = [&](std::uint32_t b, Workers* shared) {
         tree_of_body_[b].tree->update(scene.solid(b), tree_of_body_[b].folds, shared);
     };
     for (const std::uint32_t b : used_)
-        if (is_large(b)) {
-            update(b, workers);
-            ++large;
-        }
+        if (is_large(b)) update(b, workers);
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i)
             if (!is_large(used_[i])) update(used_[i], nullptr);
     };
-    if (workers && used_.size() - large > 1)
+    if (workers && used_.size() > (shares ? large : 0) + 1)
         workers->for_ranges(used_.size(), 1, run);
     else
         run(0, used_.size(), 0);

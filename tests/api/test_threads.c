@@ -260,6 +260,41 @@ START_TEST(large_bodies_are_shared) {
 }
 END_TEST
 
+START_TEST(trees_of_many_bodies_are_few_tasks) {
+    /* More bodies with a large surface than a step may have tasks; a point in each needs a search of it. */
+    enum { plates = 70 };
+    scheduler s;
+    body plate = make_block(&five_cut, 46, 46, 1);
+    float points[3 * plates];
+    vox_mesh mesh = 0;
+    vox_penetration_view found;
+    const vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
+    vox_grid* grid = grid_of(&desc);
+    for (uint32_t i = 0; i < plates; ++i) {
+        const vox_mesh_desc mesh_desc = body_desc(&plate);
+        const double above[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2.0 * i};
+        ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+        ck_ok(vox_mesh_set_transform(grid, mesh, above));
+        points[3 * i] = 20.3f;
+        points[3 * i + 1] = 20.4f;
+        points[3 * i + 2] = 2.0f * (float)i + 0.25f;
+    }
+    const vox_mesh_desc point_desc = array_desc(points, plates, NULL, 0);
+    ck_ok(vox_mesh_insert(grid, &point_desc, &mesh));
+    s.enqueued = 0;
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
+    ck_ok(vox_grid_penetrations(grid, &found));
+    ck_assert_uint_eq(found.count, plates);
+    for (uint32_t i = 0; i < plates; ++i) {
+        ck_assert_int_eq(found.data[i].state, VOX_PENETRATION_ENCLOSED);
+        ck_assert_float_eq(found.data[i].depth, 0.25f);
+    }
+    vox_grid_destroy(grid);
+    free_body(&plate);
+}
+END_TEST
+
 /* ---- memory ---- */
 
 START_TEST(steady_state_allocates_nothing) {
@@ -371,7 +406,7 @@ END_TEST
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
                    steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
-                   defective_task_systems, bad_arguments);
+                   trees_of_many_bodies_are_few_tasks, defective_task_systems, bad_arguments);
 }
 
 int main(void) {
