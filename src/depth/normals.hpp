@@ -67,7 +67,7 @@ private:
 
     std::uint32_t add_face(std::uint32_t triangle);
     void list_rings(std::size_t first_asked);
-    void compute_face(Face& face) const;
+    void compute_faces(std::size_t first);
     Vec3d corner_normal(const Face& asking, std::uint32_t vertex, Ring& ring) const;
 
     Solid solid_{};
