@@ -138,6 +138,7 @@ private:
         }
         for (std::size_t b = 0; b < ids_.size(); ++b) { // so that a query can ask one mesh
             vox_filter filter = vox_default_filter();
+            must(vox_mesh_filter(grid_, ids_[b], &filter));
             filter.category = std::uint64_t{1} << b % 64;
             must(vox_mesh_set_filter(grid_, ids_[b], &filter));
         }

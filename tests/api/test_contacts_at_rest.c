@@ -378,6 +378,40 @@ START_TEST(settings_and_marks) {
 }
 END_TEST
 
+/* Penetrations that are carried over take nothing of a budget, and unknown ones stay so and are counted. */
+START_TEST(budget_of_searches) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.closest_budget = 5;
+    vox_grid* grid = grid_of(&desc);
+    body bodies[4] = {make_box(9, 0.25f, 0, 0, 0), make_box(2, 0.25f, 0.9f, 0.9f, 0.9f),
+                      make_box(9, 0.25f, 9, 0, 0), make_box(2, 0.25f, 9.9f, 0.9f, 0.9f)};
+    for (int b = 0; b < 4; ++b) {
+        const vox_mesh_desc mesh = body_desc(&bodies[b]);
+        insert_mesh(grid, &mesh);
+    }
+    ck_ok(vox_grid_step(grid));
+    vox_counters counters = counters_of(grid);
+    const uint64_t unknown = counters.unknown_penetrations;
+    ck_assert_uint_eq(counters.closest_searches, 5);
+    ck_assert_uint_gt(unknown, 27); /* all in the second pair of boxes are among them */
+    for (int step = 0; step < 3; ++step) {
+        ck_ok(vox_grid_step(grid));
+        counters = counters_of(grid);
+        ck_assert_uint_eq(counters.closest_searches, 0);
+        ck_assert_uint_eq(counters.unknown_penetrations, unknown);
+    }
+    for (int step = 0; step < 2; ++step) { /* the last box moves: the five are for its vertices */
+        for (uint32_t v = 0; v < bodies[3].vertex_count; ++v) bodies[3].positions[3 * v] += 0.01f;
+        ck_ok(vox_grid_step(grid));
+        counters = counters_of(grid);
+        ck_assert_uint_eq(counters.closest_searches, 5);
+        ck_assert_uint_eq(counters.unknown_penetrations, unknown - 5);
+    }
+    vox_grid_destroy(grid);
+    for (int b = 0; b < 4; ++b) free_body(&bodies[b]);
+}
+END_TEST
+
 START_TEST(reference_engine_rests_never) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = VOX_ENGINE_REFERENCE;
@@ -398,7 +432,7 @@ int main(void) {
     Suite* suite = suite_create("rest");
     TCase* tests = add_case(suite, "rest");
     tcase_add_each(tests, nothing_moves, small_and_hidden_moves, failed_steps, meshes_come_and_go,
-                   bound_elsewhere, settings_and_marks, reference_engine_rests_never);
+                   bound_elsewhere, settings_and_marks, budget_of_searches, reference_engine_rests_never);
     TCase* long_tests = add_tagged_case(suite, "long", "long");
     tcase_add_each(long_tests, some_move, budget_ends_a_step);
     return run_suite(suite);
