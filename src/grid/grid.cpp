@@ -335,8 +335,8 @@ void vox_grid::step() {
         counters.cell_size_changes = adaptive_.changes();
     }
     if (closest_budget_ > 0) // those carried over included
-        counters.unknown_penetrations = static_cast<std::uint64_t>(std::ranges::count(
-            penetrations_.all(), VOX_PENETRATION_UNKNOWN, &vox_penetration::state));
+        counters.unknown_penetrations = static_cast<std::uint64_t>(
+            std::ranges::count(penetrations_.all(), VOX_PENETRATION_UNKNOWN, &vox_penetration::state));
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
