@@ -1,5 +1,6 @@
-// Canonical order by least-significant-digit radix sort (Knuth, The Art of Computer Programming 3,
-// Sect. 5.2.5) of body_a and vertex alone: few hits share a vertex, and those are put in order by themselves.
+// Canonical order by radix sort (Knuth, The Art of Computer Programming 3, Sect. 5.2.5) of body_a and vertex
+// alone: few hits share a vertex, and those are put in order by themselves. Of many hits the most significant
+// digit comes first, and the others piece by piece.
 #include "grid/contacts.hpp"
 
 #include "base/parallel.hpp"
@@ -20,42 +21,64 @@ bool before(const Hit& x, const Hit& y) {
 
 bool same_vertex(const Hit& x, const Hit& y) { return x.vertex == y.vertex && x.body_a == y.body_a; }
 
-// By body_a and vertex: one number of as few bits as these bodies need, cut into two equal digits or more.
-// `contacts` is as long as `hits`, and holds them, bit by bit, after every other digit.
-void radix_sort(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts) {
-    static_assert(sizeof(Hit) == sizeof(vox_contact));
-    constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
-    constexpr std::size_t most_values = std::size_t{1} << most_digit_bits;
-    std::uint32_t most_vertices = 1;
-    for (const Body& body : bodies) most_vertices = std::max(most_vertices, body.vertex_count);
-    const int vertex_bits = static_cast<int>(std::bit_width(most_vertices - 1));
-    const int bits = vertex_bits + static_cast<int>(std::bit_width(bodies.size()));
+// A hit is kept in either list, bit by bit, while they are sorted.
+static_assert(sizeof(Hit) == sizeof(vox_contact));
+Hit to_hit(const Hit& hit) { return hit; }
+Hit to_hit(const vox_contact& contact) { return std::bit_cast<Hit>(contact); }
+
+// body_a and vertex as one number of as few bits as these bodies need.
+struct SortKey {
+    explicit SortKey(std::span<const Body> bodies) {
+        std::uint32_t most_vertices = 1;
+        for (const Body& body : bodies) most_vertices = std::max(most_vertices, body.vertex_count);
+        vertex_bits = static_cast<int>(std::bit_width(most_vertices - 1));
+        bits = vertex_bits + static_cast<int>(std::bit_width(bodies.size()));
+    }
+
+    template <class Stored>
+    std::size_t digit(const Stored& stored, int shift, std::size_t values) const {
+        const Hit hit = to_hit(stored);
+        return static_cast<std::size_t>((std::uint64_t{hit.body_a} << vertex_bits | hit.vertex) >> shift) &
+               (values - 1);
+    }
+
+    int vertex_bits, bits;
+};
+
+constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
+using Places = std::array<std::uint32_t, std::size_t{1} << most_digit_bits>; // of each value; first counts
+
+void sum(Places& places, std::size_t values) {
+    std::uint32_t before = 0;
+    for (std::size_t v = 0; v < values; ++v) before += std::exchange(places[v], before);
+}
+
+template <class Stored, class Other>
+void move_by_digit(const SortKey& key, int shift, std::size_t values, std::span<const Stored> from,
+                   std::span<Other> to, Places& places) {
+    for (const Stored& stored : from)
+        to[places[key.digit(stored, shift, values)]++] = std::bit_cast<Other>(to_hit(stored));
+}
+
+// By the lowest `bits` of the key, cut into two equal digits or more. `other` is as long as `hits`, and holds
+// them after every other digit.
+template <class Stored, class Other>
+void sort_by_low_bits(const SortKey& key, int bits, std::span<Stored> hits, std::span<Other> other) {
     // Not many more counts than hits.
     const int wanted_bits = std::clamp(static_cast<int>(std::bit_width(hits.size())), 1, most_digit_bits);
     const int pairs = std::max((bits + 2 * wanted_bits - 1) / (2 * wanted_bits), 1); // of digits
     const int digit_bits = (bits + 2 * pairs - 1) / (2 * pairs);
-    const std::size_t digit_values = std::size_t{1} << digit_bits;
-
-    std::array<std::uint32_t, most_values> place[2]; // of the lower and the upper digit; first counts
-    for (int pair = 0; pair < pairs; ++pair) {
-        const auto digit = [=](const Hit& hit, int upper) {
-            const std::uint64_t key = std::uint64_t{hit.body_a} << vertex_bits | hit.vertex;
-            return static_cast<std::size_t>(key >> (2 * pair + upper) * digit_bits) & (digit_values - 1);
-        };
-        for (auto& counts : place) std::fill_n(counts.begin(), digit_values, 0u);
-        for (const Hit& hit : hits) {
-            ++place[0][digit(hit, 0)];
-            ++place[1][digit(hit, 1)];
+    const std::size_t values = std::size_t{1} << digit_bits;
+    Places low, high;
+    for (int shift = 0; shift < 2 * pairs * digit_bits; shift += 2 * digit_bits) {
+        for (Places* places : {&low, &high}) std::fill_n(places->begin(), values, 0u);
+        for (const Stored& hit : hits) {
+            ++low[key.digit(hit, shift, values)];
+            ++high[key.digit(hit, shift + digit_bits, values)];
         }
-        for (auto& counts : place) {
-            std::uint32_t sum = 0;
-            for (std::size_t v = 0; v < digit_values; ++v) sum += std::exchange(counts[v], sum);
-        }
-        for (const Hit& hit : hits) contacts[place[0][digit(hit, 0)]++] = std::bit_cast<vox_contact>(hit);
-        for (const vox_contact& contact : contacts) {
-            const Hit hit = std::bit_cast<Hit>(contact);
-            hits[place[1][digit(hit, 1)]++] = hit;
-        }
+        for (Places* places : {&low, &high}) sum(*places, values);
+        move_by_digit(key, shift, values, std::span<const Stored>(hits), other, low);
+        move_by_digit(key, shift + digit_bits, values, std::span<const Other>(other), hits, high);
     }
 }
 
@@ -72,6 +95,58 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
             *kept++ = *begin;
         else
             kept = std::copy_if(begin, next, kept, [](const Hit& hit) { return hit.interior != 0; });
+    }
+    return kept;
+}
+
+// The same for all hits of a sorted list; `hits` is as long, and may be that list.
+template <class Stored>
+Hit* keep_all(std::span<const Stored> sorted, std::span<Hit> hits, Hit* kept) {
+    for (std::size_t begin = 0, end; begin < sorted.size(); begin = end) {
+        const Hit first = to_hit(sorted[begin]);
+        end = begin + 1;
+        while (end < sorted.size() && same_vertex(to_hit(sorted[end]), first)) ++end;
+        if (end - begin == 1) {
+            *kept++ = first;
+            continue;
+        }
+        for (std::size_t i = begin; i < end; ++i) hits[i] = to_hit(sorted[i]);
+        kept = keep(hits.data() + begin, hits.data() + end, kept);
+    }
+    return kept;
+}
+
+// Sorts the hits and keeps those that become contacts at the front. Returns their end. `contacts` is as long,
+// and is overwritten.
+//
+// Many hits are first moved into pieces by the upper bits of their keys. What comes after stays in the cache:
+// the lower bits of a piece, back and forth between the two lists, and which hits to keep.
+Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts) {
+    constexpr std::size_t piece_size = 2048; // on average: 128 KiB in both lists
+    constexpr std::size_t few = 4 * piece_size;
+    const SortKey key(bodies);
+    if (hits.size() <= few) {
+        sort_by_low_bits(key, key.bits, hits, contacts);
+        return keep_all(std::span<const Hit>(hits), hits, hits.data());
+    }
+    const int piece_bits =
+        std::min({static_cast<int>(std::bit_width(hits.size() / piece_size)), most_digit_bits, key.bits});
+    const int low_bits = key.bits - piece_bits;
+    const std::size_t pieces = std::size_t{1} << piece_bits;
+    Places ends;
+    std::fill_n(ends.begin(), pieces, 0u);
+    for (const Hit& hit : hits) ++ends[key.digit(hit, low_bits, pieces)];
+    sum(ends, pieces);
+    move_by_digit(key, low_bits, pieces, std::span<const Hit>(hits), contacts, ends);
+    Hit* kept = hits.data();
+    std::size_t first = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const std::size_t count = ends[piece] - first;
+        const std::span<vox_contact> sorted = contacts.subspan(first, count);
+        const std::span<Hit> same_place = hits.subspan(first, count);
+        if (count > 1) sort_by_low_bits(key, low_bits, sorted, same_place);
+        kept = keep_all(std::span<const vox_contact>(sorted), same_place, kept);
+        first = ends[piece];
     }
     return kept;
 }
@@ -114,20 +189,12 @@ void resize(std::pmr::vector<vox_contact>& contacts, std::size_t count) {
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
                    std::pmr::vector<vox_contact>& contacts, Workers* workers) {
     resize(contacts, hits.size());
-    if (hits.size() <= UINT32_MAX) // what 32-bit counts are enough for
-        radix_sort(bodies, hits, contacts);
-    else
+    Hit* kept;
+    if (hits.size() <= UINT32_MAX) { // what 32-bit counts are enough for
+        kept = sort_and_keep(bodies, hits, contacts);
+    } else {
         std::sort(hits.begin(), hits.end(), before);
-
-    Hit* kept = hits.data();
-    Hit* const last = hits.data() + hits.size();
-    for (Hit *begin = hits.data(), *end; begin != last; begin = end) {
-        end = begin + 1;
-        while (end != last && same_vertex(*begin, *end)) ++end;
-        if (end - begin == 1)
-            *kept++ = *begin;
-        else
-            kept = keep(begin, end, kept);
+        kept = keep_all(std::span<const Hit>(hits), hits, hits.data());
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
     contacts.resize(hits.size());
