@@ -59,7 +59,7 @@ struct Parts {
     std::pmr::vector<vox_contact> contacts{&of_hits};
     vox::DepthStage depth{&of_depth};
     std::pmr::vector<vox_penetration> penetrations{&of_depth};
-    vox::Events events{&of_events, true};
+    vox::Events events{&of_events, false};
     vox::Workers workers{{}, 1};
 
     Parts(const bench::Scene& scene, const Options& options) {

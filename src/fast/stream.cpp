@@ -1,4 +1,5 @@
-// Minimum and maximum of positions, with one or two of them in a register.
+// Minimum and maximum of positions, with a position or several in a register. Whether all coordinates are
+// finite is a maximum too, of their bits.
 #include "fast/stream.hpp"
 
 #include "base/error.hpp"
@@ -40,98 +41,126 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
-// Minimum and maximum of positions, of which a register has one or more; lanes that are not part of any
-// position are ignored in the end.
-template <class D>
-struct MinMax {
-    hn::Vec<D> lo, hi;
-
-    HWY_INLINE MinMax() : lo(hn::Set(D(), float_infinity)), hi(hn::Set(D(), -float_infinity)) {}
-    HWY_INLINE void add(hn::Vec<D> v) {
-        lo = hn::Min(lo, v);
-        hi = hn::Max(hi, v);
-    }
-    HWY_INLINE void add(const MinMax& other) {
-        lo = hn::Min(lo, other.lo);
-        hi = hn::Max(hi, other.hi);
-    }
-    HWY_INLINE void store(Box& box) const {
-        hn::Store(lo, D(), box.lo);
-        hn::Store(hi, D(), box.hi);
-    }
-};
-
-// Two positions in a register, three lanes each, and two lanes of the one that follows. All positions of a
-// block take four such registers, which overlap where the block has fewer than block_size. That does not
-// change a minimum.
-using Two = hn::CappedTag<float, 8>;
-constexpr bool has_two = hn::MaxLanes(Two()) == 8;
-
-// The minimum and maximum over the two positions in each register.
-template <class D>
-HWY_INLINE MinMax<Four> Fold(const MinMax<D>& v) {
-    MinMax<Four> folded;
-    if constexpr (hn::MaxLanes(D()) == 8) {
-        alignas(32) constexpr std::int32_t second[8] = {3, 4, 5, 6, 7, 0, 1, 2};
-        const D d;
-        const auto from = hn::SetTableIndices(d, second);
-        folded.lo = hn::LowerHalf(hn::Min(v.lo, hn::TableLookupLanes(v.lo, from)));
-        folded.hi = hn::LowerHalf(hn::Max(v.hi, hn::TableLookupLanes(v.hi, from)));
-    }
-    return folded;
+// Whether all of `values` are finite: without the sign, their bits are below those of infinity.
+HWY_INLINE bool AllFinite(const float* HWY_RESTRICT values, std::size_t count) {
+    const hn::CappedTag<std::uint32_t, 16> du;
+    const hn::RebindToFloat<decltype(du)> df;
+    const auto magnitude = hn::Set(du, 0x7fffffffu);
+    auto largest = hn::Zero(du);
+    std::size_t i = 0;
+    for (; i + hn::Lanes(du) <= count; i += hn::Lanes(du))
+        largest = hn::Max(largest, hn::And(hn::BitCast(du, hn::LoadU(df, values + i)), magnitude));
+    bool finite = hn::GetLane(hn::MaxOfLanes(du, largest)) < 0x7f800000u;
+    for (; i < count; ++i) finite &= values[i] - values[i] == 0; // false for infinities and NaN
+    return finite;
 }
 
-// Sums up zero times each value: zeros, unless one was not finite.
-template <class D>
-struct FiniteTest {
-    hn::Vec<D> sum;
+// Adds the positions load(i), i < count, to the box from `lo` to `hi`.
+template <class Load>
+HWY_INLINE void BoxOf(std::uint32_t count, Load load, hn::Vec<Four>& lo, hn::Vec<Four>& hi) {
+    std::uint32_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        const auto p0 = load(i), p1 = load(i + 1), p2 = load(i + 2), p3 = load(i + 3);
+        lo = hn::Min(lo, hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+        hi = hn::Max(hi, hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)));
+    }
+    for (; i < count; ++i) {
+        const auto p = load(i);
+        lo = hn::Min(lo, p);
+        hi = hn::Max(hi, p);
+    }
+}
 
-    HWY_INLINE FiniteTest() : sum(hn::Zero(D())) {}
-    HWY_INLINE void add(hn::Vec<D> v) { sum = hn::MulAdd(v, hn::Zero(D()), sum); }
-    HWY_INLINE bool passed() const { return hn::AllTrue(D(), hn::Eq(sum, hn::Zero(D()))); }
-};
+// Several positions in a register, three lanes each, and a third as many lanes of the positions that follow.
+// Where registers are wide, all positions of a block take two or four of them. These overlap where the block
+// has fewer than block_size positions, which does not change a minimum.
+using Wide = hn::CappedTag<float, 16>;
+constexpr std::uint32_t wide_lanes = hn::MaxLanes(Wide());
+constexpr std::uint32_t wide_positions = wide_lanes / 4;
+
+template <class Vec>
+HWY_INLINE hn::Vec<Four> FirstFour(Vec v) {
+    if constexpr (sizeof(Vec) > sizeof(hn::Vec<Four>))
+        return FirstFour(hn::LowerHalf(v));
+    else
+        return v;
+}
+
+// Returns the result over all positions of a register in the first lanes.
+template <class Reduce>
+HWY_INLINE hn::Vec<Four> Fold(hn::Vec<Wide> v, Reduce reduce) {
+    const Wide d;
+    const hn::RebindToSigned<Wide> di;
+    for (std::uint32_t positions = wide_positions / 2; positions; positions /= 2) {
+        alignas(64) std::int32_t from[wide_lanes];
+        for (std::uint32_t i = 0; i < wide_lanes; ++i)
+            from[i] = static_cast<std::int32_t>((i + 3 * positions) % wide_lanes);
+        v = reduce(v, hn::TableLookupLanes(v, hn::IndicesFromVec(d, hn::Load(di, from))));
+    }
+    return FirstFour(v);
+}
 
 template <bool kMoves>
 HWY_INLINE bool Stream(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,
                        const std::uint32_t* HWY_RESTRICT first, std::size_t blocks, Box* HWY_RESTRICT boxes,
                        Box* HWY_RESTRICT moves, Box& all) {
+    const Four d;
+    bool finite = true;
     const std::uint32_t count = first[blocks];
-    MinMax<Four> all_blocks;
-    FiniteTest<Four> finite;
-    FiniteTest<Two> two_finite;
+    std::uint32_t checked = first[0];
+    auto all_lo = hn::Set(d, float_infinity), all_hi = hn::Set(d, -float_infinity);
+    const Wide dw;
+    auto wide_lo = hn::Set(dw, float_infinity), wide_hi = hn::Set(dw, -float_infinity);
+    const auto least = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
+    const auto most = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
     for (std::size_t b = 0; b < blocks; ++b) {
-        const std::uint32_t n = first[b + 1] - first[b];
-        const float* p = positions + std::size_t{first[b]} * 3;
-        const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
-        MinMax<Four> box, move;
-        if (has_two && n >= 2 && n <= block_size && first[b + 1] < count) {
-            MinMax<Two> two, two_moves;
-            const std::uint32_t last = n - 2;
-            for (std::uint32_t i = 0; i < block_size; i += 2) {
-                const std::size_t at = std::size_t{3} * (i < last ? i : last);
-                const auto some = hn::LoadU(Two(), p + at);
-                two.add(some);
-                two_finite.add(some);
-                if constexpr (kMoves) two_moves.add(hn::Sub(some, hn::LoadU(Two(), q + at)));
-            }
-            box = Fold(two);
-            if constexpr (kMoves) move = Fold(two_moves);
-        } else {
-            for (std::uint32_t i = 0; i < n; ++i) {
-                const bool is_last = first[b] + i + 1 == count;
-                const auto some = is_last ? LoadLastVertex(p, i) : LoadVertex(p, i);
-                box.add(some);
-                finite.add(some);
-                if constexpr (kMoves)
-                    move.add(hn::Sub(some, is_last ? LoadLastVertex(q, i) : LoadVertex(q, i)));
-            }
+        const std::uint32_t end = first[b + 1];
+        if (end > checked) { // a few kilobytes at a time, which are in the cache for the boxes then
+            const std::uint32_t next = count - end > 256 ? end + 256 : count;
+            finite &= AllFinite(positions + std::size_t{checked} * 3, std::size_t{next - checked} * 3);
+            checked = next;
         }
-        box.store(boxes[b]);
-        all_blocks.add(box);
-        if constexpr (kMoves) move.store(moves[b]);
+        const float* p = positions + std::size_t{first[b]} * 3;
+        const std::uint32_t n = end - first[b];
+        if (!kMoves && wide_positions > 1 && n >= wide_positions && n <= block_size && count - end >= 2) {
+            auto lo = hn::LoadU(dw, p + std::size_t{3} * (n - wide_positions)), hi = lo;
+            for (std::uint32_t i = 0; i + wide_positions < block_size; i += wide_positions) {
+                const std::uint32_t at = i + wide_positions < n ? i : n - wide_positions;
+                const auto some = hn::LoadU(dw, p + std::size_t{3} * at);
+                lo = hn::Min(lo, some);
+                hi = hn::Max(hi, some);
+            }
+            wide_lo = hn::Min(wide_lo, lo);
+            wide_hi = hn::Max(wide_hi, hi);
+            hn::Store(Fold(lo, least), d, boxes[b].lo);
+            hn::Store(Fold(hi, most), d, boxes[b].hi);
+            continue;
+        }
+        const float* q = kMoves ? reference + std::size_t{first[b]} * 3 : nullptr;
+        std::uint32_t left = n;
+        auto lo = hn::Set(d, float_infinity), hi = hn::Set(d, -float_infinity), move_lo = lo, move_hi = hi;
+        if (end == count) {
+            --left;
+            lo = hi = LoadLastVertex(p, left);
+            if constexpr (kMoves) move_lo = move_hi = hn::Sub(lo, LoadLastVertex(q, left));
+        }
+        BoxOf(
+            left, [&](std::uint32_t i) HWY_ATTR { return LoadVertex(p, i); }, lo, hi);
+        hn::Store(lo, d, boxes[b].lo);
+        hn::Store(hi, d, boxes[b].hi);
+        all_lo = hn::Min(all_lo, lo);
+        all_hi = hn::Max(all_hi, hi);
+        if constexpr (kMoves) {
+            const auto move = [&](std::uint32_t i)
+                                  HWY_ATTR { return hn::Sub(LoadVertex(p, i), LoadVertex(q, i)); };
+            BoxOf(left, move, move_lo, move_hi);
+            hn::Store(move_lo, d, moves[b].lo);
+            hn::Store(move_hi, d, moves[b].hi);
+        }
     }
-    all_blocks.store(all);
-    return finite.passed() && two_finite.passed();
+    hn::Store(hn::Min(all_lo, Fold(wide_lo, least)), d, all.lo);
+    hn::Store(hn::Max(all_hi, Fold(wide_hi, most)), d, all.hi);
+    return finite;
 }
 
 bool StreamBoxes(const float* HWY_RESTRICT positions, const float* HWY_RESTRICT reference,

@@ -7,7 +7,9 @@
 #include "exact/barycentric.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -19,12 +21,18 @@ bool before(const Hit& x, const Hit& y) {
            std::tuple(y.body_a, y.vertex, y.body_b, std::uint32_t(y.tet));
 }
 
-bool same_vertex(const Hit& x, const Hit& y) { return x.vertex == y.vertex && x.body_a == y.body_a; }
-
 // A hit is kept in either list, bit by bit, while they are sorted.
-static_assert(sizeof(Hit) == sizeof(vox_contact));
+static_assert(sizeof(Hit) == sizeof(vox_contact) && offsetof(Hit, body_a) == offsetof(vox_contact, mesh_a) &&
+              offsetof(Hit, vertex) == offsetof(vox_contact, vertex));
+std::uint32_t body_of(const Hit& hit) { return hit.body_a; }
+std::uint32_t body_of(const vox_contact& contact) { return contact.mesh_a; }
 Hit to_hit(const Hit& hit) { return hit; }
 Hit to_hit(const vox_contact& contact) { return std::bit_cast<Hit>(contact); }
+
+template <class Stored>
+bool same_vertex(const Stored& x, const Stored& y) {
+    return x.vertex == y.vertex && body_of(x) == body_of(y);
+}
 
 // body_a and vertex as one number of as few bits as these bodies need.
 struct SortKey {
@@ -36,10 +44,12 @@ struct SortKey {
     }
 
     template <class Stored>
+    std::uint64_t of(const Stored& stored) const {
+        return std::uint64_t{body_of(stored)} << vertex_bits | stored.vertex;
+    }
+    template <class Stored>
     std::size_t digit(const Stored& stored, int shift, std::size_t values) const {
-        const Hit hit = to_hit(stored);
-        return static_cast<std::size_t>((std::uint64_t{hit.body_a} << vertex_bits | hit.vertex) >> shift) &
-               (values - 1);
+        return static_cast<std::size_t>(of(stored) >> shift) & (values - 1);
     }
 
     int vertex_bits, bits;
@@ -57,7 +67,7 @@ template <class Stored, class Other>
 void move_by_digit(const SortKey& key, int shift, std::size_t values, std::span<const Stored> from,
                    std::span<Other> to, Places& places) {
     for (const Stored& stored : from)
-        to[places[key.digit(stored, shift, values)]++] = std::bit_cast<Other>(to_hit(stored));
+        to[places[key.digit(stored, shift, values)]++] = std::bit_cast<Other>(stored);
 }
 
 // By the lowest `bits` of the key, cut into two equal digits or more. `other` is as long as `hits`, and holds
@@ -99,35 +109,63 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
     return kept;
 }
 
-// The same for all hits of a sorted list; `hits` is as long, and may be that list.
-template <class Stored>
-Hit* keep_all(std::span<const Stored> sorted, std::span<Hit> hits, Hit* kept) {
-    for (std::size_t begin = 0, end; begin < sorted.size(); begin = end) {
-        const Hit first = to_hit(sorted[begin]);
+// The same for `count` hits in order, of which at(i) is the i-th, in either list. `hits` has as many places,
+// which may be those of the hits themselves.
+template <class At>
+Hit* keep_all(std::size_t count, At&& at, Hit* hits, Hit* kept) {
+    for (std::size_t begin = 0, end; begin < count; begin = end) {
         end = begin + 1;
-        while (end < sorted.size() && same_vertex(to_hit(sorted[end]), first)) ++end;
+        while (end < count && same_vertex(at(begin), at(end))) ++end;
         if (end - begin == 1) {
-            *kept++ = first;
+            *kept++ = to_hit(at(begin));
             continue;
         }
-        for (std::size_t i = begin; i < end; ++i) hits[i] = to_hit(sorted[i]);
-        kept = keep(hits.data() + begin, hits.data() + end, kept);
+        for (std::size_t i = begin; i < end; ++i) hits[i] = to_hit(at(i));
+        kept = keep(hits + begin, hits + end, kept);
     }
     return kept;
+}
+
+// The order of some hits: the lowest bits of the key of each, and its index among them.
+constexpr int index_bits = 12;
+constexpr std::uint32_t most_in_order = 1u << index_bits;
+using Order = std::array<std::uint32_t, most_in_order>;
+
+// By the lowest `bits` of the keys, of which there is room for 32 - index_bits.
+void find_order(const SortKey& key, int bits, std::span<const vox_contact> hits, Order& order) {
+    const int digit_bits = (bits + 1) / 2;
+    const std::size_t values = std::size_t{1} << digit_bits;
+    const auto lower = [=](std::uint32_t item) { return item >> index_bits & (values - 1); };
+    const auto upper = [=](std::uint32_t item) { return item >> (index_bits + digit_bits); };
+    Order other;
+    Places low, high;
+    for (Places* places : {&low, &high}) std::fill_n(places->begin(), values, 0u);
+    const auto count = static_cast<std::uint32_t>(hits.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint64_t bits_of_key = key.of(hits[i]) & ((std::uint64_t{1} << bits) - 1);
+        order[i] = static_cast<std::uint32_t>(bits_of_key) << index_bits | i;
+        ++low[lower(order[i])];
+        ++high[upper(order[i])];
+    }
+    for (Places* places : {&low, &high}) sum(*places, values);
+    for (std::uint32_t i = 0; i < count; ++i) other[low[lower(order[i])]++] = order[i];
+    for (std::uint32_t i = 0; i < count; ++i) order[high[upper(other[i])]++] = other[i];
 }
 
 // Sorts the hits and keeps those that become contacts at the front. Returns their end. `contacts` is as long,
 // and is overwritten.
 //
-// Many hits are first moved into pieces by the upper bits of their keys. What comes after stays in the cache:
-// the lower bits of a piece, back and forth between the two lists, and which hits to keep.
+// Where both lists are larger than the caches, the hits are first moved into pieces by the upper bits of
+// their keys. The order of a piece is then found in the first cache, and they are moved a second time to
+// where they are kept.
 Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts) {
-    constexpr std::size_t piece_size = 2048; // on average: 128 KiB in both lists
-    constexpr std::size_t few = 4 * piece_size;
+    constexpr std::size_t few = std::size_t{1} << 17; // 8 MiB in both lists
+    constexpr std::size_t piece_size = 1024;          // on average
     const SortKey key(bodies);
     if (hits.size() <= few) {
         sort_by_low_bits(key, key.bits, hits, contacts);
-        return keep_all(std::span<const Hit>(hits), hits, hits.data());
+        const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
+        return keep_all(hits.size(), at, hits.data(), hits.data());
     }
     const int piece_bits =
         std::min({static_cast<int>(std::bit_width(hits.size() / piece_size)), most_digit_bits, key.bits});
@@ -139,14 +177,19 @@ Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<
     sum(ends, pieces);
     move_by_digit(key, low_bits, pieces, std::span<const Hit>(hits), contacts, ends);
     Hit* kept = hits.data();
-    std::size_t first = 0;
-    for (std::size_t piece = 0; piece < pieces; ++piece) {
+    Order order;
+    for (std::size_t piece = 0, first = 0; piece < pieces; first = ends[piece++]) {
         const std::size_t count = ends[piece] - first;
-        const std::span<vox_contact> sorted = contacts.subspan(first, count);
-        const std::span<Hit> same_place = hits.subspan(first, count);
-        if (count > 1) sort_by_low_bits(key, low_bits, sorted, same_place);
-        kept = keep_all(std::span<const vox_contact>(sorted), same_place, kept);
-        first = ends[piece];
+        const std::span<vox_contact> part = contacts.subspan(first, count);
+        const bool has_order = count <= most_in_order && low_bits <= 32 - index_bits;
+        if (has_order)
+            find_order(key, low_bits, part, order);
+        else
+            sort_by_low_bits(key, low_bits, part, hits.subspan(first, count));
+        const auto at = [&](std::size_t i) -> const vox_contact& {
+            return part[has_order ? order[i] % most_in_order : i];
+        };
+        kept = keep_all(count, at, hits.data() + first, kept);
     }
     return kept;
 }
@@ -194,7 +237,8 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
         kept = sort_and_keep(bodies, hits, contacts);
     } else {
         std::sort(hits.begin(), hits.end(), before);
-        kept = keep_all(std::span<const Hit>(hits), hits, hits.data());
+        const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
+        kept = keep_all(hits.size(), at, hits.data(), hits.data());
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
     contacts.resize(hits.size());

@@ -83,8 +83,8 @@ START_TEST(first_edit_copies) {
         memset(lent, 0xff, bytes);
         free(lent);
         ck_assert_uint_eq(hash_of_step(copying), hash_of_step(borrowing));
-        edit(copying, mesh, (what + 1) % edit_count, 2);
-        edit(borrowing, mesh, (what + 1) % edit_count, 2);
+        edit(copying, mesh, append_some, 2);
+        edit(borrowing, mesh, append_some, 2);
         ck_assert_uint_eq(hash_of_step(copying), hash_of_step(borrowing));
         vox_grid_destroy(copying);
         vox_grid_destroy(borrowing);
