@@ -141,9 +141,8 @@ void report(bench::Scene& scene, const Options& options) {
     const double tets = static_cast<double>(scene.tet_count());
     const double copy = options.borrow ? 0 : tets * sizeof(vox::Tet);
     double sum = copy;
-    for (const CountingMemory* memory :
-         {&parts.of_topology, &parts.of_meshes, &parts.of_states, &parts.of_engine, &parts.of_hits,
-          &parts.of_depth, &parts.of_events})
+    for (const CountingMemory* memory : {&parts.of_topology, &parts.of_meshes, &parts.of_states,
+                                         &parts.of_engine, &parts.of_hits, &parts.of_depth, &parts.of_events})
         sum += held(*memory);
     const double real = real_bytes(scene, options);
     std::printf("\n%s: %zu tets, %zu vertices, %zu bodies, %zu contacts; bytes a tetrahedron:\n",

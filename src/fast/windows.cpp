@@ -47,6 +47,11 @@ void prepare(const Step& step, Windows& out) {
     }
     while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.get_allocator().resource());
     for (Bins& bins : out.bins) bins.clear();
+    for (std::size_t g = 0; g < out.groups.size(); ++g) {
+        out.bins[g].most_points = 0;
+        for (std::uint32_t b = out.groups[g].first; b < out.groups[g].last; ++b)
+            out.bins[g].most_points += step.bodies[b].vertex_count;
+    }
 
     // Any worker may be given any body. A body that is more than a worker's share of all gets buffers of its
     // own, so that all buffers together are no more than twice what one worker for each body would need.
@@ -151,7 +156,7 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     const std::uint32_t before = bins.points.count;
     BodyWindow& window = out.of[a];
     window.cell_size = cell_size > 0 ? std::min(cell_size, largest_factor * automatic) : automatic;
-    window.root = bin_tree(points, window.cell_size, buffers.cell_of, bins);
+    window.root = bin_tree(points, window.cell_size, bins);
     window.bins = &bins;
     window.count = bins.points.count - before;
     window.own = own;
@@ -176,7 +181,8 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
             wanted = end < 64 ? wanted >> end << end : 0;
-            points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
+            points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]),
+                           step.bodies[body].vertex_count);
             collect(step_body.positions, first[b + begin], first[b + end], step.bodies[body].vertex_count,
                     around, points);
         }
