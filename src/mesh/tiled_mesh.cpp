@@ -17,7 +17,7 @@ void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* face
         std::erase_if(made.boundary.loose,
                       [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
-    // Winding numbers leave few tiles to query against vertices of the same body.
+    // Winding numbers leave few tiles in which vertices of the same body are looked up.
     if (!body.self_collision || made.boundary.is_closed) {
         made.tiles.own.clear();
         made.tiles.own.shrink_to_fit();
