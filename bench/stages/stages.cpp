@@ -135,7 +135,6 @@ struct Bodies {
     fast::Points points{memory}, sparse{memory};
     fast::WindowLattice lattice{};
     fast::Bins bins{memory}, sparse_bins{memory};
-    std::pmr::vector<std::uint32_t> cell_of;
     fast::Window window{};
     std::unique_ptr<fast::LookupScratch> scratch = std::make_unique<fast::LookupScratch>();
     fast::Certificate certificate{memory};
@@ -205,7 +204,7 @@ struct Bodies {
 
     void bin() {
         bins.clear();
-        window = fast::bin(points, lattice, region, cell_of, bins);
+        window = fast::bin(points, lattice, region, bins);
     }
 
     // The points of b in a thousand places far apart, neighbours staying together. (The order that bin_tree
@@ -295,7 +294,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
         {"bin sparse", "point", s.sparse.count,
          [&s] {
              s.sparse_bins.clear();
-             fast::bin_tree(s.sparse, Bodies::cell_size, s.cell_of, s.sparse_bins);
+             fast::bin_tree(s.sparse, Bodies::cell_size, s.sparse_bins);
          }},
         {"look up tiles", "tet", tets, [&s] { s.look_up(); }},
         {"follow", "tet", tets,

@@ -48,6 +48,11 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
+inline bool contains(const Box& outer, const Box& inner) noexcept {
+    return (inner.lo[0] >= outer.lo[0]) & (inner.lo[1] >= outer.lo[1]) & (inner.lo[2] >= outer.lo[2]) &
+           (inner.hi[0] <= outer.hi[0]) & (inner.hi[1] <= outer.hi[1]) & (inner.hi[2] <= outer.hi[2]);
+}
+
 // The sides of `region` on which a whole box is. Bits 0 to 2 are set when it is above hi[0], hi[1] and hi[2]
 // of the region, bits 4 to 6 when it is below lo[0], lo[1] and lo[2]; no bit is set where the two overlap.
 // Boxes that have a bit in common are all on that side.

@@ -259,13 +259,12 @@ void Lookups::count_binned(const fast::Points& points, double lookups, bool coun
     if (points.count == 0) return;
     std::pmr::memory_resource* memory = classes_.get_allocator().resource();
     fast::Bins bins(memory);
-    std::pmr::vector<std::uint32_t> buffer(memory);
     std::pmr::vector<BranchMisses::Point> around(memory);
     const Box box = fast::bounds(points);
     const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
     bins.points.reserve(points.count);
     const fast::WindowLattice lattice = fast::make_lattice(points, box, 0, most);
-    const fast::Window window = fast::bin(points, lattice, box, buffer, bins);
+    const fast::Window window = fast::bin(points, lattice, box, bins);
     double smallest = 1, largest = 1;
     if (sides(smallest, largest)) {
         first_size_ = smallest / 16;

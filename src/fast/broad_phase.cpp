@@ -258,22 +258,29 @@ void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& pie
                &out.block_sides[first + piece.first]);
 }
 
-// The boxes of the super-tiles of a body, and of all tiles in those that others reach.
+// The boxes of the super-tiles of a body, and of all tiles in those that others reach. Of a super-tile inside
+// the regions that it meets, only the first tile gets one: nearly all of its tiles will be looked up in, and their
+// vertices be read for that anyway.
 void make_reached_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {
     if (!broad.is_reached(piece.body)) return;
     const StepBody& body = step.of[piece.body];
     if (!body.has_super_boxes) make_super_tile_boxes(step, broad, piece, boxes);
     const Tiles& tiles = *body.tiles;
-    const std::span<const std::uint32_t> reaching = broad.of_b(piece.body);
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         const Box& box = boxes.super_tiles[body.first_super + s];
-        if (std::any_of(reaching.begin(), reaching.end(),
-                        [&](std::uint32_t r) { return overlap(box, broad.regions[r].region); }))
-            make_tile_boxes(body, tiles.super_first[s], tiles.super_first[s + 1], boxes);
+        bool meets_one = false, is_inside = true;
+        for (const std::uint32_t r : broad.of_b(piece.body)) {
+            const Box& region = broad.regions[r].region;
+            if (!overlap(box, region)) continue;
+            meets_one = true;
+            is_inside &= contains(region, box);
+        }
+        const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+        if (meets_one) make_tile_boxes(body, first, is_inside ? std::min(first + 1, last) : last, boxes);
     }
 }
 
-// Shrinks the region to what tiles of b cover.
+// Shrinks the region to what tiles of b cover. Super-tiles inside it stand for their tiles.
 void shrink_to_tiles(const Step& step, const StepBoxes& boxes, PairRegion& pair) {
     const StepBody& body = step.of[pair.b];
     const Tiles& tiles = *body.tiles;
@@ -281,8 +288,15 @@ void shrink_to_tiles(const Step& step, const StepBoxes& boxes, PairRegion& pair)
     const Box* tile_boxes = boxes.tiles.data() + body.first_tile;
     Box covered = empty_box;
     for (std::uint32_t s = 0; s < super_tiles; ++s) {
-        if (!overlap(boxes.super_tiles[body.first_super + s], pair.region)) continue;
-        for (std::uint32_t t = tiles.super_first[s]; t < tiles.super_first[s + 1]; ++t) {
+        const Box& box = boxes.super_tiles[body.first_super + s];
+        if (!overlap(box, pair.region)) continue;
+        const std::uint32_t first = tiles.super_first[s], last = tiles.super_first[s + 1];
+        if (contains(pair.region, box)) {
+            add(covered, box);
+            if (first < last) pair.tile_size.add(tile_boxes[first], last - first);
+            continue;
+        }
+        for (std::uint32_t t = first; t < last; ++t) {
             if (!overlap(tile_boxes[t], pair.region)) continue;
             add(covered, tile_boxes[t]);
             pair.tile_size.add(tile_boxes[t]);

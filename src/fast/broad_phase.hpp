@@ -43,11 +43,13 @@ std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& re
 
 // A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
 // the two bodies, the box around those blocks of a that meet these, and the box around those tiles of b that
-// meet what is left. Empty where no tile of b does.
+// meet what is left, with the box of a super-tile in place of its tiles where that is inside. Empty where no
+// tile of b meets it.
 struct PairRegion {
     std::uint32_t a, b;
     Box region;
-    TileSize tile_size; // of those tiles: they will look into the windows of a
+    // Of those tiles, one for all of a super-tile inside: they will look into the windows of a.
+    TileSize tile_size;
 };
 
 struct BroadPhase {
@@ -80,8 +82,8 @@ struct BroadPhase {
 
 // Finds the regions of all pairs of bodies that may collide (mesh/filter.hpp) and of which one moved. Needs
 // boxes.bodies and boxes.blocks (stream), and boxes.super_tiles of bodies that has_super_boxes. Makes the
-// boxes of all super-tiles of bodies that are reached, and of all tiles that meet a region. The result does
-// not depend on the number of workers.
+// boxes of all super-tiles of bodies that are reached, and of all tiles that meet a region, but for those of
+// super-tiles inside the regions that they meet. The result does not depend on the number of workers.
 void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out);
 
 // Makes the boxes of some super-tiles. Of bodies that are reached and do not collide with themselves,

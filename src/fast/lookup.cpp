@@ -77,6 +77,21 @@ HWY_INLINE std::uint32_t LowestBit(std::uint64_t mask) {
 #endif
 }
 
+// For each vertex of a tile, its tets that have the vertex as a corner.
+HWY_INLINE void FindOwners(const Tiles& tiles, const Tile& tile, std::uint64_t* HWY_RESTRICT own) {
+    if (!tiles.own.empty()) {
+        const std::uint64_t* known = tiles.own.data() + tile.first_vertex;
+        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) own[i] = known[i];
+        return;
+    }
+    for (std::uint32_t i = 0; i < tile.vertex_count; ++i) own[i] = 0;
+    const std::uint8_t* corners =
+        tiles.corners.data() + static_cast<std::size_t>(&tile - tiles.tiles.data()) * 4 * tile_size;
+    for (std::uint32_t c = 0; c < 4; ++c)
+        for (std::uint32_t i = 0; i < tile.tet_count; ++i)
+            own[corners[c * tile_size + i]] |= std::uint64_t{1} << i;
+}
+
 // One tile and how far it is prepared.
 struct TileWork {
     const TiledBody& body;
@@ -118,11 +133,8 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
         w.stamped = true;
         s.tag += 1u << 6;
         const std::uint32_t* vertices = w.body.tiles->vertices.data() + tile.first_vertex;
-        const std::uint64_t* own = w.body.tiles->own.data() + tile.first_vertex;
-        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
-            w.body.stamps[vertices[i]] = s.tag | i;
-            s.own[i] = own[i];
-        }
+        for (std::uint32_t i = 0; i < tile.vertex_count; ++i) w.body.stamps[vertices[i]] = s.tag | i;
+        FindOwners(*w.body.tiles, tile, s.own);
     }
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
@@ -272,7 +284,8 @@ HWY_INLINE void PrefetchTile(const Tiles& tiles, const Tile& tile, bool own) {
     PrefetchRange(tiles.vertices.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint32_t));
     PrefetchRange(tiles.corners.data() + index * 4 * tile_size, 4 * tile_size);
     PrefetchRange(tiles.tets.data() + tile.first_tet, tile.tet_count * sizeof(std::uint32_t));
-    if (own) PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
+    if (own && !tiles.own.empty())
+        PrefetchRange(tiles.own.data() + tile.first_vertex, tile.vertex_count * sizeof(std::uint64_t));
 }
 
 // Of a window with few points, the tiles of a super-tile together read nearly all: 8 KiB of coordinates and

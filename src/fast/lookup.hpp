@@ -44,10 +44,10 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of a worker, for one tile at a time. About 40 KiB.
+// Buffers of a worker, for one tile at a time. About 27 KiB.
 struct alignas(64) LookupScratch : TileVertices {
-    static constexpr std::uint32_t most_candidates = 512; // handled at a time
-    static constexpr std::uint32_t most_pairs = 2048;
+    static constexpr std::uint32_t most_candidates = 256; // handled at a time
+    static constexpr std::uint32_t most_pairs = 1024;
     static constexpr std::uint32_t most_findings = 128;
 
     // The tile. Its vertices again as x, y, z and an unused float, where that is faster to look up.

@@ -105,12 +105,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-void Points::reserve(std::size_t most) {
+void Points::reserve(std::size_t most, std::size_t ever) {
     if (id.size() >= most + padding)
         return; // `id` grows last, so this holds after an earlier call ran out of memory
     // An eighth more, so that a number of points that varies needs no new room in every step. resize() alone
     // would double the room.
-    const std::size_t size = most + most / 8 + padding;
+    const std::size_t size = std::max(most, std::min(most + most / 8, ever)) + padding;
     const auto grow = [size](auto& list) {
         list.reserve(size);
         list.resize(size);
@@ -235,27 +235,40 @@ bool is_crowded(const std::uint32_t* counts, std::size_t cells, std::uint32_t po
     return sum > (most_crowded + 1) * points;
 }
 
+// Calls visit(point, cell) for each of some points, counted from the first one. Cells are computed some at a
+// time, and twice for each window: storing them would take more time, and memory.
+template <class Visit>
+void for_cells(const Points& points, Range range, const WindowLattice& lattice, Visit&& visit) {
+    constexpr std::uint32_t at_once = 512;
+    alignas(64) std::uint32_t cell[at_once + Points::padding];
+    const auto cells = VOX_SIMD_DISPATCH(Cells);
+    for (std::uint32_t done = 0; done < range.count; done += at_once) {
+        const std::size_t first = std::size_t{range.first} + done;
+        const std::uint32_t count = std::min(at_once, range.count - done);
+        cells(lattice, points.x.data() + first, points.y.data() + first, points.z.data() + first, count,
+              cell);
+        for (std::uint32_t i = 0; i < count; ++i) visit(done + i, cell[i]);
+    }
+}
+
 // Adds a window of some points, and returns whether it did. With `unless_crowded`, adds none that would be
 // crowded.
 bool try_bin(const Points& points, Range range, const WindowLattice& lattice, const Box& box,
-             bool unless_crowded, std::pmr::vector<std::uint32_t>& buffer, Bins& bins, Window& window) {
+             bool unless_crowded, Bins& bins, Window& window) {
     const std::uint32_t n = range.count;
     const std::size_t cells = lattice.count();
     window = {&bins, lattice, box, bins.points.count, bins.cells, n};
-    bins.points.reserve(bins.points.count + std::size_t{n});
-    if (buffer.size() < n + Points::padding) buffer.resize(n + n / 8 + Points::padding);
+    bins.points.reserve(bins.points.count + std::size_t{n}, bins.most_points);
     const std::size_t used = bins.cells + cells + 2;
-    if (bins.begin.size() < used) bins.begin.resize(used + used / 8);
-    std::uint32_t* cell_of = buffer.data();
-    const float *from_x = points.x.data() + range.first, *from_y = points.y.data() + range.first,
-                *from_z = points.z.data() + range.first;
-    const std::uint32_t* from_id = points.id.data() + range.first;
-    VOX_SIMD_DISPATCH(Cells)(lattice, from_x, from_y, from_z, n, cell_of);
+    if (bins.begin.size() < used) {
+        bins.begin.reserve(used + used / 8); // resize() alone would double the room
+        bins.begin.resize(used + used / 8);
+    }
 
     // begin[c + 1] is first the number of points in c, then where c begins, and in the end where it ends.
     std::uint32_t* begin = bins.begin.data() + window.first_cell;
     std::fill_n(begin, cells + 2, 0u);
-    for (std::uint32_t i = 0; i < n; ++i) ++begin[cell_of[i] + 1];
+    for_cells(points, range, lattice, [begin](std::uint32_t, std::uint32_t c) { ++begin[c + 1]; });
     if (unless_crowded && is_crowded(begin + 1, cells, n)) return false;
     std::uint32_t sum = 0, occupied = 0, fullest = 0;
     for (std::size_t c = 1; c <= cells; ++c) {
@@ -269,13 +282,16 @@ bool try_bin(const Points& points, Range range, const WindowLattice& lattice, co
     float* y = bins.points.y.data() + window.first_point;
     float* z = bins.points.z.data() + window.first_point;
     std::uint32_t* id = bins.points.id.data() + window.first_point;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t place = begin[cell_of[i] + 1]++;
+    const float *from_x = points.x.data() + range.first, *from_y = points.y.data() + range.first,
+                *from_z = points.z.data() + range.first;
+    const std::uint32_t* from_id = points.id.data() + range.first;
+    for_cells(points, range, lattice, [=](std::uint32_t i, std::uint32_t c) {
+        const std::uint32_t place = begin[c + 1]++;
         x[place] = from_x[i];
         y[place] = from_y[i];
         z[place] = from_z[i];
         id[place] = from_id[i];
-    }
+    });
     bins.points.count += n;
     bins.cells = used;
     bins.occupied_cells += occupied;
@@ -309,8 +325,7 @@ std::uint32_t halve(Points& points, Range range, const Box& box) {
     }
 }
 
-void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
-              Bins& bins) {
+void add_tree(Points& points, Range range, double cell_size, Bins& bins) {
     const std::size_t index = bins.windows.size();
     bins.windows.emplace_back();
     const Box box = bounds(points, range);
@@ -320,14 +335,14 @@ void add_tree(Points& points, Range range, double cell_size, std::pmr::vector<st
         range.count > few_points && is_coarse(make_lattice(box, cell_size, cells), cell_size);
     Window window;
     if ((may_halve && looks_crowded(points, range, lattice)) ||
-        !try_bin(points, range, lattice, box, may_halve, buffer, bins, window)) {
+        !try_bin(points, range, lattice, box, may_halve, bins, window)) {
         const std::uint32_t low = halve(points, range, box);
         if (low == 0) {
-            (void)try_bin(points, range, lattice, box, false, buffer, bins, window);
+            (void)try_bin(points, range, lattice, box, false, bins, window);
         } else {
             window = {&bins, {}, box, 0, 0, 0};
-            add_tree(points, {range.first, low}, cell_size, buffer, bins);
-            add_tree(points, {range.first + low, range.count - low}, cell_size, buffer, bins);
+            add_tree(points, {range.first, low}, cell_size, bins);
+            add_tree(points, {range.first + low, range.count - low}, cell_size, bins);
         }
     }
     window.end = static_cast<std::uint32_t>(bins.windows.size());
@@ -350,10 +365,9 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, st
 
 Box bounds(const Points& points) { return bounds(points, {0, points.count}); }
 
-Window bin(const Points& points, const WindowLattice& lattice, const Box& box,
-           std::pmr::vector<std::uint32_t>& buffer, Bins& bins) {
+Window bin(const Points& points, const WindowLattice& lattice, const Box& box, Bins& bins) {
     Window window;
-    (void)try_bin(points, {0, points.count}, lattice, box, false, buffer, bins, window);
+    (void)try_bin(points, {0, points.count}, lattice, box, false, bins, window);
     return window;
 }
 
@@ -378,10 +392,9 @@ bool holds_point(const Window& window, const Box& box) noexcept {
     return false;
 }
 
-std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer,
-                       Bins& bins) {
+std::uint32_t bin_tree(Points& points, double cell_size, Bins& bins) {
     const auto root = static_cast<std::uint32_t>(bins.windows.size());
-    add_tree(points, {0, points.count}, cell_size, buffer, bins);
+    add_tree(points, {0, points.count}, cell_size, bins);
     return root;
 }
 

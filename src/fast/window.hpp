@@ -24,7 +24,8 @@ struct Points {
     std::uint32_t count = 0;
 
     static constexpr std::size_t padding = 64;
-    void reserve(std::size_t most); // keeps what is there
+    // Keeps what is there. `ever` is the most that there ever will be.
+    void reserve(std::size_t most, std::size_t ever = ~std::size_t{0});
 };
 
 struct alignas(16) WindowCell {
@@ -99,6 +100,7 @@ struct Bins {
     std::pmr::vector<Window> windows; // tree after tree, each in preorder
     std::size_t cells = 0;            // entries of `begin` in use
     std::uint64_t occupied_cells = 0, fullest_cell = 0;
+    std::size_t most_points = ~std::size_t{0}; // that there ever will be
 
     void clear() noexcept {
         points.count = 0;
@@ -115,15 +117,13 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, st
 // The box of points.
 Box bounds(const Points& points);
 
-// Adds the window of `points`, sorted stably into the cells of `lattice`. `buffer` takes the cell of each
-// unsorted point; keep it from call to call.
-Window bin(const Points& points, const WindowLattice& lattice, const Box& box,
-           std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
+// Adds the window of `points`, sorted stably into the cells of `lattice`.
+Window bin(const Points& points, const WindowLattice& lattice, const Box& box, Bins& bins);
 
 // Appends to bins.windows a tree of windows of all points, with cells of `cell_size`, or of larger ones where
 // those would be too many. It is a single window unless its cells would be crowded. Changes the order of
 // `points`. Returns the index of the root.
-std::uint32_t bin_tree(Points& points, double cell_size, std::pmr::vector<std::uint32_t>& buffer, Bins& bins);
+std::uint32_t bin_tree(Points& points, double cell_size, Bins& bins);
 
 // Whether there is a point in `box`.
 bool holds_point(const Window& window, const Box& box) noexcept;

@@ -9,8 +9,8 @@ namespace vox::fast {
 
 namespace {
 
-// Edge length of a cell, in harmonic mean box sides of the tiles that look into it. The optimum is flat from 0.4
-// to 0.9.
+// Edge length of a cell, in harmonic mean box sides of the tiles that look into it. The optimum is flat from
+// 0.4 to 0.9.
 constexpr double cell_in_tile_sides = 0.6;
 // A cell size asked for is used up to this many times the automatic one: beyond it, every tile would meet
 // every vertex.
@@ -47,6 +47,11 @@ void prepare(const Step& step, Windows& out) {
     }
     while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.get_allocator().resource());
     for (Bins& bins : out.bins) bins.clear();
+    for (std::size_t g = 0; g < out.groups.size(); ++g) {
+        out.bins[g].most_points = 0;
+        for (std::uint32_t b = out.groups[g].first; b < out.groups[g].last; ++b)
+            out.bins[g].most_points += step.bodies[b].vertex_count;
+    }
 
     // Any worker may be given any body. A body that is more than a worker's share of all gets buffers of its
     // own, so that all buffers together are no more than twice what one worker for each body would need.
@@ -152,7 +157,7 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     const std::uint32_t before = bins.points.count;
     BodyWindow& window = out.of[a];
     window.cell_size = cell_size > 0 ? std::min(cell_size, largest_factor * automatic) : automatic;
-    window.root = bin_tree(points, window.cell_size, buffers.cell_of, bins);
+    window.root = bin_tree(points, window.cell_size, bins);
     window.bins = &bins;
     window.count = bins.points.count - before;
     window.own = own;
@@ -167,6 +172,7 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
     const Box* blocks = boxes.blocks.data() + step_body.first_block;
     const std::pmr::vector<std::uint32_t>& first = step_body.tiles->block_first;
     const std::uint32_t count = step_body.tiles->block_count();
+    const std::size_t most_points = std::size_t{points.count} + step.bodies[body].vertex_count;
     for (std::uint32_t b = 0; b < count; b += most_boxes) {
         const std::uint32_t some = std::min(most_boxes, count - b);
         std::uint64_t wanted = all_blocks ? ~std::uint64_t{0} >> (64 - some) : 0;
@@ -177,7 +183,7 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));
             wanted = end < 64 ? wanted >> end << end : 0;
-            points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]));
+            points.reserve(std::size_t{points.count} + (first[b + end] - first[b + begin]), most_points);
             collect(step_body.positions, first[b + begin], first[b + end], step.bodies[body].vertex_count,
                     around, points);
         }

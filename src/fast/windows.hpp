@@ -28,16 +28,15 @@ struct BodyWindow {
 // What it takes to make the windows of a body.
 struct WindowBuffers {
     explicit WindowBuffers(std::pmr::memory_resource* memory)
-        : certificate(memory), active(memory), points(memory), cell_of(memory) {}
+        : certificate(memory), active(memory), points(memory) {}
 
     Certificate certificate;
     std::pmr::vector<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
     Points points;                         // before they are binned
-    std::pmr::vector<std::uint32_t> cell_of;
 
     auto buffers() {
         return std::tuple_cat(certificate.buffers(),
-                              std::tie(active, points.x, points.y, points.z, points.id, cell_of));
+                              std::tie(active, points.x, points.y, points.z, points.id));
     }
 };
 

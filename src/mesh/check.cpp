@@ -39,7 +39,8 @@ void check_format(const vox_format& position_format, const char* where) {
 }
 
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
-    constexpr std::uint32_t known_flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    constexpr std::uint32_t known_flags =
+        VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
     if (desc.flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,

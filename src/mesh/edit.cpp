@@ -37,7 +37,7 @@ void check_items(std::span<const std::uint32_t> items, std::size_t count, const 
 // ---- tetrahedra -----------------------------------------------------------------------------------
 
 void Mesh::check_tets(std::span<const std::uint32_t> tets) const {
-    check_items(tets, tets_.size(), removed_, "tets");
+    check_items(tets, this->tets().size(), removed_, "tets");
 }
 
 void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
@@ -53,6 +53,7 @@ void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
 
 // Afterwards switch_off() cannot fail.
 void Mesh::reserve_off() {
+    own_tets();
     off_.reserve(tets_.size());
     if (given_.empty()) given_.assign(tets_.begin(), tets_.end());
 }
@@ -102,6 +103,7 @@ void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet
     for (std::size_t i = 0; i < tets.size(); ++i) check_corners(tets[i], corners[i]);
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(tets.size());
+    if (!tets.empty()) own_tets();
 
     for (std::size_t i = 0; i < tets.size(); ++i) {
         const std::uint32_t tet = tets[i];
@@ -113,11 +115,13 @@ void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet
 }
 
 std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
-    const auto first = static_cast<std::uint32_t>(tets_.size());
+    const auto first = static_cast<std::uint32_t>(tets().size());
+    if (corners.empty()) return first;
     for (std::size_t i = 0; i < corners.size(); ++i)
         check_corners(first + static_cast<std::uint32_t>(i), corners[i]);
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(corners.size());
+    own_tets();
     const std::size_t count = tets_.size() + corners.size();
     reserve_growing(tets_, count);
     if (!given_.empty()) reserve_growing(given_, count);
@@ -232,12 +236,12 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
 void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
                          std::span<const std::uint64_t> removed_vertices) {
-    const auto tets = static_cast<std::uint32_t>(tets_.size());
+    const auto tets = static_cast<std::uint32_t>(this->tets().size());
     removed_vertices_.reserve(vertex_count_);
     for (std::uint32_t v = 0; v < vertex_count_; ++v)
         if (has_bit(removed_vertices, v)) removed_vertices_.add(v);
     for (std::uint32_t t = 0; t < tets; ++t) {
-        if (!has_bit(off, t)) check_corners(t, tets_[t]);
+        if (!has_bit(off, t)) check_corners(t, given(t));
         if (!has_bit(off, t) && has_bit(removed, t))
             throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " is removed, but not off", t));
     }
@@ -256,7 +260,7 @@ void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std
 
 void Mesh::list_tets_of() {
     if (has_tets_of_) return;
-    list_tets(tets_, off_.words(), vertex_count_, tets_of_);
+    list_tets(tets(), off_.words(), vertex_count_, tets_of_);
     has_tets_of_ = true;
 }
 

@@ -11,10 +11,12 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : tets_(view.tets.begin(), view.tets.end(), memory), given_(memory), off_(memory), removed_(memory),
-      removed_vertices_(memory), owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory),
-      positions_(view.positions), user_data_(desc.user_data), vertex_count_(view.vertex_count),
-      filter_(filter_defaults()), self_filter_(memory), exceptions_(memory) {
+    : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
+      owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), positions_(view.positions),
+      user_data_(desc.user_data), vertex_count_(view.vertex_count), filter_(filter_defaults()),
+      self_filter_(memory), exceptions_(memory) {
+    borrowed_ = view.tets;
+    if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)
         self_filter_.rest =
@@ -26,6 +28,13 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
     set_filter(filter);
 }
 
+// Of borrowed tets a copy, for edits to change.
+void Mesh::own_tets() {
+    if (borrowed_.empty()) return;
+    tets_.assign(borrowed_.begin(), borrowed_.end());
+    borrowed_ = {};
+}
+
 void Mesh::make_tiles() {
     if (has_tiles_) return;
     make_tiled_mesh(body(VOX_NULL_MESH), tiled_, has_topology_ ? &topology_ : nullptr);
@@ -35,7 +44,7 @@ void Mesh::make_tiles() {
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    vox::make_topology(tets_, vertex_count_, topology_);
+    vox::make_topology(tets(), vertex_count_, topology_);
     has_topology_ = true;
     ++topology_version_;
 }
@@ -57,7 +66,7 @@ const MeshSample& Mesh::sample() const {
 
 void Mesh::make_rings() {
     if (has_rings_) return;
-    self_filter_.rings = Rings(tets_, vertex_count_, filter_.self_rings, memory());
+    self_filter_.rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
     has_rings_ = true;
 }
 
@@ -95,7 +104,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
     return {.mesh_id = id,
             .vertex_count = vertex_count_,
             .positions = positions,
-            .tets = tets_,
+            .tets = tets(),
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},
             .penetration_mask = filter_.penetration_mask,
@@ -118,7 +127,7 @@ void Mesh::set_filter(const vox_filter& filter) {
     }
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
-    if (other_rings) rings = Rings(tets_, vertex_count_, filter.self_rings, memory());
+    if (other_rings) rings = Rings(tets(), vertex_count_, filter.self_rings, memory());
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
         Body with_self = body(VOX_NULL_MESH);
         with_self.self_collision = true;

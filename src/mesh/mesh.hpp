@@ -1,5 +1,5 @@
-// One inserted mesh: topology (copied), positions (borrowed or copied), settings, and what the stages prepare
-// of it, which edits (edit.cpp) keep up to date.
+// One inserted mesh: tetrahedra and positions (borrowed or copied), settings, and what the stages prepare of
+// them, which edits (edit.cpp) keep up to date.
 #pragma once
 
 #include "base/bits.hpp"
@@ -28,8 +28,8 @@ public:
         : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
           owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), filter_(filter_defaults()),
           self_filter_(memory), exceptions_(memory) {}
-    // Copies a checked desc. `view` is what check_mesh() made of it; `filter` is used in place of
-    // desc.filter.
+    // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
+    // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
          std::pmr::memory_resource* memory);
 
@@ -47,7 +47,7 @@ public:
 
     // What suggestions of a cell size look at, made at the first call, from the topology where that is made.
     const MeshSample& sample() const;
-    bool may_sample() const noexcept { return tets_.size() <= most_tets; }
+    bool may_sample() const noexcept { return tets().size() <= most_tets; }
 
     // Makes the tiles, unless that is done; needs positions.
     void make_tiles();
@@ -94,7 +94,7 @@ public:
 
     bool has_positions() const noexcept { return vertex_count_ == 0 || positions_.data != nullptr; }
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
-    std::uint64_t tet_count() const noexcept { return tets_.size(); }
+    std::uint64_t tet_count() const noexcept { return tets().size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
 
     // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
@@ -122,10 +122,12 @@ private:
 
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }
-    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets_[tet] : given_[tet]; }
+    std::span<const Tet> tets() const noexcept { return borrowed_.empty() ? std::span(tets_) : borrowed_; }
+    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets()[tet] : given_[tet]; }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
     void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;
+    void own_tets();
     void reserve_off();
     void list_tets_of();
     void apply(std::span<const TetChange> changes) noexcept;
@@ -133,9 +135,10 @@ private:
     void invalidate_tiles() noexcept;
     void invalidate_prepared() noexcept;
 
-    std::pmr::vector<Tet> tets_;  // as the stages see them: those that are off name one vertex four times
-    std::pmr::vector<Tet> given_; // corners as given by the caller; empty while no tet is off
-    Bits off_, removed_;          // tets; those that are removed are off as well
+    std::span<const Tet> borrowed_; // the caller's tets; empty once the mesh has its own
+    std::pmr::vector<Tet> tets_;    // as the stages see them: those that are off name one vertex four times
+    std::pmr::vector<Tet> given_;   // corners as given by the caller; empty while no tet is off
+    Bits off_, removed_;            // tets; those that are removed are off as well
     Bits removed_vertices_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
     IndexLists tets_of_;             // the tets around each vertex, from the first edit on

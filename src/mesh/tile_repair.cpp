@@ -264,7 +264,7 @@ private:
     TilePlaces& places_;
     const Body& body_;
     const IndexLists& tets_of_;
-    const bool keeps_own_ = body_.self_collision || !tiles_.own.empty();
+    const bool keeps_own_ = !tiles_.own.empty() || (body_.self_collision && tiles_.vertices.empty());
 };
 
 } // namespace

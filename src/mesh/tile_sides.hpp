@@ -9,13 +9,14 @@ namespace vox {
 struct TileSize {
     double inverse_sum = 0, count = 0;
 
-    void add(const Box& box) noexcept {
+    // Of as many tiles of that size.
+    void add(const Box& box, double tiles = 1) noexcept {
         const double sides = (double{box.hi[0]} - double{box.lo[0]}) +
                              (double{box.hi[1]} - double{box.lo[1]}) +
                              (double{box.hi[2]} - double{box.lo[2]});
         if (!(sides > 0)) return;
-        inverse_sum += 3 / sides;
-        count += 1;
+        inverse_sum += tiles * (3 / sides);
+        count += tiles;
     }
     void add(const TileSize& other) noexcept {
         inverse_sum += other.inverse_sum;

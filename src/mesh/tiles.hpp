@@ -41,7 +41,7 @@ struct Tiles {
     std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
     std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
     // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
-    // self-collision.
+    // self-collision, and mostly for those that are culled by winding numbers: the lookup then finds them.
     std::pmr::vector<std::uint64_t> own;
     // Blocks: runs of vertices in the caller's numbering, mostly close together in space. Block i is vertices
     // [block_first[i], block_first[i + 1]).

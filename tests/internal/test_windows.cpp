@@ -63,12 +63,11 @@ START_TEST(window_collects_and_bins) {
 
             // Two windows in the same buffers: the second must leave the first alone.
             fast::Bins bins(std::pmr::get_default_resource());
-            std::pmr::vector<std::uint32_t> cell_of;
             const fast::WindowLattice lattices[2] = {
                 fast::make_lattice(box, cell_size, most_cells),
                 fast::make_lattice(points, box, cell_size / 3, most_cells)};
-            const fast::Window windows[2] = {fast::bin(points, lattices[0], box, cell_of, bins),
-                                             fast::bin(points, lattices[1], box, cell_of, bins)};
+            const fast::Window windows[2] = {fast::bin(points, lattices[0], box, bins),
+                                             fast::bin(points, lattices[1], box, bins)};
             std::uint64_t occupied = 0, fullest = 0;
             for (const fast::Window& window : windows) {
                 const fast::WindowLattice& l = window.lattice;
@@ -187,10 +186,9 @@ START_TEST(windows_of_sparse_space) {
         fast::Points points = collected(mesh, box_of(mesh));
         ck_assert_uint_eq(points.count, count);
         fast::Bins bins(std::pmr::get_default_resource());
-        std::pmr::vector<std::uint32_t> buffer;
-        (void)fast::bin(points, fast::make_lattice(box_of(mesh), 1, 10), box_of(mesh), buffer, bins);
+        (void)fast::bin(points, fast::make_lattice(box_of(mesh), 1, 10), box_of(mesh), bins);
         const std::uint64_t before = bins.points.count, cells = bins.cells;
-        const std::uint32_t root = fast::bin_tree(points, 1, buffer, bins);
+        const std::uint32_t root = fast::bin_tree(points, 1, bins);
         ck_assert_uint_eq(bins.points.count, before + count);
         ck_assert_uint_lt(bins.cells - cells, 5 * count);
         ck_assert_msg(kind == 3 ? bins.windows.size() == 1 : bins.windows.size() > 20, "kind %d: %zu windows",
@@ -238,8 +236,7 @@ START_TEST(windows_of_one_place) {
         mesh.positions.push_back({-1e30f, 1e30f, 0});
         fast::Points points = collected(mesh, box_of(mesh));
         fast::Bins bins(std::pmr::get_default_resource());
-        std::pmr::vector<std::uint32_t> buffer;
-        (void)fast::bin_tree(points, 1e-3, buffer, bins);
+        (void)fast::bin_tree(points, 1e-3, bins);
         ck_assert_uint_eq(bins.points.count, 1001);
         ck_assert_uint_lt(bins.windows.size(), 10);
     }
@@ -254,14 +251,13 @@ std::vector<Found> look_up(const std::vector<Mesh>& meshes, const std::vector<Bo
     const Tiles tiles = tiles_of(mesh);
     const auto tile_count = std::uint32_t(tiles.tiles.size());
     fast::Bins bins(std::pmr::get_default_resource());
-    std::pmr::vector<std::uint32_t> cell_of;
     std::vector<fast::Source> sources;
     for (std::size_t a = self ? 0 : 1; a < meshes.size(); ++a) {
         const fast::Points points = collected(meshes[a], regions[a]);
         if (points.count == 0) continue;
         const Box box = fast::bounds(points);
         const fast::WindowLattice lattice = fast::make_lattice(points, box, cell_size, 100000);
-        sources.push_back({fast::bin(points, lattice, box, cell_of, bins), regions[a], std::uint32_t(a)});
+        sources.push_back({fast::bin(points, lattice, box, bins), regions[a], std::uint32_t(a)});
     }
     std::vector<Box> boxes(tile_count);
     std::vector<std::uint8_t> known(tile_count);

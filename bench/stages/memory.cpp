@@ -1,0 +1,223 @@
+// Where the bytes of a grid are: what each of its parts holds after some steps, in bytes a tetrahedron, in
+// the scenes of the benchmark. A grid by itself shows one sum (vox_counters.bytes), so its parts are put
+// together here, each with a memory resource of its own that counts; the last line compares their sum with
+// that of a real grid.
+//
+//   bench_memory [--tets N] [--scene NAME] [--meshes FOLDER] [--contacts] [--copy] [--steps K]
+//
+// --contacts leaves the depth stage out, and --copy has meshes copy their tetrahedra. A line that begins
+// with a dash is part of the one above it.
+#include "depth/stage.hpp"
+#include "fast/engine.hpp"
+#include "grid/contacts.hpp"
+#include "grid/events.hpp"
+#include "internal/counting_memory.hpp"
+#include "mesh/check.hpp"
+#include "mesh/mesh.hpp"
+#include "program.hpp"
+#include "scenes.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <string>
+
+namespace {
+
+struct Options {
+    double tets = 1e6;
+    std::string scene, folder;
+    bool depth = true, borrow = true;
+    std::size_t steps = 4;
+};
+
+class Table {
+public:
+    explicit Table(double tets) : tets_(tets) {}
+
+    void add(const char* name, double bytes) { std::printf("  %-34s %8.2f\n", name, bytes / tets_); }
+
+private:
+    double tets_;
+};
+
+template <class... Vectors>
+double room(const Vectors&... vectors) {
+    return (0.0 + ... + (static_cast<double>(vectors.capacity()) * sizeof(typename Vectors::value_type)));
+}
+
+// The parts of a grid of the fast engine, which steps as vox_grid::step does.
+struct Parts {
+    CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_events;
+    std::vector<vox::Mesh> meshes;
+    std::vector<vox::fast::MeshState> states;
+    std::vector<vox::Topology> topologies;
+    vox::FastEngine engine{&of_engine};
+    std::pmr::vector<vox::Hit> hits{&of_hits};
+    std::pmr::vector<vox_contact> contacts{&of_hits};
+    vox::DepthStage depth{&of_depth};
+    std::pmr::vector<vox_penetration> penetrations{&of_depth};
+    vox::Events events{&of_events, false};
+    vox::Workers workers{{}, 1};
+
+    Parts(const bench::Scene& scene, const Options& options) {
+        for (const bench::Body& body : scene.bodies) {
+            vox_mesh_desc desc = body.desc();
+            desc.flags |= VOX_MESH_BORROW_TETS; // a copy is counted apart
+            const vox::Body view = vox::check_mesh(desc, "", vox::NullPositions::rejected);
+            vox_filter filter = vox_default_filter();
+            filter.self_collision = view.self_collision;
+            meshes.emplace_back(desc, view, filter, &of_meshes);
+            states.emplace_back(&of_states);
+            topologies.emplace_back(&of_topology);
+            if (options.depth) vox::make_topology(view.tets, view.vertex_count, topologies.back());
+            meshes.back().make_tiles();
+            states.back().update(meshes.back().tiled(), meshes.back().tiles_version(), view.vertex_count);
+        }
+    }
+
+    void step(const Options& options) {
+        std::vector<vox::Body> bodies;
+        std::vector<vox::fast::PreparedBody> prepared;
+        std::vector<const vox::Topology*> of_bodies;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            bodies.push_back(meshes[i].body(static_cast<vox_mesh>(i)));
+            prepared.push_back({&meshes[i].tiled().tiles, &meshes[i].tiled().boundary, &states[i]});
+            of_bodies.push_back(&topologies[i]);
+        }
+        vox_counters counters{};
+        vox_profile profile{};
+        hits.clear();
+        engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
+        vox::make_contacts(bodies, hits, contacts, &workers);
+        if (options.depth) depth.find(bodies, of_bodies, hits, contacts, &workers, penetrations, counters);
+        events.update(contacts, meshes.size(), [](vox_mesh) { return std::uint64_t{0}; });
+    }
+
+    double of_tiles(const std::function<double(const vox::TiledMesh&)>& bytes) const {
+        double sum = 0;
+        for (const vox::Mesh& mesh : meshes) sum += bytes(mesh.tiled());
+        return sum;
+    }
+    double of_state(const std::function<double(const vox::fast::MeshState&)>& bytes) const {
+        double sum = 0;
+        for (const vox::fast::MeshState& state : states) sum += bytes(state);
+        return sum;
+    }
+};
+
+double real_bytes(bench::Scene& scene, const Options& options) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.byte_budget = 0;
+    if (!options.depth) desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
+    vox_grid* grid = nullptr;
+    bench::must(vox_grid_create(&desc, &grid));
+    for (const bench::Body& body : scene.bodies) {
+        vox_mesh_desc mesh = body.desc();
+        if (options.borrow) mesh.flags |= VOX_MESH_BORROW_TETS;
+        vox_mesh id;
+        bench::must(vox_mesh_insert(grid, &mesh, &id));
+    }
+    for (std::size_t frame = 0; frame < options.steps; ++frame) {
+        scene.pose(frame);
+        bench::must(vox_grid_step(grid));
+    }
+    vox_counters counters{};
+    counters.struct_size = sizeof counters;
+    bench::must(vox_grid_counters(grid, &counters));
+    vox_grid_destroy(grid);
+    return static_cast<double>(counters.bytes);
+}
+
+void report(bench::Scene& scene, const Options& options) {
+    Parts parts(scene, options);
+    for (std::size_t frame = 0; frame < options.steps; ++frame) {
+        scene.pose(frame);
+        parts.step(options);
+    }
+    const auto held = [](const CountingMemory& memory) { return static_cast<double>(memory.bytes); };
+    const double tets = static_cast<double>(scene.tet_count());
+    const double copy = options.borrow ? 0 : tets * sizeof(vox::Tet);
+    double sum = copy;
+    for (const CountingMemory* memory : {&parts.of_topology, &parts.of_meshes, &parts.of_states,
+                                         &parts.of_engine, &parts.of_hits, &parts.of_depth, &parts.of_events})
+        sum += held(*memory);
+    const double real = real_bytes(scene, options);
+    std::printf("\n%s: %zu tets, %zu vertices, %zu bodies, %zu contacts; bytes a tetrahedron:\n",
+                scene.name.c_str(), scene.tet_count(), scene.vertex_count(), scene.bodies.size(),
+                parts.contacts.size());
+    Table table(tets);
+    const auto tiles = [&](const char* name, auto bytes) { table.add(name, parts.of_tiles(bytes)); };
+    const auto state = [&](const char* name, auto bytes) { table.add(name, parts.of_state(bytes)); };
+    if (!options.borrow) table.add("copy of the tetrahedra", copy);
+    table.add("tiles", held(parts.of_meshes));
+    tiles("- corners", [](const vox::TiledMesh& mesh) { return room(mesh.tiles.corners); });
+    tiles("- numbers of tetrahedra", [](const vox::TiledMesh& mesh) { return room(mesh.tiles.tets); });
+    tiles("- numbers of vertices", [](const vox::TiledMesh& mesh) { return room(mesh.tiles.vertices); });
+    tiles("- which tetrahedra own a vertex", [](const vox::TiledMesh& mesh) { return room(mesh.tiles.own); });
+    tiles("- boundary", [](const vox::TiledMesh& mesh) {
+        return room(mesh.boundary.triangles, mesh.boundary.mirrored, mesh.boundary.ignored,
+                    mesh.boundary.loose);
+    });
+    table.add("states", held(parts.of_states));
+    state("- last positions", [](const vox::fast::MeshState& s) { return room(s.last_positions.positions); });
+    state("- reference of orientation",
+          [](const vox::fast::MeshState& s) { return room(s.orientation.reference); });
+    const vox::fast::StepBoxes& boxes = parts.engine.boxes();
+    const vox::fast::Windows& windows = parts.engine.windows();
+    table.add("engine", held(parts.of_engine));
+    table.add("- boxes", room(boxes.bodies, boxes.blocks, boxes.moves, boxes.super_tiles, boxes.tiles,
+                              boxes.super_positive, boxes.tile_known));
+    double binned = 0;
+    for (const vox::fast::Bins& bins : windows.bins)
+        binned += room(bins.points.x, bins.points.y, bins.points.z, bins.points.id, bins.begin, bins.windows);
+    table.add("- windows", binned);
+    table.add("hits and contacts", held(parts.of_hits));
+    if (options.depth) {
+        table.add("topology", held(parts.of_topology));
+        double across = 0;
+        for (const vox::Topology& topology : parts.topologies) across += room(topology.across);
+        table.add("- tetrahedra across facets", across);
+        table.add("depth stage", held(parts.of_depth));
+    }
+    table.add("events", held(parts.of_events));
+    std::printf("  %-34s %8.2f   (a grid: %.2f)\n", "sum", sum / tets, real / tets);
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const auto value = [&]() -> const char* {
+            if (++i == argc) throw std::runtime_error(std::string(argv[i - 1]) + " needs a value");
+            return argv[i];
+        };
+        if (!std::strcmp(argv[i], "--tets"))
+            options.tets = std::atof(value());
+        else if (!std::strcmp(argv[i], "--scene"))
+            options.scene = value();
+        else if (!std::strcmp(argv[i], "--meshes"))
+            options.folder = value();
+        else if (!std::strcmp(argv[i], "--steps"))
+            options.steps = static_cast<std::size_t>(std::atoi(value()));
+        else if (!std::strcmp(argv[i], "--contacts"))
+            options.depth = false;
+        else if (!std::strcmp(argv[i], "--copy"))
+            options.borrow = false;
+        else
+            throw std::runtime_error(std::string("unknown option ") + argv[i]);
+    }
+    for (const bench::SceneMaker& maker : bench::scene_makers(options.folder)) {
+        if (!options.scene.empty() && maker.name != options.scene) continue;
+        bench::Scene scene = maker.make(options.tets, false);
+        report(scene, options);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return bench::run_program("bench_memory", [&] { return run(argc, argv); });
+}
