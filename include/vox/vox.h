@@ -129,10 +129,10 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
 /* The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
  * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
  * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
- * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once
- * when readings are prepared, and at most twice by vox_grid_prepare_queries and vox_grid_take_query_view. If not all
- * items were run, or a worker index was out of range, the function fails with INVALID_ARGUMENT and leaves no contacts,
- * no readings, nothing prepared for queries, or no view. If both are null, the built-in scheduler is used. */
+ * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
+ * once by vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view.
+ * If not all items were run, or a worker index was out of range, the function fails with INVALID_ARGUMENT and leaves no
+ * contacts, no readings, nothing prepared for queries, or no view. If both are null, the built-in scheduler is used. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);

@@ -3,6 +3,7 @@
 #include "base/room.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vox {
@@ -39,7 +40,7 @@ void BoxTree::reserve(std::size_t items) {
     reserve_growing(centres_, items);
 }
 
-void BoxTree::build(std::span<const Box3f> boxes) noexcept {
+void BoxTree::build(std::span<const Box3f> boxes, Workers& workers) {
     centres_.clear();
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         const Box3f& box = boxes[i];
@@ -49,7 +50,27 @@ void BoxTree::build(std::span<const Box3f> boxes) noexcept {
     }
     items_.resize(centres_.size());
     boxes_.resize(2 * centres_.size());
-    if (!centres_.empty()) split(1, centres_, boxes);
+    if (centres_.empty()) return;
+    // The top of the tree is split here, what is below it by the workers.
+    constexpr std::size_t most_parts = 16, least_items = 1024; // of a tree that is worth a task
+    std::array<Part, most_parts> parts;
+    std::size_t count = 0;
+    const auto split_top = [&](const auto& self, const Part& part) -> void {
+        if (part.node >= most_parts || is_leaf(part.node)) {
+            parts[count++] = part;
+            return;
+        }
+        const std::size_t left = halve(part.node, part.centres);
+        self(self, {2 * part.node, part.centres.first(left)});
+        self(self, {2 * part.node + 1, part.centres.subspan(left)});
+    };
+    split_top(split_top, {1, centres_});
+    workers.for_ranges(count, centres_.size() < least_items ? count : 1,
+                       [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                           for (std::size_t p = begin; p < end; ++p)
+                               split(parts[p].node, parts[p].centres, boxes);
+                       });
+    for (std::size_t node = std::min(most_parts, items_.size()) - 1; node > 0; --node) join(node);
 }
 
 // Leaves are on two levels, since the nodes with numbers below twice their count are all there.
@@ -64,6 +85,20 @@ std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
     return (last + 1 - first - inner) + 2 * inner;
 }
 
+// Puts the centres of the left child of a node first, and returns how many there are.
+std::size_t BoxTree::halve(std::size_t node, std::span<Centre> centres) const noexcept {
+    const std::size_t left = leaves_below(2 * node);
+    const int axis = longest_side(std::span<const Centre>(centres));
+    std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(left), centres.end(),
+                     [axis](const Centre& x, const Centre& y) { return x.at[axis] < y.at[axis]; });
+    return left;
+}
+
+void BoxTree::join(std::size_t node) noexcept {
+    boxes_[node] = boxes_[2 * node];
+    extend(boxes_[node], boxes_[2 * node + 1]);
+}
+
 void BoxTree::split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept {
     if (is_leaf(node)) {
         const std::uint32_t item = centres[0].item;
@@ -71,14 +106,10 @@ void BoxTree::split(std::size_t node, std::span<Centre> centres, std::span<const
         items_[node - items_.size()] = item;
         return;
     }
-    const std::size_t left = leaves_below(2 * node);
-    const int axis = longest_side(std::span<const Centre>(centres));
-    std::nth_element(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(left), centres.end(),
-                     [axis](const Centre& x, const Centre& y) { return x.at[axis] < y.at[axis]; });
+    const std::size_t left = halve(node, centres);
     split(2 * node, centres.first(left), boxes);
     split(2 * node + 1, centres.subspan(left), boxes);
-    boxes_[node] = boxes_[2 * node];
-    extend(boxes_[node], boxes_[2 * node + 1]);
+    join(node);
 }
 
 } // namespace vox

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/boxes.hpp"
+#include "base/parallel.hpp"
 #include "base/scene.hpp"
 
 #include <cstddef>
@@ -22,11 +23,12 @@ public:
     explicit BoxTree(std::pmr::memory_resource* memory) noexcept
         : boxes_(memory), items_(memory), centres_(memory) {}
 
-    // Makes room for that many items, so that build() cannot fail.
+    // Makes room for that many items, so that build() needs no memory.
     void reserve(std::size_t items);
-    // Empty boxes are left out. Splits by the median along the longest side of the box around the centres
-    // (J. L. Bentley, Multidimensional binary search trees used for associative searching, CACM 18, 1975).
-    void build(std::span<const Box3f> boxes) noexcept;
+    // Enqueues at most one task; throws what the workers throw. Empty boxes are left out. Splits by the
+    // median along the longest side of the box around the centres (J. L. Bentley, Multidimensional binary
+    // search trees used for associative searching, CACM 18, 1975).
+    void build(std::span<const Box3f> boxes, Workers& workers);
 
     bool is_leaf(std::size_t node) const noexcept { return node >= items_.size(); }
     const Box3f& box(std::size_t node) const noexcept { return boxes_[node]; }
@@ -78,7 +80,14 @@ private:
         std::uint32_t item;
     };
 
+    struct Part { // a node with what is below it, not split yet
+        std::size_t node;
+        std::span<Centre> centres;
+    };
+
     std::size_t leaves_below(std::size_t node) const noexcept;
+    std::size_t halve(std::size_t node, std::span<Centre> centres) const noexcept;
+    void join(std::size_t node) noexcept; // its children's boxes
     void split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept;
 
     std::pmr::vector<Box3f> boxes_;         // of nodes; the first is not used

@@ -81,8 +81,8 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     workers.for_ranges(leaves, least_leaves, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t l = begin; l < end; ++l) make_boxes(static_cast<std::uint32_t>(l));
     });
-    tree_.build(leaf_boxes_);
-    surface_tree_.build(surface_boxes_);
+    tree_.build(leaf_boxes_, workers);
+    surface_tree_.build(surface_boxes_, workers);
     prepared_ = true;
 }
 

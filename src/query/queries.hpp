@@ -39,7 +39,7 @@ public:
 
     // Copies the bodies, which are in the order of their ids and whose positions must be finite. Throws what
     // the memory resource throws, and changes nothing then; also what a task system of the caller makes the
-    // workers throw, and nothing is prepared then. Enqueues at most two tasks.
+    // workers throw, and nothing is prepared then. Enqueues at most four tasks.
     void prepare(std::span<const QueryBody> bodies, Workers& workers);
     void invalidate() noexcept;
     // Throws Error(INVALID_STATE) when it is not prepared.

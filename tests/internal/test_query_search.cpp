@@ -59,6 +59,7 @@ bool holds(const Box3f& outer, const Box3f& inner) {
 START_TEST(every_item_once) {
     Random random{2};
     BoxTree tree(std::pmr::get_default_resource());
+    Workers workers({}, 1);
     for (std::size_t count = 0; count < 300; ++count) {
         std::vector<Box3f> boxes(count);
         for (Box3f& box : boxes) {
@@ -77,7 +78,7 @@ START_TEST(every_item_once) {
         }
         if (count % 11 == 0) std::fill(boxes.begin(), boxes.end(), Box3f{{1, 1, 1}, {2, 2, 2}}); // one place
         tree.reserve(count);
-        tree.build(boxes);
+        tree.build(boxes, workers);
         std::vector<int> seen(count, 0), wanted(count, 0);
         for (std::size_t i = 0; i < count; ++i) wanted[i] = !is_empty(boxes[i]);
         tree.visit_accepted([](const Box3f&) { return true; }, [&](std::uint32_t item) { ++seen[item]; });
