@@ -147,9 +147,11 @@ Scene strained_ball(double tets, bool shuffled) {
     return alone(lattice_ball(tets, 1), lively_waves(radius, 0.4 * radius / pi), shuffled);
 }
 
+#if defined(BENCH_IO)
 Scene lively_cube_ball(double tets, bool shuffled) {
     return alone(cube_ball(tets), lively_waves(cube_ball_radius(tets), lively_height), shuffled);
 }
+#endif
 
 // Balls in a cubic lattice, 3.5 % closer than touching, each a little off its place.
 Scene many_balls(double tets, bool shuffled, double tets_each) {
