@@ -104,7 +104,7 @@ START_TEST(bad_mesh) {
         fails(NULL, meshes, 2, code, words);                                                                 \
     } while (0)
 
-    BAD(flags = 4, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: flags is 0x4");
+    BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: flags is 0x8");
     BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: reserved is 7");
     BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: positions is null, vertex_count is 4");
     BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: tets is null, tet_count is 1");

@@ -160,8 +160,13 @@ START_TEST(memory_is_steady) {
         desc.worker_count = workers;
         vox_grid* grid = grid_of(&desc);
         insert_scene(grid, &s);
-        for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_step(grid));
         ck_assert_uint_gt(counters_of(grid).closest_searches, 100);
+        for (int step = 0; step < 2; ++step) {
+            for (uint32_t i = 0; i < 3 * s.inner.vertex_count; ++i)
+                s.inner.positions[i] += step % 2 ? -0.001f : 0.001f;
+            ck_ok(vox_grid_step(grid));
+        }
         const uint64_t calls = l.calls;
         for (int step = 0; step < 6; ++step) {
             for (uint32_t i = 0; i < 3 * s.inner.vertex_count; ++i)
