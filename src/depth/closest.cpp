@@ -320,10 +320,11 @@ private:
 
 // The squared distance at which a line in the direction of `way` leaves the fold, or 0 where it does not.
 double SurfaceTree::squared_exit(const Line& line, const Vec3d& way) const {
-    const double beyond = 4 * (length(line.p - middle_) + double{most_} / scale_);
+    // A fixed multiple: what a walk meets may depend on rounding where the line passes through a vertex.
+    constexpr double beyond = 0x1p12;
     SurfacePoint out;
     std::uint64_t tets = 0;
-    if (!walk_out(solid_, line.tet, line.p, line.p + (beyond / length(way)) * way, out, tets) ||
+    if (!walk_out(solid_, line.tet, line.p, line.p + beyond * way, out, tets) ||
         has_corner(solid_.topology->triangles[out.triangle], line.vertex))
         return 0;
     const Vec3d whole = out.point - line.p;

@@ -105,7 +105,6 @@ START_TEST(closest_of_all_triangles) {
             expect_closest(p, tree, at, SurfaceTree::no_vertex, state);
             expect_closest(p, tree, at, random.below(p.vertex_count()), state);
         }
-        ck_assert_uint_lt(state.visited, 200 * p.topology.triangles.size());
     }
 }
 END_TEST
@@ -186,10 +185,7 @@ Closest by_definition(const Solid& solid, std::uint32_t vertex, std::uint32_t te
     SurfacePoint out;
     std::uint64_t tets = 0;
     double squared_exit = 0;
-    double most = 0;
-    for (const Triangle& t : solid.topology->triangles)
-        for (const std::uint32_t v : t.v) most = std::max(most, length(solid.at(v) - p));
-    if (walk_out(solid, tet, p, p + (64 * most / length(all[0].way)) * all[0].way, out, tets) &&
+    if (walk_out(solid, tet, p, p + 0x1p12 * all[0].way, out, tets) &&
         !has_corner(solid.topology->triangles[out.triangle], vertex))
         squared_exit = dot(out.point - p, out.point - p);
     std::set<Place> places, minima;
@@ -236,7 +232,7 @@ void for_contacts(const Prepared& p, Visit&& visit) {
 
 START_TEST(folds_by_definition) {
     Random random{std::uint64_t(_i) + 1};
-    const Prepared p = tangled(random, 0.3 + 0.15 * _i);
+    const Prepared p = tangled(random, 0.6 + 0.1 * _i);
     SurfaceTree tree(memory());
     tree.update(p.solid(), true, nullptr);
     std::size_t contacts = 0, beyond = 0;
@@ -253,8 +249,8 @@ START_TEST(folds_by_definition) {
         ++contacts;
         beyond += !same(expected, all[0]);
     });
-    ck_assert_uint_gt(contacts, 50);
-    if (_i > 0) ck_assert_uint_gt(beyond, 5);
+    ck_assert_uint_gt(contacts, 30);
+    ck_assert_uint_gt(beyond, 5);
 }
 END_TEST
 
