@@ -91,7 +91,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
 
 void run(const Options& options) {
     if (options.b.empty() && !options.self)
-        wrong_usage("collide needs a second mesh, or --self for self-collision of the first");
+        throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
     std::vector<Body> bodies;
     bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
     if (!options.b.empty()) {
@@ -111,33 +111,32 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_collide(CLI::App& app) {
+void add_collide(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("collide", "Find the contacts between two meshes, or within one");
-    command->add_option("A", options->a, "Mesh file")->required();
-    CLI::Option* b = command->add_option("B", options->b, "Second mesh file");
-    command->add_flag("--self", options->self, "Also find the contacts of a mesh with itself");
-    add_fill(*command, options->fill);
-    command->add_option("--scale", options->scale, "Scale B by this factor")->check(finite())->needs(b);
-    command->add_option("--offset", options->offset, "Move B by X Y Z after scaling it")
-        ->expected(3)
-        ->type_name("FLOAT")
-        ->check(finite())
-        ->needs(b);
-    command->add_flag("--double", options->keep_doubles,
-                      "Keep positions in double instead of rounding to float");
-    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm");
-    command->add_option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
-        ->check(not_negative());
-    add_cells(*command, options->grid);
-    add_threads(*command, options->grid);
-    command->add_option("--repeat", options->repeat, "Number of steps to time, after one to warm up")
-        ->check(CLI::Range(1u, 1000000u));
-    command->add_option("--limit", options->limit, "Most contacts to print as text");
-    command->add_option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
-        ->type_name("FILE");
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+    Command command = line.add("collide", "Find the contacts between two meshes, or within one");
+    command.option("A", options->a, "Mesh file").required();
+    Option b = command.option("B", options->b, "Second mesh file");
+    command.flag("--self", options->self, "Also find the contacts of a mesh with itself");
+    add_fill(command, options->fill);
+    command.option("--scale", options->scale, "Scale B by this factor").finite().needs(b);
+    command.option("--offset", options->offset, "Move B by X Y Z after scaling it")
+        .count(3)
+        .shown_as("FLOAT")
+        .finite()
+        .needs(b);
+    command.flag("--double", options->keep_doubles, "Keep positions in double instead of rounding to float");
+    command.choice("--engine", options->grid.engine, engines, "Algorithm");
+    command.option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
+        .not_negative();
+    add_cells(command, options->grid);
+    add_threads(command, options->grid);
+    command.option("--repeat", options->repeat, "Number of steps to time, after one to warm up")
+        .range(1u, 1000000u);
+    command.option("--limit", options->limit, "Most contacts to print as text");
+    command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
+        .shown_as("FILE");
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

@@ -1,17 +1,16 @@
-// The commands of vox. Each function adds one to the command line, whose parser runs the one that is named
-// there.
+// The commands of vox. Each function adds one to the command line, which runs the one that is named there.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 namespace tool {
 
-void add_info(CLI::App& app);
-void add_suggest(CLI::App& app);
-void add_collide(CLI::App& app);
-void add_demo(CLI::App& app);
-void add_replay(CLI::App& app);
-void add_tetrahedralize(CLI::App& app);
-void add_sweep(CLI::App& app);
+void add_info(CommandLine& line);
+void add_suggest(CommandLine& line);
+void add_collide(CommandLine& line);
+void add_demo(CommandLine& line);
+void add_replay(CommandLine& line);
+void add_tetrahedralize(CommandLine& line);
+void add_sweep(CommandLine& line);
 
 } // namespace tool

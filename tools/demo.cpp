@@ -209,14 +209,14 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_demo(CLI::App& app) {
+void add_demo(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("demo", "Two deforming bodies collide; needs no file");
-    command->add_option("--tets", options->tets, "Approximate number of tetrahedra of each body")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100000000}));
-    command->add_option("--frames", options->frames, "Number of frames")->check(CLI::Range(1u, 1000000u));
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+    Command command = line.add("demo", "Two deforming bodies collide; needs no file");
+    command.option("--tets", options->tets, "Approximate number of tetrahedra of each body")
+        .range(std::uint64_t{1}, std::uint64_t{100000000});
+    command.option("--frames", options->frames, "Number of frames").range(1u, 1000000u);
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

@@ -1,10 +1,7 @@
-// How a command fails. Bad input gives exit code 1 with the library's error text. Wrong usage gives exit code
-// 2 and is thrown as one of CLI11's parse errors.
+// How a command fails. Bad input gives exit code 1 with the library's error text.
 #pragma once
 
 #include <vox/vox.h>
-
-#include <CLI/CLI.hpp>
 
 #include <stdexcept>
 #include <string>
@@ -22,7 +19,5 @@ inline void check(vox_result result) {
     const std::string words = vox_last_error();
     throw Failure(words.empty() ? vox_result_string(result) : words);
 }
-
-[[noreturn]] inline void wrong_usage(const std::string& words) { throw CLI::ValidationError(words); }
 
 } // namespace tool

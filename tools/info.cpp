@@ -105,12 +105,12 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_info(CLI::App& app) {
+void add_info(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Show what is in a mesh file");
-    command->add_option("MESH", options->files, "Mesh files")->required();
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+    Command command = line.add("info", "Show what is in a mesh file");
+    command.option("MESH", options->files, "Mesh files").required();
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

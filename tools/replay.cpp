@@ -51,15 +51,15 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_replay(CLI::App& app) {
+void add_replay(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("replay", "Run steps of the grid in a snapshot");
-    command->add_option("FILE", options->file, "Snapshot written by collide --save")->required();
-    command->add_option("--steps", options->steps, "Number of steps to run")->check(CLI::Range(1u, 1000000u));
-    add_choice(*command, "--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
-    add_threads(*command, options->grid);
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+    Command command = line.add("replay", "Run steps of the grid in a snapshot");
+    command.option("FILE", options->file, "Snapshot written by collide --save").required();
+    command.option("--steps", options->steps, "Number of steps to run").range(1u, 1000000u);
+    command.choice("--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
+    add_threads(command, options->grid);
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

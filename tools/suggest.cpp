@@ -119,38 +119,36 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_suggest(CLI::App& app) {
+void add_suggest(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     vox_suggest_desc& desc = options->desc;
-    CLI::App* command = app.add_subcommand("suggest", "Find the best cell size for meshes and explain it");
-    command->add_option("MESH", options->files, "Mesh files with tetrahedra")->required();
-    add_fill(*command, options->fill);
-    add_choice(*command, "--model", desc.model, models, "Cost model to minimise");
+    Command command = line.add("suggest", "Find the best cell size for meshes and explain it");
+    command.option("MESH", options->files, "Mesh files with tetrahedra").required();
+    add_fill(command, options->fill);
+    command.choice("--model", desc.model, models, "Cost model to minimise");
+    command.option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
+        .fraction();
+    command.option("--ratio", desc.cost_ratio, "Cost of a particle test divided by that of a cell visit")
+        .positive();
+    command.choice("--size-reading", desc.size_reading, size_readings,
+                   "How the cost model measures the size of a tetrahedron");
+    command.choice("--area-reading", desc.area_reading, area_readings,
+                   "How the cost model measures the area of a facet");
     command
-        ->add_option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
-        ->check(fraction());
-    command->add_option("--ratio", desc.cost_ratio, "Cost of a particle test divided by that of a cell visit")
-        ->check(positive());
-    add_choice(*command, "--size-reading", desc.size_reading, size_readings,
-               "How the cost model measures the size of a tetrahedron");
-    add_choice(*command, "--area-reading", desc.area_reading, area_readings,
-               "How the cost model measures the area of a facet");
-    command
-        ->add_option("--world", desc.world_edge,
-                     "Edge of the cubic world, for the cells per axis; 0: longest side of the bounds")
-        ->check(not_negative());
-    command->add_option("--zone-loss", desc.zone_loss, "Relative loss of predicted cost that ends the zone")
-        ->check(not_negative());
-    command->add_option("--factor", desc.mean_edge_factor, "Factor of the rule 'mean edge, multiple'")
-        ->check(positive());
-    command->add_option("--resolution", desc.resolution, "Cell size of the rule 'resolution'; 0: none")
-        ->check(not_negative());
-    command->add_flag("--self", options->self, "The bodies also collide with themselves");
-    command->add_flag("--calibrate", options->calibrate,
-                      "First measure on this machine the costs that the engines' models use");
-    command->add_option("--svg", options->svg, "Write the cost curve as a picture to this file");
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+        .option("--world", desc.world_edge,
+                "Edge of the cubic world, for the cells per axis; 0: longest side of the bounds")
+        .not_negative();
+    command.option("--zone-loss", desc.zone_loss, "Relative loss of predicted cost that ends the zone")
+        .not_negative();
+    command.option("--factor", desc.mean_edge_factor, "Factor of the rule 'mean edge, multiple'").positive();
+    command.option("--resolution", desc.resolution, "Cell size of the rule 'resolution'; 0: none")
+        .not_negative();
+    command.flag("--self", options->self, "The bodies also collide with themselves");
+    command.flag("--calibrate", options->calibrate,
+                 "First measure on this machine the costs that the engines' models use");
+    command.option("--svg", options->svg, "Write the cost curve as a picture to this file");
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

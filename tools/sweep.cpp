@@ -380,13 +380,13 @@ std::string engine_name(const vox_grid_desc& grid) {
 void check_usage(const Options& options) {
     const auto check_range = [](const std::vector<double>& range, const char* name) {
         if (!range.empty() && !(range[0] < range[1]))
-            wrong_usage(std::string(name) + ": expected two numbers in ascending order");
+            throw WrongUsage(std::string(name) + ": expected two numbers in ascending order");
     };
-    if (options.a.empty() == (options.ball == 0)) wrong_usage("sweep needs a mesh file, or --ball");
+    if (options.a.empty() == (options.ball == 0)) throw WrongUsage("sweep needs a mesh file, or --ball");
     check_range(options.cell_sizes, "--cell-sizes");
     check_range(options.cells_per_axis, "--cells-per-axis");
     if (options.axis[0] == 0 && options.axis[1] == 0 && options.axis[2] == 0)
-        wrong_usage("--axis: expected a direction, found 0 0 0");
+        throw WrongUsage("--axis: expected a direction, found 0 0 0");
 }
 
 void run(const Options& options) {
@@ -422,53 +422,46 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_sweep(CLI::App& app) {
+void add_sweep(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     options->grid.engine = VOX_ENGINE_REFERENCE;
-    CLI::App* command = app.add_subcommand(
-        "sweep", "Measure the time of detection against cell size (the paper's experiment)");
-    command->add_option("A", options->a, "Mesh file");
-    command->add_option("B", options->b, "Second mesh file; default: A again");
+    Command command =
+        line.add("sweep", "Measure the time of detection against cell size (the paper's experiment)");
+    command.option("A", options->a, "Mesh file");
+    command.option("B", options->b, "Second mesh file; default: A again");
     command
-        ->add_option("--ball", options->ball,
-                     "Instead of files, use balls of radius 1 with about TETS tetrahedra")
-        ->type_name("TETS")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{VOX_MAX_TETS / 4}));
-    add_fill(*command, options->fill);
-    command->add_option("--axis", options->axis, "Direction X Y Z from A to B")
-        ->expected(3)
-        ->type_name("FLOAT")
-        ->check(finite());
-    command->add_option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
-        ->check(fraction());
-    command->add_flag("--as-placed", options->as_placed, "Do not rotate the bodies");
-    command->add_option("--frames", options->experiment.frames, "Number of detections in a sample")
-        ->check(CLI::Range(1u, 1000u));
-    command->add_option("--time-step", options->experiment.time_step, "Duration of a frame")
-        ->check(positive());
-    add_choice(*command, "--engine", options->grid.engine, engine_choices, "Algorithm");
-    add_cells(*command, options->grid);
-    add_threads(*command, options->grid);
+        .option("--ball", options->ball, "Instead of files, use balls of radius 1 with about TETS tetrahedra")
+        .shown_as("TETS")
+        .range(std::uint64_t{1}, std::uint64_t{VOX_MAX_TETS / 4});
+    add_fill(command, options->fill);
+    command.option("--axis", options->axis, "Direction X Y Z from A to B")
+        .count(3)
+        .shown_as("FLOAT")
+        .finite();
+    command.option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
+        .fraction();
+    command.flag("--as-placed", options->as_placed, "Do not rotate the bodies");
+    command.option("--frames", options->experiment.frames, "Number of detections in a sample")
+        .range(1u, 1000u);
+    command.option("--time-step", options->experiment.time_step, "Duration of a frame").positive();
+    command.choice("--engine", options->grid.engine, engine_choices, "Algorithm");
+    add_cells(command, options->grid);
+    add_threads(command, options->grid);
     command
-        ->add_option("--world", options->world,
-                     "Edge of the cubic world, for the cells per axis; 0: longest side")
-        ->check(not_negative());
-    CLI::Option* sizes =
-        command->add_option("--cell-sizes", options->cell_sizes, "Range of cell sizes, MIN MAX");
-    CLI::Option* cells = command->add_option("--cells-per-axis", options->cells_per_axis,
-                                             "Range of cell sizes given in cells per axis, MIN MAX");
-    for (CLI::Option* range : {sizes, cells}) range->expected(2)->type_name("FLOAT")->check(positive());
-    sizes->excludes(cells);
-    command->add_option("--count", options->count, "Number of cell sizes in the range")
-        ->check(CLI::Range(5u, 10000u));
-    command->add_option("--rounds", options->rounds, "Number of samples of each cell size")
-        ->check(CLI::Range(1u, 10000u));
-    command->add_option("--seed", options->seed, "Seed for the order of the samples");
-    CLI::Option* csv = command->add_option("--csv", options->csv, "Write each sample to this file");
-    command->add_option("--resume", options->resume, "As --csv, but continue the file if it exists")
-        ->excludes(csv);
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+        .option("--world", options->world, "Edge of the cubic world, for the cells per axis; 0: longest side")
+        .not_negative();
+    Option sizes = command.option("--cell-sizes", options->cell_sizes, "Range of cell sizes, MIN MAX");
+    Option cells = command.option("--cells-per-axis", options->cells_per_axis,
+                                  "Range of cell sizes given in cells per axis, MIN MAX");
+    for (Option range : {sizes, cells}) range.count(2).shown_as("FLOAT").positive();
+    sizes.excludes(cells);
+    command.option("--count", options->count, "Number of cell sizes in the range").range(5u, 10000u);
+    command.option("--rounds", options->rounds, "Number of samples of each cell size").range(1u, 10000u);
+    command.option("--seed", options->seed, "Seed for the order of the samples");
+    Option csv = command.option("--csv", options->csv, "Write each sample to this file");
+    command.option("--resume", options->resume, "As --csv, but continue the file if it exists").excludes(csv);
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

@@ -75,28 +75,26 @@ void run(const Options& options) {
 
 } // namespace
 
-void add_tetrahedralize(CLI::App& app) {
+void add_tetrahedralize(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     check(vox_io_tetrahedralize_desc_init(&options->desc, sizeof options->desc));
     vox_io_tetrahedralize_desc& desc = options->desc;
-    CLI::App* command = app.add_subcommand("tetrahedralize", "Fill a closed surface with tetrahedra");
-    command->add_option("SURFACE", options->surface, "Surface file")->required();
-    command->add_option("-o,--output", options->out, "File to write, .msh or .vtu")->required();
+    Command command = line.add("tetrahedralize", "Fill a closed surface with tetrahedra");
+    command.option("SURFACE", options->surface, "Surface file").required();
+    command.option("-o,--output", options->out, "File to write, .msh or .vtu").required();
+    command.option("--cell", desc.cell, "Edge of a lattice cube; 0: a fiftieth of the surface's longest side")
+        .not_negative();
+    command.choice("--kind", desc.kind, kinds,
+                   "stuffed: follow the surface; cubes: keep whole cubes around it");
     command
-        ->add_option("--cell", desc.cell,
-                     "Edge of a lattice cube; 0: a fiftieth of the surface's longest side")
-        ->check(not_negative());
-    add_choice(*command, "--kind", desc.kind, kinds,
-               "stuffed: follow the surface; cubes: keep whole cubes around it");
-    command
-        ->add_option("--max-distance", desc.max_distance,
-                     "Refine until the Hausdorff distance is at most this; 0: do not refine")
-        ->check(not_negative());
-    command->add_option("--coarsen", desc.coarsen, "How many times cells inside may be merged");
-    command->add_option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
-    command->add_flag("--binary", options->binary, "Write binary instead of text");
-    command->add_flag("--json", options->json, "Print one JSON object");
-    command->callback([options] { run(*options); });
+        .option("--max-distance", desc.max_distance,
+                "Refine until the Hausdorff distance is at most this; 0: do not refine")
+        .not_negative();
+    command.option("--coarsen", desc.coarsen, "How many times cells inside may be merged");
+    command.option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
+    command.flag("--binary", options->binary, "Write binary instead of text");
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
 }
 
 } // namespace tool

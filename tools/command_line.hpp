@@ -1,0 +1,113 @@
+// The command line: commands with options. CLI11 parses it, in command_line.cpp alone, because every file
+// that includes CLI11 takes seconds to compile.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace tool {
+
+// What a command throws when it is used in a wrong way; exit code 2.
+class WrongUsage : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// The names a user may give, with their values; the first is the default.
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+// An option or argument of a command. A value that it does not accept is wrong usage.
+class Option {
+public:
+    explicit Option(CLI::Option* option) : option_(option) {}
+
+    Option& required();
+    Option& count(int values);                  // takes so many values
+    Option& shown_as(const std::string& value); // in the usage
+    Option& needs(const Option& other);
+    Option& excludes(const Option& other);
+
+    Option& finite();
+    Option& positive();
+    Option& not_negative();
+    Option& fraction(); // between 0 and 1
+    Option& range(std::uint32_t least, std::uint32_t most);
+    Option& range(std::uint64_t least, std::uint64_t most);
+
+private:
+    // Accepts finite numbers for which `accept` is true; `words` describes them, e.g. "a number above 0".
+    Option& number(bool (*accept)(double value), const std::string& words);
+
+    CLI::Option* option_;
+};
+
+// One command. What an option refers to must live until the command has run, and has its default value
+// before.
+class Command {
+public:
+    explicit Command(CLI::App* app) : app_(app) {}
+
+    // `name` is "--name" for an option, "NAME" for an argument.
+    Option option(const std::string& name, std::string& value, const std::string& description);
+    Option option(const std::string& name, std::vector<std::string>& value, const std::string& description);
+    Option option(const std::string& name, double& value, const std::string& description);
+    Option option(const std::string& name, std::vector<double>& value, const std::string& description);
+    Option option(const std::string& name, std::uint32_t& value, const std::string& description);
+    Option option(const std::string& name, std::uint64_t& value, const std::string& description);
+    Option flag(const std::string& name, bool& value, const std::string& description);
+
+    template <class Value>
+    Option choice(const std::string& name, Value& value, const Choices<Value>& choices,
+                  const std::string& description) {
+        std::string names;
+        for (const auto& [given, meaning] : choices) names += (names.empty() ? "" : "|") + given;
+        const auto choose = [&value, choices](const std::string& given) {
+            for (const auto& [known, meaning] : choices)
+                if (given == known) {
+                    value = meaning;
+                    return true;
+                }
+            return false;
+        };
+        return choice_of(name, choose, names, description);
+    }
+
+    void runs(const std::function<void()>& function);
+
+private:
+    Option choice_of(const std::string& name, const std::function<bool(const std::string&)>& choose,
+                     const std::string& names, const std::string& description);
+
+    CLI::App* app_;
+};
+
+// The program with its commands, of which one has to be named.
+class CommandLine {
+public:
+    CommandLine(const std::string& name, const std::string& version, const std::string& description);
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    Command add(const std::string& name, const std::string& description);
+
+    // Runs the command that the arguments name. Returns the exit code: 0, or 2 after a message about wrong
+    // usage.
+    int run(int argc, char** argv);
+
+private:
+    std::unique_ptr<CLI::App> app_;
+};
+
+} // namespace tool
