@@ -34,3 +34,36 @@ function(vox_library name export_map)
     target_compile_definitions(${name} PUBLIC VOX_STATIC)
   endif()
 endfunction()
+
+# A full build in half the time. Off in the presets debug and clang, so that what a file forgets to include is seen, and
+# with a compiler launcher such as ccache, which keeps objects itself: the smaller the better.
+option(VOX_UNITY
+  "Compile the sources of a folder together: half the work of a full build, more work where one file has changed" ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(VOX_UNITY OFF)
+endif()
+
+# vox_precompile(name headers...): headers that most sources include, compiled once.
+function(vox_precompile name)
+  if(VOX_UNITY)
+    target_precompile_headers(${name} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# vox_unity(name): compiles the sources of each folder together. Files that include themselves, once per instruction set
+# (hwy/foreach_target.h), stay apart.
+function(vox_unity name)
+  if(NOT VOX_UNITY)
+    return()
+  endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${name} SOURCES)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} includes_itself REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
+    if(NOT includes_itself)
+      get_filename_component(folder ${source} DIRECTORY)
+      string(MAKE_C_IDENTIFIER "${name}_${folder}" group)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endif()
+  endforeach()
+endfunction()

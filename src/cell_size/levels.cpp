@@ -12,7 +12,6 @@ namespace vox {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // A further level has to save this part of the cost of one, which is about as accurate as the model is.
 constexpr double worth = 0.05;
 // Cell sizes at which splits are compared. The sizes of the best split are refined.
@@ -31,7 +30,7 @@ double cost_of_level(const ReferenceModel& cost, int first_exponent, int last_ex
 
 // The best way to give the first classes to some levels, the last of which begins at class `from`.
 struct Split {
-    double cost = infinity, cell_size = 0; // of the last level
+    double cost = std::numeric_limits<double>::infinity(), cell_size = 0; // of the last level
     std::size_t from = 0;
 };
 
@@ -100,7 +99,8 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
                      {.scans_per_octave = 32, .least_scans = 2, .tolerance = 1e-2})
                 .cell_size;
         // Sides in a class are below twice its power of two.
-        levels.level[l].longest_side = end == n ? infinity : std::nextafter(std::ldexp(2.0, last), 0.0);
+        levels.level[l].longest_side =
+            end == n ? std::numeric_limits<double>::infinity() : std::nextafter(std::ldexp(2.0, last), 0.0);
     }
     levels.cost = cost_of_levels(cost, levels.list());
     return levels;

@@ -44,11 +44,11 @@ struct Lattice {
     std::int64_t side = 0;             // points along an axis
     std::vector<std::uint8_t> inside;  // for each point, whether it is in the ball
     std::vector<std::uint8_t> kept;    // for each cube, by its lowest corner, whether it is in the ball
-    std::vector<std::uint32_t> vertex; // for each point its vertex, or none
+    std::vector<std::uint32_t> vertex; // for each point its vertex, or no_vertex
     std::uint64_t cubes = 0;
 };
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_vertex = 0xffffffffu;
 
 Point lattice_point(std::int64_t half, double spacing, std::int64_t x, std::int64_t y, std::int64_t z) {
     return {(static_cast<double>(x - half) + offset[0]) * spacing,
@@ -141,7 +141,7 @@ void drop_flat(MeshData& mesh) {
     double median = *middle;
     if (count % 2 == 0) median = (median + *std::max_element(sorted.begin(), middle)) / 2;
 
-    std::vector<std::uint32_t> number(mesh.positions.size() / 3, none);
+    std::vector<std::uint32_t> number(mesh.positions.size() / 3, no_vertex);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < count; ++t) {
         if (!(volumes[t] > 1e-3 * median)) continue;
@@ -154,7 +154,7 @@ void drop_flat(MeshData& mesh) {
     mesh.tets.resize(4 * kept);
     std::uint32_t used = 0;
     for (std::size_t v = 0; v < number.size(); ++v) {
-        if (number[v] == none) continue;
+        if (number[v] == no_vertex) continue;
         for (std::size_t k = 0; k < 3; ++k)
             mesh.positions[3 * std::size_t{used} + k] = mesh.positions[3 * v + k];
         number[v] = used++;
@@ -189,7 +189,7 @@ MeshData build(double spacing) {
             }
         }
     }
-    lattice.vertex.assign(used.size(), none);
+    lattice.vertex.assign(used.size(), no_vertex);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         lattice.vertex[i] = static_cast<std::uint32_t>(points.size());

@@ -16,15 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
-
 Vector3d corner(const vox_io_mesh_view& mesh, std::uint32_t vertex) {
     return Vector3d(mesh.positions + 3 * std::size_t{vertex});
 }
 
 void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
     if (mesh.tet_count == 0) return;
-    double smallest = pi, largest = 0;
+    double smallest = std::numbers::pi, largest = 0;
     for (std::size_t t = 0; t < mesh.tet_count; ++t) {
         std::array<Vector3d, 4> p;
         for (std::size_t k = 0; k < 4; ++k) p[k] = corner(mesh, mesh.tets[4 * t + k]);
@@ -35,14 +33,14 @@ void measure_tets(const vox_io_mesh_view& mesh, vox_io_quality& quality) {
             (p[1] - p[0]).cross(p[3] - p[0]), (p[2] - p[0]).cross(p[1] - p[0])};
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = i + 1; j < 4; ++j) {
-                const double angle =
-                    pi - std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
+                const double angle = std::numbers::pi -
+                                     std::atan2(normal[i].cross(normal[j]).norm(), normal[i].dot(normal[j]));
                 smallest = std::min(smallest, angle);
                 largest = std::max(largest, angle);
             }
     }
-    quality.min_dihedral = smallest * 180 / pi;
-    quality.max_dihedral = largest * 180 / pi;
+    quality.min_dihedral = smallest * 180 / std::numbers::pi;
+    quality.max_dihedral = largest * 180 / std::numbers::pi;
 }
 
 // The facets of exactly one tet, three vertices each.

@@ -12,7 +12,7 @@
 namespace vox::io {
 namespace {
 
-using Point = std::array<std::int32_t, 3>;
+using IntPoint = std::array<std::int32_t, 3>;
 using Corners = std::array<std::uint32_t, 3>;
 
 using Triangle = OrderedTriangle;
@@ -45,7 +45,7 @@ constexpr std::array<Projection, 7> projections = {{
     {{{{1, 0, 0}, {1, 1, 0}, {1, 0, 1}}}},
 }};
 
-std::int64_t apply(const std::array<std::int32_t, 3>& row, const Point& p) {
+std::int64_t apply(const std::array<std::int32_t, 3>& row, const IntPoint& p) {
     return std::int64_t{row[0]} * p[0] + std::int64_t{row[1]} * p[1] + std::int64_t{row[2]} * p[2];
 }
 
@@ -73,7 +73,7 @@ int side(std::int64_t area, const Flat& a, const Flat& b, const Projection& proj
 
 // Whether a point in the plane of the triangle, shifted in the same way, is on the side that its normal
 // points to.
-bool shifted_above(const Point& a, const Point& b, const Point& c) {
+bool shifted_above(const IntPoint& a, const IntPoint& b, const IntPoint& c) {
     const std::array<std::int64_t, 3> p = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const std::array<std::int64_t, 3> q = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -100,12 +100,12 @@ std::int64_t round_up(std::int64_t x, std::int64_t step) { // step a power of tw
 }
 
 // Numbers equal positions the same. Returns the numbers and keeps one of each position in `points`.
-std::vector<std::uint32_t> weld(std::vector<Point>& points) {
+std::vector<std::uint32_t> weld(std::vector<IntPoint>& points) {
     std::vector<std::uint32_t> order(points.size()), number(points.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
-    std::vector<Point> kept;
+    std::vector<IntPoint> kept;
     for (const std::uint32_t i : order) {
         if (kept.empty() || kept.back() != points[i]) kept.push_back(points[i]);
         number[i] = static_cast<std::uint32_t>(kept.size() - 1);
@@ -136,7 +136,7 @@ void check_edges(const std::vector<Corners>& triangles, SurfaceCheck& check) {
 
 // Intersects all lines of a direction with all triangles. Inside is decided by winding number if the surface
 // is `oriented`, otherwise by parity.
-LatticeLines cast(unsigned direction, const std::vector<Point>& points,
+LatticeLines cast(unsigned direction, const std::vector<IntPoint>& points,
                   const std::vector<Triangle>& triangles, int shift, bool oriented) {
     const Projection& projection = projections[direction];
     const bool diagonal = direction >= 3;
@@ -146,7 +146,7 @@ LatticeLines cast(unsigned direction, const std::vector<Point>& points,
         std::array<Flat, 3> p{};
         std::array<double, 3> t{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const Point& point = points[triangle[k]];
+            const IntPoint& point = points[triangle[k]];
             p[k] = {apply(projection.rows[1], point), apply(projection.rows[2], point)};
             t[k] = static_cast<double>(apply(projection.rows[0], point));
         }
@@ -257,7 +257,7 @@ void SurfaceLines::cast_rest(const Progress& progress) {
 
 SurfaceLines::Line SurfaceLines::find(unsigned direction, const Node& node) const {
     const LatticeLines& lines = lines_[direction];
-    const Point point = {node.x, node.y, node.z};
+    const IntPoint point = {node.x, node.y, node.z};
     const auto u = static_cast<std::int32_t>(apply(projections[direction].rows[1], point));
     const auto v = static_cast<std::int32_t>(apply(projections[direction].rows[2], point));
     const std::int64_t row = std::int64_t{v} - lines.first_v;

@@ -72,10 +72,10 @@ MeshData run(const Attempt& attempt, const Progress& progress) {
         mesh = stuff(body, coarsen, desc.max_tets, progress.part(0.3, 1));
     }
     if (open)
-        mesh.notes.push_back(
+        mesh.notes.emplace_back(
             format("the surface has %llu open edges; the holes were closed", llu(lines.check().open_edges)));
     else if (!lines.check().oriented)
-        mesh.notes.push_back(
+        mesh.notes.emplace_back(
             "the surface's triangles do not agree on an orientation; inside was decided by parity");
     return mesh;
 }
