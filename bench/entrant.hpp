@@ -46,10 +46,13 @@ struct EntrantMaker {
     std::function<std::unique_ptr<Entrant>()> make;
 };
 
-extern const std::string reference_name; // the entrant that ratios are taken to
-extern const std::string subject_name;   // the entrant whose figures are judged
+extern const std::string subject_name; // the default grid, whose figures are judged
+extern const std::string
+    contacts_name; // the same without the depth stage: contacts alone, as the peers find them
+extern const std::string reference_name; // the paper's algorithm, contacts alone, that ratios are taken to
 
 std::vector<EntrantMaker> vox_entrants();
+vox_grid_desc grid_desc(const std::string& vox_entrant); // of the grid that this entrant steps
 std::vector<EntrantMaker> peers();
 std::vector<EntrantMaker> floors();
 

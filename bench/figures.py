@@ -4,8 +4,9 @@ import csv
 from collections import OrderedDict
 from dataclasses import dataclass, field
 
-SUBJECT = "vox"
-REFERENCE = "vox reference"
+SUBJECT = "vox"  # the default grid, with all that its step does
+CONTACTS = "vox contacts"  # the same without the depth stage: contacts alone, as the peers find them
+REFERENCE = "vox reference"  # the paper's algorithm, contacts alone
 F1 = "F1 positions"
 F2 = "F2 tet boxes"
 
@@ -31,16 +32,19 @@ class Scene:
     def ns_per_tet(self, entrant):
         return 1e6 * self.ms(entrant) / self.tets if entrant in self.rows else None
 
+    def bytes_per_tet(self, entrant):
+        return int(self.rows[entrant]["bytes"]) / self.tets if entrant in self.rows else None
+
     def best_peer(self):
         """Name of the fastest peer, or None."""
         names = [name for name, row in self.rows.items() if row["kind"] == "peer"]
         return min(names, key=self.ms) if names else None
 
-    def times_faster(self, other):
-        """How many times as fast as `other` the subject is, or None."""
-        if other not in self.rows or SUBJECT not in self.rows:
+    def times_faster(self, entrant, other):
+        """How many times as fast as `other` the entrant is, or None."""
+        if other not in self.rows or entrant not in self.rows:
             return None
-        return self.ms(other) / self.ms(SUBJECT)
+        return self.ms(other) / self.ms(entrant)
 
     def is_comparison(self):
         """Not one of the runs of vox alone, which show how time grows."""

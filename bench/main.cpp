@@ -2,6 +2,7 @@
 // of them must find the same contacts in every frame. Then they take turns, so that a disturbance of the
 // machine affects them equally, and medians are compared.
 #include "entrant.hpp"
+#include "hard_scenes.hpp"
 #include "results.hpp"
 #include "scenes.hpp"
 #include "timing.h"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <iterator>
 
 #if defined(__linux__)
 #include <sched.h>
@@ -31,7 +33,7 @@ struct Options {
     bool list = false;
 };
 
-// For the growth of time with size: only vox and the floors.
+// For the growth of time with size: only vox, with and without depth, and the floors.
 constexpr double growth_sizes[] = {1e4, 3e4, 1e5, 3e5, 1e6, 2e6, 5e6};
 const std::vector<std::string> growth_scenes = {"overlap-1", "self", "overlap-50"};
 
@@ -147,6 +149,7 @@ int run_all(const Options& options, const std::string& command) {
     std::vector<EntrantMaker> all;
     for (auto& part : {vox_entrants(), peers(), floors()}) all.insert(all.end(), part.begin(), part.end());
     std::vector<SceneMaker> makers = scene_makers(options.mesh_folder);
+    std::ranges::move(hard_scene_makers(), std::back_inserter(makers));
     if (options.list) {
         std::puts("scenes:");
         for (const SceneMaker& maker : makers)
@@ -172,7 +175,7 @@ int run_all(const Options& options, const std::string& command) {
         }
     if (options.growth) {
         std::erase_if(all,
-                      [](const EntrantMaker& e) { return e.kind != Kind::floor && e.name != subject_name; });
+                      [](const EntrantMaker& e) { return e.kind == Kind::peer || e.name == reference_name; });
         for (const SceneMaker& maker : makers)
             if (std::ranges::find(growth_scenes, maker.name) != growth_scenes.end())
                 for (double tets : growth_sizes) agree = run(maker, tets, all, options, csv.get()) && agree;
@@ -194,7 +197,8 @@ int main(int argc, char** argv) {
         ->delimiter(',')
         ->check(CLI::Range(1000.0, 5e7));
     app.add_flag("--full", full, "as the documentation shows: --tets 1000000 --growth");
-    app.add_flag("--growth", options.growth, "also vox alone in scenes from 10000 to 5000000 tetrahedra");
+    app.add_flag("--growth", options.growth,
+                 "also vox without the others in scenes from 10000 to 5000000 tetrahedra");
     app.add_option("--scenes", options.scenes, "names of the scenes to run (default: all)")->delimiter(',');
     app.add_option("--entrants", options.entrants, "names of the entrants to run (default: all)")
         ->delimiter(',');

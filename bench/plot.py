@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the benchmark's results: nanoseconds a tetrahedron for every scene and entrant, and how vox grows.
+"""Draws the benchmark's results: nanoseconds a tetrahedron for every scene and entrant, and how vox grows: the default
+step, and contacts alone.
 
 usage: plot.py RESULTS.csv CHART.svg
 """
@@ -11,10 +12,11 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-from figures import F1, F2, REFERENCE, SUBJECT, read
+from figures import CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 
 SUBJECT_COLOUR = "#c2185b"
 REFERENCE_COLOUR = "#333333"
+LABELS = {SUBJECT: "vox, default step", CONTACTS: "vox, contacts alone", REFERENCE: "paper's algorithm, contacts alone"}
 PEER_COLOURS = ["#1f77b4", "#6baed6", "#ff7f0e", "#2ca02c", "#9467bd", "#8c564b", "#bcbd22", "#17becf"]
 PEER_MARKERS = "s<D^vPX>"
 
@@ -22,6 +24,8 @@ PEER_MARKERS = "s<D^vPX>"
 def style(entrant, peers):
     if entrant == SUBJECT:
         return {"color": SUBJECT_COLOUR, "marker": "o", "s": 80, "zorder": 4}
+    if entrant == CONTACTS:
+        return {"color": SUBJECT_COLOUR, "facecolors": "white", "marker": "o", "s": 50, "zorder": 4}
     if entrant == REFERENCE:
         return {"color": REFERENCE_COLOUR, "marker": "o", "s": 45, "zorder": 3}
     if entrant in (F1, F2):
@@ -46,7 +50,8 @@ def draw_scenes(axes, scenes):
                     peers.append(name)
     for entrant in entrants:
         points = [(scene.ns_per_tet(entrant), y) for y, scene in enumerate(scenes) if entrant in scene.rows]
-        axes.scatter(*zip(*points), label=entrant, **style(entrant, peers))
+        label = LABELS.get(entrant, entrant)
+        axes.scatter(*zip(*points), label=label, **style(entrant, peers))
     axes.set_xscale("log")
     axes.set_yticks(range(len(scenes)))
     axes.set_yticklabels([f"{scene.label()}\n{scene.tets:,} tets, {scene.contacts:,} contacts" for scene in scenes],
@@ -65,13 +70,16 @@ def draw_growth(axes, runs):
     for run in runs:
         by_name.setdefault(run.name, (run.title, []))[1].append(run)
     for title, of_scene in by_name.values():
-        axes.plot([run.tets for run in of_scene], [run.ms(SUBJECT) for run in of_scene], "o-", label=title)
+        line, = axes.plot([run.tets for run in of_scene], [run.ms(SUBJECT) for run in of_scene], "o-", label=title)
+        alone = [run for run in of_scene if CONTACTS in run.rows]
+        axes.plot([run.tets for run in alone], [run.ms(CONTACTS) for run in alone], "o:", color=line.get_color(),
+                  markerfacecolor="white", label="contacts alone")
     longest = max((of_scene for _, of_scene in by_name.values()), key=len)
     axes.plot([run.tets for run in longest], [run.ms(F2) for run in longest], "--", color="#999999", label=F2)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("tetrahedra")
-    axes.set_ylabel("milliseconds a step: vox")
+    axes.set_ylabel("milliseconds a default step of vox")
     axes.grid(color="#dddddd")
     axes.legend(fontsize=8, frameon=False)
 

@@ -51,21 +51,25 @@ double Result::median() const { return ::median(seconds); }
 double Result::fastest() const { return seconds.empty() ? 0 : std::ranges::min(seconds); }
 
 void print(const SceneResult& scene) {
-    double reference = 0, best_peer = 0;
+    double contacts_alone = 0, reference = 0, best_peer = 0;
     for (const Result& r : scene.results) {
+        if (r.entrant == contacts_name) contacts_alone = r.median();
         if (r.entrant == reference_name) reference = r.median();
         if (r.kind == Kind::peer && (best_peer == 0 || r.median() < best_peer)) best_peer = r.median();
     }
     std::printf("\n%s (%s): %zu tets, %zu vertices, %zu bodies, %zu contacts\n", scene.scene.c_str(),
                 scene.title.c_str(), scene.tets, scene.vertices, scene.bodies, scene.contacts);
-    std::printf("  %-22s %10s %10s %8s %12s %12s %8s %10s %7s\n", "", "median ms", "fastest ms", "ns/tet",
-                "x reference", "x best peer", "B/tet", "cell/edge", "steps");
+    std::printf("  %-22s %10s %10s %8s %12s %12s %12s %8s %10s %7s\n", "", "median ms", "fastest ms",
+                "ns/tet", "/ contacts", "x reference", "x best peer", "B/tet", "cell/edge", "steps");
     const double tets = static_cast<double>(scene.tets);
     for (const Result& r : scene.results) {
         const double median = r.median();
-        std::printf("  %-22s %10.3f %10.3f %8.2f %12s %12s %8s %10s %7zu%s\n", r.entrant.c_str(),
-                    1e3 * median, 1e3 * r.fastest(), 1e9 * median / tets, ratio(reference / median).c_str(),
-                    ratio(best_peer / median).c_str(), ratio(static_cast<double>(r.bytes) / tets).c_str(),
+        const double over_contacts = contacts_alone > 0 ? median / contacts_alone : 0;
+        std::printf("  %-22s %10.3f %10.3f %8.2f %12s %12s %12s %8s %10s %7zu%s\n", r.entrant.c_str(),
+                    1e3 * median, 1e3 * r.fastest(), 1e9 * median / tets,
+                    r.entrant == subject_name ? ratio(over_contacts).c_str() : "-",
+                    ratio(reference / median).c_str(), ratio(best_peer / median).c_str(),
+                    ratio(static_cast<double>(r.bytes) / tets).c_str(),
                     ratio(r.cell_size / scene.mean_edge).c_str(), r.seconds.size(),
                     r.agrees ? "" : "  WRONG CONTACTS");
     }

@@ -1,4 +1,5 @@
-// The engines of vox through its C interface, as a user would call them.
+// vox through its C interface, as a user would call it: the default grid and all that its step does, the same
+// without the depth stage, and the paper's algorithm without it.
 #include "entrant.hpp"
 #include "program.hpp"
 #include "timing.h"
@@ -7,36 +8,25 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace bench {
 
-const std::string reference_name = "vox reference";
 const std::string subject_name = "vox";
+const std::string contacts_name = "vox contacts";
+const std::string reference_name = "vox reference";
 
 namespace {
 
-struct Engine {
-    std::string name;
-    vox_engine engine;
-    bool sweep; // try cell sizes and keep the fastest one
-};
-
-const Engine engines[] = {
-    {subject_name, VOX_ENGINE_AUTO, false},
-    {reference_name, VOX_ENGINE_REFERENCE, true},
-};
+const std::string* const names[] = {&subject_name, &contacts_name, &reference_name};
 
 // Cell sizes of the sweep, in mean edges. The reference engine's best ones lie between 1 and 1.8.
 constexpr double sweep_factors[] = {0.85, 1.0, 1.2, 1.45, 1.75, 2.1, 2.5};
 
 class VoxEntrant final : public Entrant {
 public:
-    explicit VoxEntrant(const Engine& engine) : sweep_(engine.sweep) {
-        vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = engine.engine;
-        desc.byte_budget = 0;
-        desc.flags &=
-            ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // contacts alone, as the peers find them
+    explicit VoxEntrant(const std::string& name) : sweep_(name == reference_name) {
+        const vox_grid_desc desc = grid_desc(name);
         must(vox_grid_create(&desc, &grid_));
     }
     ~VoxEntrant() override { vox_grid_destroy(grid_); }
@@ -96,7 +86,7 @@ public:
     }
 
 private:
-    bool sweep_;
+    bool sweep_; // try cell sizes and keep the fastest one
     vox_grid* grid_ = nullptr;
     std::vector<vox_mesh> meshes_;
 };
@@ -105,10 +95,20 @@ private:
 
 std::vector<EntrantMaker> vox_entrants() {
     std::vector<EntrantMaker> makers;
-    for (const Engine& engine : engines)
-        makers.push_back(
-            {engine.name, Kind::vox, [&engine] { return std::make_unique<VoxEntrant>(engine); }});
+    for (const std::string* name : names)
+        makers.push_back({*name, Kind::vox, [name] { return std::make_unique<VoxEntrant>(*name); }});
     return makers;
+}
+
+vox_grid_desc grid_desc(const std::string& vox_entrant) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    if (vox_entrant == subject_name) return desc; // as a user gets it
+    desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
+    if (vox_entrant == reference_name)
+        desc.engine = VOX_ENGINE_REFERENCE;
+    else if (vox_entrant != contacts_name)
+        throw std::invalid_argument(vox_entrant + " is no entrant of vox");
+    return desc;
 }
 
 } // namespace bench

@@ -109,7 +109,7 @@ void SweepLog::add(const SweepSample& sample) {
                   static_cast<unsigned long long>(sample.candidates));
     std::string line = experiment_ + ',' + sample.name + numbers;
     for (std::size_t i = 0; i < sample.frame_ns.size(); ++i)
-        line += (i == 0 ? "" : " ") + std::to_string(sample.frame_ns[i]);
+        line.append(i == 0 ? "" : " ").append(std::to_string(sample.frame_ns[i]));
     write(line);
 }
 
