@@ -1,12 +1,15 @@
-// Canonical order by least-significant-digit radix sort (Knuth, The Art of Computer Programming 3,
-// Sect. 5.2.5) of body_a and vertex alone: few hits share a vertex, and those are put in order by themselves.
+// Canonical order by radix sort (Knuth, The Art of Computer Programming 3, Sect. 5.2.5) of body_a and vertex
+// alone: few hits share a vertex, and those are put in order by themselves. Of many hits the most significant
+// digit comes first, and the others piece by piece.
 #include "grid/contacts.hpp"
 
 #include "base/parallel.hpp"
 #include "exact/barycentric.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -18,44 +21,74 @@ bool before(const Hit& x, const Hit& y) {
            std::tuple(y.body_a, y.vertex, y.body_b, std::uint32_t(y.tet));
 }
 
-bool same_vertex(const Hit& x, const Hit& y) { return x.vertex == y.vertex && x.body_a == y.body_a; }
+// A hit is kept in either list, bit by bit, while they are sorted.
+static_assert(sizeof(Hit) == sizeof(vox_contact) && offsetof(Hit, body_a) == offsetof(vox_contact, mesh_a) &&
+              offsetof(Hit, vertex) == offsetof(vox_contact, vertex));
+std::uint32_t body_of(const Hit& hit) { return hit.body_a; }
+std::uint32_t body_of(const vox_contact& contact) { return contact.mesh_a; }
+Hit to_hit(const Hit& hit) { return hit; }
+Hit to_hit(const vox_contact& contact) { return std::bit_cast<Hit>(contact); }
 
-// By body_a and vertex: one number of as few bits as these bodies need, cut into two equal digits or more.
-// `contacts` is as long as `hits`, and holds them, bit by bit, after every other digit.
-void radix_sort(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts) {
-    static_assert(sizeof(Hit) == sizeof(vox_contact));
-    constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
-    constexpr std::size_t most_values = std::size_t{1} << most_digit_bits;
-    std::uint32_t most_vertices = 1;
-    for (const Body& body : bodies) most_vertices = std::max(most_vertices, body.vertex_count);
-    const int vertex_bits = static_cast<int>(std::bit_width(most_vertices - 1));
-    const int bits = vertex_bits + static_cast<int>(std::bit_width(bodies.size()));
+template <class Stored>
+bool same_vertex(const Stored& x, const Stored& y) {
+    return x.vertex == y.vertex && body_of(x) == body_of(y);
+}
+
+// body_a and vertex as one number of as few bits as these bodies need.
+struct SortKey {
+    explicit SortKey(std::span<const Body> bodies) {
+        std::uint32_t most_vertices = 1;
+        for (const Body& body : bodies) most_vertices = std::max(most_vertices, body.vertex_count);
+        vertex_bits = static_cast<int>(std::bit_width(most_vertices - 1));
+        bits = vertex_bits + static_cast<int>(std::bit_width(bodies.size()));
+    }
+
+    template <class Stored>
+    std::uint64_t of(const Stored& stored) const {
+        return std::uint64_t{body_of(stored)} << vertex_bits | stored.vertex;
+    }
+    template <class Stored>
+    std::size_t digit(const Stored& stored, int shift, std::size_t values) const {
+        return static_cast<std::size_t>(of(stored) >> shift) & (values - 1);
+    }
+
+    int vertex_bits, bits;
+};
+
+constexpr int most_digit_bits = 11; // the counts and the places written to stay in the first cache
+using Places = std::array<std::uint32_t, std::size_t{1} << most_digit_bits>; // of each value; first counts
+
+void sum(Places& places, std::size_t values) {
+    std::uint32_t before = 0;
+    for (std::size_t v = 0; v < values; ++v) before += std::exchange(places[v], before);
+}
+
+template <class Stored, class Other>
+void move_by_digit(const SortKey& key, int shift, std::size_t values, std::span<const Stored> from,
+                   std::span<Other> to, Places& places) {
+    for (const Stored& stored : from)
+        to[places[key.digit(stored, shift, values)]++] = std::bit_cast<Other>(stored);
+}
+
+// By the lowest `bits` of the key, cut into two equal digits or more. `other` is as long as `hits`, and holds
+// them after every other digit.
+template <class Stored, class Other>
+void sort_by_low_bits(const SortKey& key, int bits, std::span<Stored> hits, std::span<Other> other) {
     // Not many more counts than hits.
     const int wanted_bits = std::clamp(static_cast<int>(std::bit_width(hits.size())), 1, most_digit_bits);
     const int pairs = std::max((bits + 2 * wanted_bits - 1) / (2 * wanted_bits), 1); // of digits
     const int digit_bits = (bits + 2 * pairs - 1) / (2 * pairs);
-    const std::size_t digit_values = std::size_t{1} << digit_bits;
-
-    std::array<std::uint32_t, most_values> place[2]; // of the lower and the upper digit; first counts
-    for (int pair = 0; pair < pairs; ++pair) {
-        const auto digit = [=](const Hit& hit, int upper) {
-            const std::uint64_t key = std::uint64_t{hit.body_a} << vertex_bits | hit.vertex;
-            return static_cast<std::size_t>(key >> (2 * pair + upper) * digit_bits) & (digit_values - 1);
-        };
-        for (auto& counts : place) std::fill_n(counts.begin(), digit_values, 0u);
-        for (const Hit& hit : hits) {
-            ++place[0][digit(hit, 0)];
-            ++place[1][digit(hit, 1)];
+    const std::size_t values = std::size_t{1} << digit_bits;
+    Places low, high;
+    for (int shift = 0; shift < 2 * pairs * digit_bits; shift += 2 * digit_bits) {
+        for (Places* places : {&low, &high}) std::fill_n(places->begin(), values, 0u);
+        for (const Stored& hit : hits) {
+            ++low[key.digit(hit, shift, values)];
+            ++high[key.digit(hit, shift + digit_bits, values)];
         }
-        for (auto& counts : place) {
-            std::uint32_t sum = 0;
-            for (std::size_t v = 0; v < digit_values; ++v) sum += std::exchange(counts[v], sum);
-        }
-        for (const Hit& hit : hits) contacts[place[0][digit(hit, 0)]++] = std::bit_cast<vox_contact>(hit);
-        for (const vox_contact& contact : contacts) {
-            const Hit hit = std::bit_cast<Hit>(contact);
-            hits[place[1][digit(hit, 1)]++] = hit;
-        }
+        for (Places* places : {&low, &high}) sum(*places, values);
+        move_by_digit(key, shift, values, std::span<const Stored>(hits), other, low);
+        move_by_digit(key, shift + digit_bits, values, std::span<const Other>(other), hits, high);
     }
 }
 
@@ -74,6 +107,138 @@ Hit* keep(Hit* begin, Hit* end, Hit* kept) {
             kept = std::copy_if(begin, next, kept, [](const Hit& hit) { return hit.interior != 0; });
     }
     return kept;
+}
+
+// The same for `count` hits in order, of which at(i) is the i-th, in either list. `hits` has as many places,
+// which may be those of the hits themselves.
+template <class At>
+Hit* keep_all(std::size_t count, At&& at, Hit* hits, Hit* kept) {
+    for (std::size_t begin = 0, end; begin < count; begin = end) {
+        end = begin + 1;
+        while (end < count && same_vertex(at(begin), at(end))) ++end;
+        if (end - begin == 1) {
+            *kept++ = to_hit(at(begin));
+            continue;
+        }
+        for (std::size_t i = begin; i < end; ++i) hits[i] = to_hit(at(i));
+        kept = keep(hits + begin, hits + end, kept);
+    }
+    return kept;
+}
+
+// The order of some hits: the lowest bits of the key of each, and its index among them.
+constexpr int index_bits = 12;
+constexpr std::uint32_t most_in_order = 1u << index_bits;
+using Order = std::array<std::uint32_t, most_in_order>;
+
+// By the lowest `bits` of the keys, of which there is room for 32 - index_bits.
+void find_order(const SortKey& key, int bits, std::span<const vox_contact> hits, Order& order) {
+    const int digit_bits = (bits + 1) / 2;
+    const std::size_t values = std::size_t{1} << digit_bits;
+    const auto lower = [=](std::uint32_t item) { return item >> index_bits & (values - 1); };
+    const auto upper = [=](std::uint32_t item) { return item >> (index_bits + digit_bits); };
+    Order other;
+    Places low, high;
+    for (Places* places : {&low, &high}) std::fill_n(places->begin(), values, 0u);
+    const auto count = static_cast<std::uint32_t>(hits.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint64_t bits_of_key = key.of(hits[i]) & ((std::uint64_t{1} << bits) - 1);
+        order[i] = static_cast<std::uint32_t>(bits_of_key) << index_bits | i;
+        ++low[lower(order[i])];
+        ++high[upper(order[i])];
+    }
+    for (Places* places : {&low, &high}) sum(*places, values);
+    for (std::uint32_t i = 0; i < count; ++i) other[low[lower(order[i])]++] = order[i];
+    for (std::uint32_t i = 0; i < count; ++i) order[high[upper(other[i])]++] = other[i];
+}
+
+// Calls function(i) for each i below `count`, in tasks unless there are no workers.
+template <class Function>
+void for_each(Workers* workers, std::size_t count, Function&& function) {
+    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t i = begin; i < end; ++i) function(i);
+    };
+    if (workers)
+        workers->for_ranges(count, 1, run);
+    else
+        run(0, count, 0);
+}
+
+// Sorts the hits of a piece, which have all but the lowest bits of their keys in common, and moves those that
+// become contacts to the front of `out`, which has as many places. Returns how many do.
+std::uint32_t keep_piece(const SortKey& key, int low_bits, std::span<vox_contact> piece, std::span<Hit> out) {
+    Order order;
+    const bool has_order = piece.size() <= most_in_order && low_bits <= 32 - index_bits;
+    if (has_order)
+        find_order(key, low_bits, piece, order);
+    else
+        sort_by_low_bits(key, low_bits, piece, out);
+    const auto at = [&](std::size_t i) -> const vox_contact& {
+        return piece[has_order ? order[i] % most_in_order : i];
+    };
+    return static_cast<std::uint32_t>(keep_all(piece.size(), at, out.data(), out.data()) - out.data());
+}
+
+// As sort_and_keep(). The hits are first moved into pieces by the upper bits of their keys: each of a few
+// chunks of the list counts its hits of every piece, which gives the places that it moves them to. The order
+// of a piece is then found in the first cache, and they are moved a second time to where they are kept.
+// Workers share chunks, then pieces.
+Hit* sort_and_keep_in_pieces(const SortKey& key, std::span<Hit> hits, std::span<vox_contact> contacts,
+                             Workers* workers) {
+    constexpr std::size_t piece_size = 1024; // on average
+    constexpr int chunk_bits = 4;
+    const int piece_bits = std::min({static_cast<int>(std::bit_width(hits.size() / piece_size)),
+                                     most_digit_bits - (workers ? chunk_bits - 2 : 0), key.bits});
+    const int low_bits = key.bits - piece_bits;
+    const std::size_t pieces = std::size_t{1} << piece_bits;
+    const std::size_t chunks = workers ? std::size_t{1} << chunk_bits : 1;
+    std::array<std::uint32_t, std::size_t{1} << (most_digit_bits + 2)> places; // of each chunk; first counts
+    const auto in_chunk = [&](std::size_t c) {
+        const std::size_t first = hits.size() * c / chunks;
+        return std::span<const Hit>(hits).subspan(first, hits.size() * (c + 1) / chunks - first);
+    };
+    for_each(workers, chunks, [&](std::size_t c) {
+        std::uint32_t* count = places.data() + c * pieces;
+        std::fill_n(count, pieces, 0u);
+        for (const Hit& hit : in_chunk(c)) ++count[key.digit(hit, low_bits, pieces)];
+    });
+    std::array<std::uint32_t, (std::size_t{1} << most_digit_bits) + 1>
+        first_of; // hit of each piece, and the end
+    std::uint32_t sum_before = 0;
+    for (std::size_t p = 0; p < pieces; ++p) {
+        first_of[p] = sum_before;
+        for (std::size_t c = 0; c < chunks; ++c)
+            sum_before += std::exchange(places[c * pieces + p], sum_before);
+    }
+    first_of[pieces] = sum_before;
+    for_each(workers, chunks, [&](std::size_t c) {
+        std::uint32_t* place = places.data() + c * pieces;
+        for (const Hit& hit : in_chunk(c))
+            contacts[place[key.digit(hit, low_bits, pieces)]++] = std::bit_cast<vox_contact>(hit);
+    });
+    Places kept; // of each piece
+    for_each(workers, pieces, [&](std::size_t p) {
+        const std::size_t first = first_of[p], count = first_of[p + 1] - first;
+        kept[p] = keep_piece(key, low_bits, contacts.subspan(first, count), hits.subspan(first, count));
+    });
+    Hit* end = hits.data();
+    for (std::size_t p = 0; p < pieces; end += kept[p++])
+        if (const Hit* begin = hits.data() + first_of[p]; begin != end) std::copy_n(begin, kept[p], end);
+    return end;
+}
+
+// Sorts the hits and keeps those that become contacts at the front. Returns their end. `contacts` is as long,
+// and is overwritten.
+Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<vox_contact> contacts,
+                   Workers* workers) {
+    constexpr std::size_t few = std::size_t{1} << 17; // 8 MiB in both lists, which the caches hold
+    constexpr std::size_t few_for_tasks = std::size_t{1} << 13;
+    const SortKey key(bodies);
+    if (hits.size() > (workers ? few_for_tasks : few))
+        return sort_and_keep_in_pieces(key, hits, contacts, workers);
+    sort_by_low_bits(key, key.bits, hits, contacts);
+    const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
+    return keep_all(hits.size(), at, hits.data(), hits.data());
 }
 
 // The contacts of the block of hits from `first` on.
@@ -113,21 +278,15 @@ void resize(std::pmr::vector<vox_contact>& contacts, std::size_t count) {
 
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
                    std::pmr::vector<vox_contact>& contacts, Workers* workers) {
+    if (workers && workers->count() == 1) workers = nullptr;
     resize(contacts, hits.size());
-    if (hits.size() <= UINT32_MAX) // what 32-bit counts are enough for
-        radix_sort(bodies, hits, contacts);
-    else
+    Hit* kept;
+    if (hits.size() <= UINT32_MAX) { // what 32-bit counts are enough for
+        kept = sort_and_keep(bodies, hits, contacts, workers);
+    } else {
         std::sort(hits.begin(), hits.end(), before);
-
-    Hit* kept = hits.data();
-    Hit* const last = hits.data() + hits.size();
-    for (Hit *begin = hits.data(), *end; begin != last; begin = end) {
-        end = begin + 1;
-        while (end != last && same_vertex(*begin, *end)) ++end;
-        if (end - begin == 1)
-            *kept++ = *begin;
-        else
-            kept = keep(begin, end, kept);
+        const auto at = [&](std::size_t i) -> const Hit& { return hits[i]; };
+        kept = keep_all(hits.size(), at, hits.data(), hits.data());
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
     contacts.resize(hits.size());
@@ -140,7 +299,7 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
             write_block(bodies, rounded, hits, b * barycentric_block, contacts.data());
     };
     constexpr std::size_t least_blocks = 16; // worth a task
-    if (workers && workers->count() > 1 && blocks > least_blocks)
+    if (workers && blocks > least_blocks)
         workers->for_ranges(blocks, least_blocks, write);
     else
         write(0, blocks, 0);

@@ -15,8 +15,8 @@ namespace vox {
 class Workers;
 
 // Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to; `hits` is left
-// with the ones that became contacts. `workers` share what is missing of the barycentric coordinates, as one
-// task of the step; null: the calling thread computes them.
+// with the ones that became contacts. `workers` share the work, as at most four tasks of the step; null: the
+// calling thread does it.
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
                    std::pmr::vector<vox_contact>& contacts, Workers* workers = nullptr);
 

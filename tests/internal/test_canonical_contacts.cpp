@@ -1,4 +1,5 @@
 // Hits to contacts: the order, the rule for shared boundaries, the hash.
+#include "base/parallel.hpp"
 #include "base/simd.hpp"
 #include "exact/predicates.hpp"
 #include "grid/contacts.hpp"
@@ -107,6 +108,66 @@ START_TEST(interior_hits_hide_boundary_ones) {
 }
 END_TEST
 
+// The rule again, for hits of which there are too many to compare each with all others.
+std::vector<Key> expected_keys(std::pmr::vector<Hit> hits) {
+    std::sort(hits.begin(), hits.end(), [](const Hit& x, const Hit& y) { return key(x) < key(y); });
+    std::vector<Key> expected;
+    for (std::size_t begin = 0, end; begin < hits.size(); begin = end) {
+        bool any_interior = false;
+        for (end = begin; end < hits.size() && hits[end].body_a == hits[begin].body_a &&
+                          hits[end].vertex == hits[begin].vertex && hits[end].body_b == hits[begin].body_b;
+             ++end)
+            any_interior |= hits[end].interior != 0;
+        for (std::size_t i = begin; i < end; ++i)
+            if (any_interior ? hits[i].interior != 0 : i == begin) expected.push_back(key(hits[i]));
+    }
+    return expected;
+}
+
+// Runs ranges on this thread, the last one first.
+void* run_backwards(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context, void* user) {
+    const std::uint32_t workers = *static_cast<const std::uint32_t*>(user);
+    for (std::uint64_t end = items, i = 0; end > 0; ++i) {
+        const std::uint64_t begin = end > min_range ? end - min_range : 0;
+        task(begin, end, static_cast<std::uint32_t>(i % workers), context);
+        end = begin;
+    }
+    return nullptr;
+}
+
+START_TEST(workers_share_many_hits) {
+    const Mesh mesh = uniform_mesh(80000, 70000);
+    const Positions positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)};
+    std::vector<Body> views(
+        300, Body{0, static_cast<std::uint32_t>(mesh.positions.size()), positions, mesh.tets, true});
+    for (std::size_t b = 0; b < views.size(); ++b) views[b].mesh_id = static_cast<std::uint32_t>(b);
+    Random random{22};
+    for (const std::uint32_t count : {8193u, 40000u, 150000u})
+        for (const auto& [spread, range] :
+             {std::pair(1u, 66000u), {300u, 200u}, {2u, 9u}}) { // bodies, vertices
+            std::pmr::vector<Hit> hits;
+            for (std::uint32_t i = 0; i < count; ++i) // body_b and tet tell them apart
+                hits.push_back(
+                    hit(random.below(spread), 4 + random.below(range), i % 4, i / 4, random.below(3) == 0));
+            const std::vector<Key> expected = expected_keys(hits);
+            for (std::uint32_t workers : {1u, 2u, 5u}) {
+                Workers shared({run_backwards, [](void*, void*) {}, &workers}, workers);
+                std::pmr::vector<Hit> left = hits;
+                std::pmr::vector<vox_contact> contacts;
+                make_contacts(views, left, contacts, &shared);
+                ck_assert_uint_eq(contacts.size(), expected.size());
+                ck_assert_uint_eq(left.size(), expected.size());
+                for (std::size_t i = 0; i < expected.size(); ++i) {
+                    ck_assert(key(left[i]) == expected[i]);
+                    const vox_contact& c = contacts[i];
+                    ck_assert(Key(c.mesh_a, c.vertex, c.mesh_b, c.tet) == expected[i]);
+                    for (const float weight : c.barycentric) ck_assert_float_eq(weight, 0.25f);
+                }
+            }
+        }
+}
+END_TEST
+
 // Strided positions, slivers that need exact arithmetic, coordinates of all magnitudes, and vertices on
 // faces, edges and corners: the bits of barycentric(), from every instruction set.
 START_TEST(weights_have_the_bits_of_the_scalar_function) {
@@ -211,7 +272,7 @@ int main() {
     Suite* suite = suite_create("canonical contacts");
     TCase* tests = add_case(suite, "contacts");
     tcase_add_each(tests, any_order_of_hits_becomes_canonical, interior_hits_hide_boundary_ones,
-                   weights_have_the_bits_of_the_scalar_function, hash_is_as_documented,
-                   hash_tells_every_field_and_the_order);
+                   workers_share_many_hits, weights_have_the_bits_of_the_scalar_function,
+                   hash_is_as_documented, hash_tells_every_field_and_the_order);
     return run_suite(suite);
 }

@@ -1,0 +1,101 @@
+// The benchmark's entrant "vox" is the grid that a user gets; "vox contacts" is the same without the depth
+// stage, and finds the same contacts.
+#include "entrant.hpp"
+#include "hard_scenes.hpp"
+#include "support/suite.h"
+
+#include <cstring>
+
+namespace {
+
+using bench::Entrant;
+using bench::Scene;
+
+bool same(const vox_grid_desc& x, const vox_grid_desc& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+
+START_TEST(names_and_descriptions) {
+    const auto makers = bench::vox_entrants();
+    ck_assert_uint_eq(makers.size(), 3);
+    ck_assert_str_eq(makers[0].name.c_str(), "vox"); // first, which all others are compared with
+    ck_assert_str_eq(makers[1].name.c_str(), "vox contacts");
+    ck_assert_str_eq(makers[2].name.c_str(), "vox reference");
+
+    const vox_grid_desc usual = vox_default_grid_desc();
+    ck_assert(same(bench::grid_desc("vox"), usual));
+    ck_assert(usual.flags & VOX_GRID_PENETRATIONS); // or the next one would be the default
+
+    vox_grid_desc contacts = bench::grid_desc("vox contacts");
+    ck_assert(!(contacts.flags & VOX_GRID_PENETRATIONS));
+    contacts.flags |= VOX_GRID_PENETRATIONS;
+    ck_assert(same(contacts, usual));
+
+    vox_grid_desc reference = bench::grid_desc("vox reference");
+    ck_assert_int_eq(reference.engine, VOX_ENGINE_REFERENCE);
+    ck_assert(!(reference.flags & VOX_GRID_PENETRATIONS));
+}
+END_TEST
+
+// A grid as a user makes it, with no description at all.
+struct UserGrid {
+    explicit UserGrid(const Scene& scene) {
+        ck_ok(vox_grid_create(nullptr, &grid));
+        for (const bench::Body& body : scene.bodies) {
+            const vox_mesh_desc desc = body.desc();
+            insert_mesh(grid, &desc);
+        }
+    }
+    ~UserGrid() { vox_grid_destroy(grid); }
+
+    vox_counters counters() const {
+        vox_counters counters{};
+        counters.struct_size = sizeof counters;
+        ck_ok(vox_grid_counters(grid, &counters));
+        return counters;
+    }
+
+    vox_grid* grid = nullptr;
+};
+
+void check_steps(Scene scene) {
+    UserGrid user(scene);
+    std::unique_ptr<Entrant> entrants[2];
+    const auto makers = bench::vox_entrants();
+    for (std::size_t i = 0; i < 2; ++i) {
+        entrants[i] = makers[i].make();
+        entrants[i]->setup(scene);
+    }
+    for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) {
+        scene.pose(frame);
+        ck_ok(vox_grid_step(user.grid));
+        for (auto& entrant : entrants) entrant->step();
+        const std::vector<vox_contact> with = entrants[0]->contacts(), without = entrants[1]->contacts();
+        ck_assert_uint_gt(with.size(), 0);
+        ck_assert_uint_eq(with.size(), without.size());
+        ck_assert_mem_eq(with.data(), without.data(), with.size() * sizeof(vox_contact));
+        // The user's grid held the same at every moment, which it would not if it did something else in its
+        // steps.
+        ck_assert_uint_eq(entrants[0]->bytes(), user.counters().bytes);
+        ck_assert_uint_lt(entrants[1]->bytes(), user.counters().bytes);
+        ck_assert_uint_gt(user.counters().penetrations, 0);
+    }
+}
+
+START_TEST(steps_of_a_user) {
+    for (const auto& maker : bench::scene_makers(""))
+        if (maker.name == "contact-1" || maker.name == "coil" || maker.name == "bodies-1k-rest")
+            check_steps(maker.make(6000, false));
+    for (const auto& maker : bench::hard_scene_makers()) check_steps(maker.make(2000, true));
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("bench entrants");
+    TCase* tests = tcase_create("vox");
+    tcase_set_timeout(tests, 60);
+    tcase_add_test(tests, names_and_descriptions);
+    tcase_add_test(tests, steps_of_a_user);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}

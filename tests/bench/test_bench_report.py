@@ -1,0 +1,98 @@
+"""The report of the benchmark says which figures are of the default step and which of contacts alone."""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
+REPORT = os.path.join(ROOT, "bench", "report.py")
+FIELDS = ("date cpu build command scene title tets vertices bodies contacts mean_edge entrant kind steps median_ns fastest_ns "
+          "setup_ns bytes cell_size agrees").split()
+# Milliseconds of a step, bytes a tetrahedron.
+TIMES = {"vox": (2.0, 70), "vox contacts": (1.0, 35), "vox reference": (150.0, 50), "Embree refit": (30.0, 100),
+         "Embree rebuild": (24.0, 100), "F1 positions": (0.05, 0), "F2 tet boxes": (1.0, 0)}
+
+
+def kind(entrant):
+    return "vox" if entrant.startswith("vox") else "floor" if entrant.startswith("F") else "peer"
+
+
+def rows(scene, tets, entrants):
+    return [dict(zip(FIELDS, ["2026-01-01", "a processor", "a build", "./dev bench --meshes /a/b", scene, "two bodies", tets,
+                              tets // 5, 2, 10, 1, name, kind(name), 9, 1e6 * TIMES[name][0] * tets / 1e6,
+                              1e6 * TIMES[name][0] * tets / 1e6, 1e8 * tets / 1e6, TIMES[name][1] * tets, 0, 1]))
+            for name in entrants]
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.results = os.path.join(self.folder.name, "results.csv")
+        self.write(list(TIMES))
+
+    def write(self, entrants):
+        with open(self.results, "w", newline="", encoding="utf-8") as file:
+            out = csv.DictWriter(file, FIELDS)
+            out.writeheader()
+            out.writerows(rows("contact-1", 1000000, entrants) + rows("tangled", 1000000, entrants))
+            for tets in (10000, 100000, 1000000):
+                out.writerows(rows("self", tets, [e for e in entrants if kind(e) == "floor" or e in ("vox", "vox contacts")]))
+
+    def report(self, *arguments):
+        run = subprocess.run([sys.executable, "-B", REPORT, self.results, *arguments], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def page(self, text, option):
+        path = os.path.join(self.folder.name, "page.md")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.report(option, path)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def test_the_default_step_comes_first(self):
+        text = self.report()
+        self.assertIn("| scene | tets | default step, ms | contacts alone, ms | default / contacts alone |", text)
+        self.assertIn("| two bodies | 1000000 | 2.00 | 1.00 | 2.00 | 12.0 | 24.0 | Embree rebuild | 150 | 1.00 |", text)
+        self.assertIn("Memory of a default grid: at most 70.0 bytes", text)
+        self.assertIn("Memory of one without the depth stage: at most 35.0 bytes", text)
+        self.assertIn("Growth, self, default step: time grows with the 1.00th power", text)
+        self.assertIn("Growth, self, contacts alone: time grows with the 1.00th power", text)
+        self.assertIn("--meshes FOLDER", text)
+
+    def test_aims(self):
+        text = self.page("before\n<!-- bench/aims -->\nold\n<!-- /bench/aims -->\nafter\n", "--aims")
+        self.assertTrue(text.startswith("before\n<!-- bench/aims -->\n") and text.endswith("<!-- /bench/aims -->\nafter\n"))
+        self.assertNotIn("old", text)
+        default, alone = text.split("Contacts alone, without the depth stage:")
+        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 1.5): **missed** | 12.0 (≥ 12): met |", default)
+        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 5): met | - |", default)  # the tangled body
+        self.assertIn("| two bodies | 1000000 | 150 (≥ 60): met | 24.0 (≥ 12): met | 1.00 (≤ 1.2): met (F2) |", alone)
+        self.assertIn("Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene", alone)
+        self.assertIn("70.0 (≤ 40): **missed**", alone)
+
+    def test_headlines(self):
+        text = self.page("* **Fast.** <!-- bench/fast -->old<!-- /bench/fast --> More.\n<!-- bench/how-fast -->\nold\n"
+                         "<!-- /bench/how-fast -->\n", "--headlines")
+        self.assertNotIn("old", text)
+        first, second = text.split("More.")
+        for part in (first, second):
+            self.assertIn("default step", part)
+            self.assertIn("contacts alone take 1.0 ms", part)
+        self.assertIn("2.0 ms on one thread, penetration depth included", first)
+        self.assertIn("takes 12 times as long as the default step, and 24 times as long as", second)
+
+    def test_results_without_the_default_step(self):
+        self.write([name for name in TIMES if name != "vox"])
+        self.assertIn("| two bodies | 1000000 | - | 1.00 | - | - | 24.0 | Embree rebuild | 150 | 1.00 |", self.report())
+        run = subprocess.run([sys.executable, "-B", REPORT, self.results, "--headlines", self.results], capture_output=True)
+        self.assertNotEqual(run.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
