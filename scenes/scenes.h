@@ -48,6 +48,16 @@ static inline void make_self(scene* s, uint32_t radius) {
     add_body(s, b);
 }
 
+/* One ball whose vertices are moved at random by up to the edge of a cube: hardly a tet is where it was. */
+static inline void make_tangled(scene* s, uint32_t radius) {
+    body b = make_lattice_ball(&five_cut, radius, radius);
+    jitter_body(&b, 1, 6);
+    s->self_collision = 1;
+    s->amplitude = 0.02 * radius;
+    s->wave_length = 2.0 * radius;
+    add_body(s, b);
+}
+
 /* side^3 small balls in a lattice, each overlapping its neighbours lightly. */
 static inline void make_many(scene* s, uint32_t side, uint32_t radius) {
     const double apart = 1.93 * radius;

@@ -1,10 +1,16 @@
 /* One small scene, stepped a few times; guard.py counts the instructions of vox_grid_step. The data are the
- * same bit for bit on every machine (scenes/scenes.h). */
+ * same bit for bit on every machine (scenes/scenes.h). The grid is the default one where the name says so;
+ * else it finds contacts alone. */
 #include "scenes/scenes.h"
 
 int main(int argc, char** argv) {
     static scene s;
     s.name = argc == 2 ? argv[1] : "";
+    vox_grid_desc desc = vox_default_grid_desc();
+    if (strncmp(s.name, "default-", 8) == 0)
+        s.name += 8;
+    else
+        desc.flags = 0;
     if (strcmp(s.name, "--build") == 0) { /* which compiler the baseline must be of */
         puts(vox_build_info());
         return EXIT_SUCCESS;
@@ -14,15 +20,17 @@ int main(int argc, char** argv) {
         make_self(&s, 13);
     } else if (strcmp(s.name, "many") == 0) {
         make_many(&s, 4, 5);
+    } else if (strcmp(s.name, "tangled") == 0) {
+        make_tangled(&s, 6);
     } else {
-        fprintf(stderr, "usage: guard --build | pair | self | many\n");
+        fprintf(
+            stderr,
+            "usage: guard --build | [default-]pair | [default-]self | [default-]many | [default-]tangled\n");
         return 2;
     }
 
     vox_grid* grid = NULL;
     vox_contact_view view = {0};
-    vox_grid_desc desc = vox_default_grid_desc();
-    desc.flags = 0; /* contacts alone */
     int ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(&s, grid);
     for (int frame = 0; ok && frame < 4; ++frame) {
         pose_scene(&s, frame);
