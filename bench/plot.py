@@ -16,6 +16,7 @@ from figures import CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 
 SUBJECT_COLOUR = "#c2185b"
 REFERENCE_COLOUR = "#333333"
+STEPS = {SUBJECT: "default step", CONTACTS: "contacts alone"}
 LABELS = {SUBJECT: "vox, default step", CONTACTS: "vox, contacts alone", REFERENCE: "paper's algorithm, contacts alone"}
 PEER_COLOURS = ["#1f77b4", "#6baed6", "#ff7f0e", "#2ca02c", "#9467bd", "#8c564b", "#bcbd22", "#17becf"]
 PEER_MARKERS = "s<D^vPX>"
@@ -69,17 +70,18 @@ def draw_growth(axes, runs):
     by_name = {}
     for run in runs:
         by_name.setdefault(run.name, (run.title, []))[1].append(run)
-    for title, of_scene in by_name.values():
-        line, = axes.plot([run.tets for run in of_scene], [run.ms(SUBJECT) for run in of_scene], "o-", label=title)
-        alone = [run for run in of_scene if CONTACTS in run.rows]
-        axes.plot([run.tets for run in alone], [run.ms(CONTACTS) for run in alone], "o:", color=line.get_color(),
-                  markerfacecolor="white", label="contacts alone")
+    for i, (title, of_scene) in enumerate(by_name.values()):
+        for entrant, line, fill in ((SUBJECT, "o-", f"C{i}"), (CONTACTS, "o:", "white")):
+            measured = [run for run in of_scene if entrant in run.rows]
+            if measured:
+                axes.plot([run.tets for run in measured], [run.ms(entrant) for run in measured], line, color=f"C{i}",
+                          markerfacecolor=fill, label=f"{title}, {STEPS[entrant]}")
     longest = max((of_scene for _, of_scene in by_name.values()), key=len)
     axes.plot([run.tets for run in longest], [run.ms(F2) for run in longest], "--", color="#999999", label=F2)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("tetrahedra")
-    axes.set_ylabel("milliseconds a default step of vox")
+    axes.set_ylabel("milliseconds a step: vox")
     axes.grid(color="#dddddd")
     axes.legend(fontsize=8, frameon=False)
 
@@ -89,7 +91,8 @@ def main():
         raise SystemExit(__doc__)
     rows, scenes = read(sys.argv[1])
     compared = [scene for scene in scenes if scene.is_comparison()]
-    runs = [scene for scene in scenes if not scene.is_comparison() and SUBJECT in scene.rows and F2 in scene.rows]
+    runs = [scene for scene in scenes if not scene.is_comparison() and F2 in scene.rows
+            and (SUBJECT in scene.rows or CONTACTS in scene.rows)]
     # One panel for each part that has something to show.
     parts = [(draw_scenes, compared, scenes_height(compared)), (draw_growth, runs, 3.6)]
     parts = [part for part in parts if part[1]]

@@ -2,8 +2,7 @@
 """What share of a default step's instructions is serial, that is outside the tasks that its workers share, with 1, 2, 4
 and 8 workers.
 
-    workers.py PROGRAM SCENE TETS            e.g. build/release/bench/bench_workers overlap-50 1000000
-    workers.py --serial PROGRAM SCENE TETS   also the functions that the serial instructions of 8 workers are in
+usage: workers.py PROGRAM SCENE TETS, e.g. workers.py build/release/bench/bench_workers overlap-50 1000000
 
 PROGRAM is workers.cpp. It runs tasks one by one under valgrind's callgrind, which counts the instructions of a step and of
 its tasks. Counts do not depend on the machine's cores or load. Valgrind has no AVX-512: what is counted is the AVX2 code.
@@ -19,11 +18,11 @@ import tempfile
 WORKERS = (1, 2, 4, 8)
 
 
-def callgrind(command, folder, *options):
+def callgrind(command, folder):
     """Runs the program; returns what it prints, and the dump of each step that was counted."""
     out = pathlib.Path(folder) / "out"
     run = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=bench_step", "--dump-after=bench_step",
-                          f"--callgrind-out-file={out}", *options, *command], capture_output=True, text=True)
+                          f"--callgrind-out-file={out}", *command], capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(run.stderr)
     return run.stdout.strip(), [pathlib.Path(f"{out}.{i + 1}") for i in range(len(WORKERS))]
@@ -49,7 +48,6 @@ def instructions(dump):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--serial", action="store_true", help="also list the functions of the serial part")
     for name in ("program", "scene", "tets"):
         parser.add_argument(name)
     arguments = parser.parse_args()
@@ -62,13 +60,6 @@ def main():
             total, in_tasks = instructions(dump)
             serial = total - in_tasks
             print(f"| {workers} | {total / 1e6:.2f} | {serial / 1e6:.2f} | {100 * serial / total:.1f} % |")
-    if not arguments.serial:
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        # Entering a task within a step stops the counting, and leaving it goes on.
-        _, dumps = callgrind(command, folder, "--toggle-collect=bench_task")
-        print(subprocess.run(["callgrind_annotate", "--threshold=97", str(dumps[-1])], check=True, capture_output=True,
-                             text=True).stdout)
 
 
 if __name__ == "__main__":

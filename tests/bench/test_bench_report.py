@@ -73,7 +73,8 @@ class Report(unittest.TestCase):
         self.assertIn("| two bodies | 1000000 | 2.00 (≤ 1.5): **missed** | 12.0 (≥ 12): met |", default)
         self.assertIn("| two bodies | 1000000 | 2.00 (≤ 5): met | - |", default)  # the tangled body
         self.assertIn("| two bodies | 1000000 | 150 (≥ 60): met | 24.0 (≥ 12): met | 1.00 (≤ 1.2): met (F2) |", alone)
-        self.assertIn("Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene", alone)
+        self.assertIn("Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the "
+                      "hard ones (contact-1", alone)
         self.assertIn("70.0 (≤ 40): **missed**", alone)
 
     def test_headlines(self):
