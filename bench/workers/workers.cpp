@@ -14,7 +14,7 @@
 #include <string>
 
 #if defined(__GNUC__)
-#define KEEP __attribute__((noinline, noclone, used))
+#define KEEP __attribute__((noinline, used))
 #else
 #define KEEP
 #endif
