@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "mesh/check.hpp"
+#include "mesh/tet_changes.hpp"
 #include "mesh/tile_repair.hpp"
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/predicates.hpp"
+#include "mesh/tet_changes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 
 #include "base/lists.hpp"
 #include "base/scene.hpp"
-#include "mesh/tet_changes.hpp"
 
 #include <vox/vox.h>
 
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace vox {
+
+struct TetChange;
 
 // Throws Error(INVALID_ARGUMENT), and Error(LIMIT) for too many rings.
 void check_filter(const vox_filter& filter);

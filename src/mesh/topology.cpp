@@ -3,6 +3,7 @@
 #include "mesh/topology.hpp"
 
 #include "base/error.hpp"
+#include "mesh/tet_changes.hpp"
 
 #include <algorithm>
 #include <utility>

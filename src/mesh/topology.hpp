@@ -7,7 +7,6 @@
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 #include "mesh/facets.hpp"
-#include "mesh/tet_changes.hpp"
 #include "mesh/vertex_links.hpp"
 
 #include <array>
@@ -17,6 +16,8 @@
 #include <vector>
 
 namespace vox {
+
+struct TetChange;
 
 // All empty for a mesh without tetrahedra.
 struct Topology : MatchedFacets {
