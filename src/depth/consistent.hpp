@@ -54,7 +54,7 @@ struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory)
         : places(memory), waves(memory), queue(memory), normals(memory) {}
 
-    VertexPlaces places; // empty between calls
+    VertexPlaces places;                          // empty between calls
     std::pmr::vector<std::uint32_t> waves, queue; // of points
     Normals normals;
 

@@ -17,7 +17,7 @@ struct Point {
     std::size_t hit;   // the first hit of the pair with this vertex
     std::size_t place; // index of its penetration
     std::uint32_t vertex;
-    std::uint32_t tet;              // of the hit
+    std::uint32_t tet; // of the hit
     vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
     bool interior; // certainly in the interior of `tet`; else it may be on its boundary
     double depth = 0;
