@@ -325,7 +325,7 @@ START_TEST(without_memory) {
     vox_grid_destroy(grid);
     vox_query_view_release(view);
     uint32_t refused = 0;
-    for (uint64_t budget = enough - enough / 8; budget <= enough; budget += enough / 512) {
+    for (uint64_t budget = enough - enough / 32; budget <= enough; budget += enough / 2048) {
         ledger of_budget = {0};
         grid = counted_world(&of_budget, &box, budget);
         if (!grid) continue;
