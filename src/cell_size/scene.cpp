@@ -5,6 +5,7 @@
 #include "mesh/check.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace vox {
 
@@ -59,9 +60,19 @@ void CellSizeScene::find_near_bodies() {
     fast::stream(step_, boxes_, stream_);
     for (std::size_t b = 0; b < bodies.size(); ++b) step_.of[b].moved = at_rest.empty() || !at_rest[b];
     fast::find_regions(step_, boxes_, broad_phase_);
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (!is_empty(own_region(b)))
-            fast::make_tile_boxes(step_.of[b], 0, static_cast<std::uint32_t>(tiles[b]->tiles.size()), boxes_);
+    for (std::size_t b = 0; b < bodies.size(); ++b) make_tile_boxes(b);
+}
+
+// Of the tiles that would be looked up in a step.
+void CellSizeScene::make_tile_boxes(std::size_t b) {
+    const bool all = !is_empty(own_region(b));
+    const fast::StepBody& body = step_.of[b];
+    const std::span<const std::uint32_t> reaching = broad_phase_.of_b(static_cast<std::uint32_t>(b));
+    for (std::uint32_t s = 0; s < body.tiles->super_tile_count() && (all || !reaching.empty()); ++s)
+        if (all || std::any_of(reaching.begin(), reaching.end(), [&](std::uint32_t r) {
+                return overlap(boxes_.super_tiles[body.first_super + s], broad_phase_.regions[r].region);
+            }))
+            fast::make_tile_boxes(body, body.tiles->super_first[s], body.tiles->super_first[s + 1], boxes_);
 }
 
 const Box* CellSizeScene::box(std::size_t body) const noexcept {

@@ -64,6 +64,7 @@ private:
     bool moved_since_last_step() const;
     void make_missing_tiles();
     void find_near_bodies();
+    void make_tile_boxes(std::size_t body);
 
     std::pmr::vector<Tiles> made_tiles_;
     fast::Step step_;
