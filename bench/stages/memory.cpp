@@ -57,8 +57,9 @@ struct Parts {
     vox::FastEngine engine{&of_engine};
     std::pmr::vector<vox::Hit> hits{&of_hits};
     std::pmr::vector<vox_contact> contacts{&of_hits};
-    vox::DepthStage depth{&of_depth};
-    std::pmr::vector<vox_penetration> penetrations{&of_depth};
+    vox::depth::SurfaceTrees trees{&of_depth};
+    vox::DepthStage depth{&of_depth, trees};
+    vox::Penetrations penetrations{&of_depth};
     vox::Events events{&of_events, false};
     vox::Workers workers{{}, 1};
 
@@ -92,7 +93,7 @@ struct Parts {
         hits.clear();
         engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
         vox::make_contacts(bodies, hits, contacts, &workers);
-        if (options.depth) depth.find(bodies, of_bodies, hits, contacts, &workers, penetrations, counters);
+        if (options.depth) depth.find(bodies, of_bodies, hits, contacts, 0, &workers, penetrations, counters);
         events.update(contacts, meshes.size(), [](vox_mesh) { return std::uint64_t{0}; });
     }
 
@@ -163,12 +164,13 @@ void report(bench::Scene& scene, const Options& options) {
     });
     table.add("states", held(parts.of_states));
     state("- last positions", [](const vox::fast::MeshState& s) { return room(s.last_positions.positions); });
-    state("- reference of orientation",
-          [](const vox::fast::MeshState& s) { return room(s.orientation.reference); });
+    state("- reference of orientation", [](const vox::fast::MeshState& s) {
+        return room(s.orientation.points, s.orientation.shapes, s.orientation.slack);
+    });
     const vox::fast::StepBoxes& boxes = parts.engine.boxes();
     const vox::fast::Windows& windows = parts.engine.windows();
     table.add("engine", held(parts.of_engine));
-    table.add("- boxes", room(boxes.bodies, boxes.blocks, boxes.moves, boxes.super_tiles, boxes.tiles,
+    table.add("- boxes", room(boxes.bodies, boxes.blocks, boxes.super_tiles, boxes.tiles,
                               boxes.super_positive, boxes.tile_known));
     double binned = 0;
     for (const vox::fast::Bins& bins : windows.bins)
