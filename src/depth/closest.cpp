@@ -15,8 +15,6 @@ namespace vox::depth {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 float most_of(const float (&p)[3]) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); }
 
 } // namespace
@@ -110,8 +108,6 @@ bool SurfaceTree::find_among(const Vec3d& p, std::uint32_t left_out, std::uint32
 
 // ---- folds ------------------------------------------------------------------------------------------
 
-namespace {
-
 // Where a closest point lies: inside a triangle, inside an edge or at a vertex, by the corners with a weight.
 struct Place {
     std::uint32_t vertex[3] = {SurfaceTree::no_vertex, SurfaceTree::no_vertex, SurfaceTree::no_vertex};
@@ -129,6 +125,8 @@ struct Place {
     }
     bool operator==(const Place&) const = default;
 };
+
+namespace {
 
 // The way from p to the closest point there, the same for all triangles that meet there.
 Vec3d way_to(const Solid& solid, const Place& place, const Vec3d& p, const Closest& found) {
@@ -164,6 +162,8 @@ bool is_local_minimum(const Solid& solid, const Place& place, const Vec3d& way) 
     }
     return true;
 }
+
+} // namespace
 
 struct FoundPlace {
     Place place;
@@ -209,8 +209,6 @@ private:
     FoundPlace list_[capacity];
     std::size_t size_ = 0;
 };
-
-} // namespace
 
 // Receives the triangles near a vertex that is in a fold, and keeps the nearest places.
 class SurfaceTree::NearestPlaces {

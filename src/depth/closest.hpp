@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <vector>
 
@@ -15,6 +16,8 @@ class Workers;
 }
 
 namespace vox::depth {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Closest {
     SurfacePoint at;

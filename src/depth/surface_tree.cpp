@@ -17,7 +17,6 @@ namespace vox::depth {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int axis_bits = 10; // the curve runs through 2^axis_bits cells an axis
 constexpr int digit_bits = 10;
 
