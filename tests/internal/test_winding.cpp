@@ -255,7 +255,7 @@ START_TEST(surface_of_inverted_tets) {
         if (round % 2)
             for (Tet& tet : mesh.tets)
                 if (r.below(2)) std::swap(tet.v[1], tet.v[2]);
-        if (round % 3 == 1) append(mesh, mesh); // two parts
+        if (round % 3 == 1) append(mesh, Mesh(mesh)); // two parts
         if (round % 3 == 2) mesh.tets.resize(mesh.tets.size() - 9);
         const Tiles tiles = tiles_of(mesh);
         const Boundary rest = surface_of(mesh, tiles);
