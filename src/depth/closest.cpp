@@ -359,11 +359,4 @@ bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32
     return found || part == all_parts || find(p, vertex, state, out);
 }
 
-bool SurfaceTree::find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self,
-                                  Closest& out, std::uint64_t& visited) {
-    const bool found = self ? find_in_fold(p, vertex, tet, state_, out) : find(p, no_vertex, state_, out);
-    visited += std::exchange(state_.visited, 0);
-    return found;
-}
-
 } // namespace vox::depth

@@ -44,12 +44,6 @@ public:
         : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory),
           levels_(memory), part_(memory), part_of_nodes_(memory) {}
 
-    // Makes room for surfaces of that many triangles.
-    void reserve(std::size_t triangles);
-
-    // Sorts the triangles of the solid, in time linear in their number, and fits the tree to its positions.
-    void build(const Solid& solid);
-
     // Fits the tree to the positions of the solid, in time linear in the number of triangles. Where that was
     // not done for its topology, the tree is built, and with `folds` the parts of the mesh are found, in time
     // linear in its size. `workers` may be null.
@@ -79,10 +73,6 @@ public:
     bool find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
                       Closest& out) const;
 
-    // One of the two, the second where `self` is set, with a state of the tree's own. Adds to `visited`.
-    bool find_of_contact(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, bool self, Closest& out,
-                         std::uint64_t& visited);
-
     static constexpr std::uint32_t no_vertex = ~0u;
 
 private:
@@ -94,6 +84,7 @@ private:
     class NearestPlaces;
     class NearestMinima;
 
+    void reserve(std::size_t triangles);
     void take_frame();
     void sort_along_curve();
     void lay_out();
@@ -130,7 +121,6 @@ private:
     // asked for. And of each leaf and node the part of its triangles, as TreeView has it.
     std::pmr::vector<std::uint32_t> part_, part_of_nodes_;
     bool is_built_ = false, has_parts_ = false;
-    SearchState state_{};
 };
 
 } // namespace vox::depth

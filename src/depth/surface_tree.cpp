@@ -149,14 +149,8 @@ void SurfaceTree::invalidate() noexcept {
     part_.clear();
 }
 
-void SurfaceTree::build(const Solid& solid) {
-    invalidate();
-    update(solid, false, nullptr);
-}
-
 void SurfaceTree::update(const Solid& solid, bool folds, Workers* workers) {
     solid_ = solid;
-    state_ = {};
     if (folds && !has_parts_) {
         find_parts();
         is_built_ &= part_.empty();

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "depth/points.hpp"
+#include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/check.hpp"
 
@@ -24,12 +25,6 @@ void write(double (&out)[3], const Vec3d& v) noexcept {
     out[0] = v.x;
     out[1] = v.y;
     out[2] = v.z;
-}
-
-// In proportion to the largest coordinate, so that products neither vanish nor overflow.
-Vec3d scaled(const Vec3d& v) noexcept {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    return largest > 0 ? Vec3d{v.x / largest, v.y / largest, v.z / largest} : v;
 }
 
 // The unit vector along the cross product; zero where that is.
