@@ -56,17 +56,9 @@ Scene swallowed(double tets, bool shuffled) {
 } // namespace
 
 std::vector<SceneMaker> hard_scene_makers() {
-    std::vector<SceneMaker> makers = {{"tangled", "one tangled body, self", true, tangled},
-                                      {"coincident", "two bodies in the same place", true, coincident},
-                                      {"swallowed", "a body inside another", true, swallowed}};
-    for (SceneMaker& maker : makers)
-        maker.make = [name = maker.name, make = maker.make](double tets, bool shuffled) {
-            Scene scene = make(tets, shuffled);
-            scene.name = name;
-            scene.mean_edge = mean_edge(scene.bodies);
-            return scene;
-        };
-    return makers;
+    return named({{"tangled", "one tangled body, self", true, tangled},
+                  {"coincident", "two bodies in the same place", true, coincident},
+                  {"swallowed", "a body inside another", true, swallowed}});
 }
 
 } // namespace bench

@@ -293,6 +293,17 @@ Scene pair_from_file(const std::string& path, double share) {
     return scene;
 }
 
+std::vector<SceneMaker> named(std::vector<SceneMaker> makers) {
+    for (SceneMaker& maker : makers)
+        maker.make = [name = maker.name, make = maker.make](double tets, bool shuffled) {
+            Scene scene = make(tets, shuffled);
+            scene.name = name;
+            scene.mean_edge = mean_edge(scene.bodies);
+            return scene;
+        };
+    return makers;
+}
+
 std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
     std::vector<SceneMaker> makers = {
         {"overlap-1", "two bodies, 1 % overlap volume", true,
@@ -328,14 +339,7 @@ std::vector<SceneMaker> scene_makers(const std::string& mesh_folder) {
             makers.push_back({name + "-self", name + ", self, no contact", false,
                               [=](double, bool s) { return file_self(path, s); }});
         }
-    for (SceneMaker& maker : makers)
-        maker.make = [name = maker.name, make = maker.make](double tets, bool shuffled) {
-            Scene scene = make(tets, shuffled);
-            scene.name = name;
-            scene.mean_edge = mean_edge(scene.bodies);
-            return scene;
-        };
-    return makers;
+    return named(std::move(makers));
 }
 
 } // namespace bench

@@ -61,6 +61,9 @@ struct SceneMaker {
 // `shuffle` gives vertices and tetrahedra random numbers instead of the generator's.
 std::vector<SceneMaker> scene_makers(const std::string& mesh_folder);
 
+// The same, whose scenes know their name and their mean edge.
+std::vector<SceneMaker> named(std::vector<SceneMaker> makers);
+
 // A body from a file and its turned copy, so far apart that `share` of the tetrahedra hold a vertex of the
 // other one.
 Scene pair_from_file(const std::string& path, double share);

@@ -132,28 +132,16 @@ void run(double tets, int rounds) {
 } // namespace
 
 int main(int argc, char** argv) {
-    double tets = 100000;
-    int rounds = 21;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string option = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
-        if (option == "--tets" && std::atof(value.c_str()) >= 1000)
-            tets = std::atof(value.c_str());
-        else if (option == "--rounds" && std::atoi(value.c_str()) > 0)
-            rounds = std::atoi(value.c_str());
-        else {
-            std::fprintf(stderr, "usage: bench_depth [--tets N >= 1000] [--rounds K]\n");
-            return 2;
-        }
-    }
-    try {
+    bench::Size size{100000, 21};
+    if (!bench::read_size(argc, argv, "bench_depth", size)) return 2;
+    const double tets = size.tets;
+    const int rounds = size.rounds;
+    return bench::run_program("bench_depth", [&] {
         std::printf("depth stage: edges a vertex, tetrahedra passed an edge; readings: ns a contact; least "
                     "of %d rounds\n",
                     rounds);
         run(tets, rounds);
         time_insertion(tets, rounds);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
-    return 0;
+        return 0;
+    });
 }

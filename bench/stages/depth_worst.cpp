@@ -14,6 +14,7 @@
 #include "base/boxes.hpp"
 #include "internal/meshes.hpp"
 #include "program.hpp"
+#include "stages/smooth_ball.hpp"
 #include "timing.h"
 
 #include <vox/vox.h>
@@ -48,21 +49,6 @@ using Bodies = std::vector<Mesh>; // a cell of theirs is about 1
 Vec3f turned(const Vec3f& p, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     return {float(c * double{p.x} - s * double{p.y}), float(s * double{p.x} + c * double{p.y}), p.z};
-}
-
-// Cubes in a round shape: no two triangles of its surface are the same.
-Mesh round_ball(double tets, double radius) {
-    const int n = std::max(2, int(std::lround(std::cbrt(tets / 5))));
-    Mesh mesh = block(n, n, n);
-    for (Vec3f& p : mesh.positions) {
-        const double x = 2.0 * double{p.x} / n - 1, y = 2.0 * double{p.y} / n - 1,
-                     z = 2.0 * double{p.z} / n - 1;
-        const double length = std::sqrt(x * x + y * y + z * z);
-        const double scale =
-            length > 0 ? radius * std::max({std::abs(x), std::abs(y), std::abs(z)}) / length : 0;
-        p = {float(scale * x), float(scale * y), float(scale * z)};
-    }
-    return mesh;
 }
 
 Mesh self(Mesh mesh) {
@@ -120,8 +106,8 @@ Bodies fold(const Setting& setting, const Parameters& p, Random& random) {
 // One body inside another: parts of one mesh, or two meshes.
 Bodies inside(const Setting& setting, const Parameters& p, Random& random, bool one_mesh) {
     const double radius = std::cbrt(setting.tets / 5);
-    Mesh outer = round_ball(setting.tets / 2, radius),
-         inner = round_ball(setting.tets / 2, radius * (0.01 + 0.9 * p[0]));
+    Mesh outer = smooth_ball(setting.tets / 2, radius),
+         inner = smooth_ball(setting.tets / 2, radius * (0.01 + 0.9 * p[0]));
     move(inner, 1, radius * 0.5 * p[1] * (1 - p[0]), 0.01 * p[2], 0.02 * p[2]);
     jitter(outer, 0.3 * p[3], random);
     if (!one_mesh) return {std::move(outer), std::move(inner)};

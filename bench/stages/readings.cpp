@@ -252,18 +252,9 @@ int run(double tets, int rounds) {
 } // namespace
 
 int main(int argc, char** argv) {
-    double tets = 100000;
-    int rounds = 11;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string option = argv[i], value = i + 1 < argc ? argv[i + 1] : "";
-        if (option == "--tets" && std::atof(value.c_str()) >= 1000)
-            tets = std::atof(value.c_str());
-        else if (option == "--rounds" && std::atoi(value.c_str()) > 0)
-            rounds = std::atoi(value.c_str());
-        else {
-            std::fprintf(stderr, "usage: bench_readings [--tets N >= 1000] [--rounds K]\n");
-            return 2;
-        }
-    }
+    bench::Size size{100000, 11};
+    if (!bench::read_size(argc, argv, "bench_readings", size)) return 2;
+    const double tets = size.tets;
+    const int rounds = size.rounds;
     return bench::run_program("bench_readings", [&] { return run(tets, rounds); });
 }
