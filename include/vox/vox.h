@@ -216,8 +216,9 @@ typedef struct vox_grid_desc {
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
     /* Most searches for a closest point that the depth stage makes in one step, for penetrations that would be ENCLOSED
      * or CROSSING. The first ones, in the order of the penetrations, get them; the others become
-     * VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. 0 (the default): no
-     * limit. */
+     * VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of meshes at
+     * rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0 (the
+     * default): no limit. */
     uint64_t closest_budget;
 } vox_grid_desc;
 
