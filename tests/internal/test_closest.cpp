@@ -3,6 +3,7 @@
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/points.hpp"
+#include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"
 #include "internal/stage_checks.hpp"
 #include "mesh/topology.hpp"
@@ -22,25 +23,6 @@ using namespace vox::depth;
 namespace {
 
 std::pmr::memory_resource* memory() { return std::pmr::get_default_resource(); }
-
-struct Prepared {
-    Mesh mesh;
-    std::vector<Vec3d> doubles; // in place of the mesh's positions, unless it is empty
-    Topology topology{memory()};
-
-    explicit Prepared(Mesh m) : mesh(std::move(m)) {
-        make_topology(mesh.tets, static_cast<std::uint32_t>(mesh.positions.size()), topology);
-    }
-    Solid solid() const {
-        if (!doubles.empty())
-            return {&topology, mesh.tets,
-                    Positions{reinterpret_cast<const std::byte*>(doubles.data()), sizeof(Vec3d), true}};
-        return {&topology, mesh.tets,
-                Positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)}};
-    }
-    Vec3d at(std::uint32_t v) const { return solid().at(v); }
-    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(mesh.positions.size()); }
-};
 
 bool same(const Closest& x, const Closest& y) {
     return x.at.triangle == y.at.triangle && x.squared == y.squared && x.way.x == y.way.x &&

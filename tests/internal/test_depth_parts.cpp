@@ -3,6 +3,7 @@
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
 #include "depth/walk.hpp"
+#include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"
 #include "mesh/topology.hpp"
 #include "support/suite.h"
@@ -21,24 +22,6 @@ using namespace vox::depth;
 namespace {
 
 std::pmr::memory_resource* memory() { return std::pmr::get_default_resource(); }
-
-struct Prepared {
-    Mesh mesh;
-    Topology topology{memory()};
-
-    explicit Prepared(Mesh m) : mesh(std::move(m)) {
-        make_topology(mesh.tets, static_cast<std::uint32_t>(mesh.positions.size()), topology);
-    }
-    Solid solid() const {
-        return {&topology, mesh.tets,
-                Positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)}};
-    }
-    Vec3d at(std::uint32_t v) const { return vec(mesh.positions[v]); }
-    Vec3d at(const SurfacePoint& p) const {
-        const std::uint32_t* v = topology.triangles[p.triangle].v;
-        return p.weight[0] * at(v[0]) + p.weight[1] * at(v[1]) + p.weight[2] * at(v[2]);
-    }
-};
 
 std::array<std::uint32_t, 3> facet(const Tet& tet, int left_out) {
     std::array<std::uint32_t, 3> f{};
