@@ -191,6 +191,11 @@ int run_all(const Options& options, const std::string& command) {
     return agree ? 0 : 1;
 }
 
+// An argument as a shell reads it.
+std::string for_shell(const std::string& argument) {
+    return argument.find(' ') == std::string::npos ? argument : "'" + argument + "'";
+}
+
 } // namespace
 } // namespace bench
 
@@ -230,7 +235,7 @@ int main(int argc, char** argv) {
         if (std::strcmp(argv[i], "--csv") == 0)
             ++i; // where the results go does not change them
         else
-            command += std::string(" ") + argv[i];
+            command += ' ' + bench::for_shell(argv[i]);
     try {
         return bench::run_all(options, command);
     } catch (const std::exception& error) {
