@@ -342,10 +342,16 @@ bool SurfaceTree::reaches(const Line& line, const Vec3d& way) const {
            dot(rest, rest) <= rounding * dot(whole, whole);
 }
 
+bool SurfaceTree::find_in_part(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                               Closest& out) const {
+    const std::uint32_t part = part_of(tet);
+    return find_among(p, vertex, part, state, out) || (part != all_parts && find(p, vertex, state, out));
+}
+
 bool SurfaceTree::find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
                                Closest& out) const {
     const std::uint32_t part = part_of(tet);
-    if (!find_among(p, vertex, part, state, out)) return find(p, vertex, state, out);
+    if (!find_among(p, vertex, part, state, out)) return part != all_parts && find(p, vertex, state, out);
     const Line line{p, vertex, tet};
     if (reaches(line, out.way)) return true;
     NearestPlaces places(*this, line, part, state);

@@ -68,6 +68,11 @@ public:
         return find_among(p, left_out, all_parts, state, out);
     }
 
+    // Finds the closest point of the part that holds `tet`, which a vertex at p of the same mesh has entered, or
+    // of all parts where that one has no triangle without the vertex.
+    bool find_in_part(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
+                      Closest& out) const;
+
     // Finds the point of the fold that a vertex at p has entered, which is in `tet` of the vertex's own mesh.
     // docs/depth.md has the rule. Returns false when all triangles have the vertex.
     bool find_in_fold(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,

@@ -52,6 +52,37 @@ private:
     Vec3d way_{0, 0, 0}, direction_{0, 0, 0};
 };
 
+// The nearest of the points around one, which answers alone where the mean is of no use.
+class NearestNeighbour {
+public:
+    void add(double squared, const Vec3d& way, double depth, const Vec3d& direction) {
+        if (squared >= squared_) return;
+        squared_ = squared;
+        way_ = way;
+        depth_ = depth;
+        direction_ = direction;
+    }
+
+    // Makes the point CROSSING. Without neighbours, depth and direction stay what they are.
+    void write(Point& point) const {
+        point.state = VOX_PENETRATION_CROSSING;
+        if (squared_ == infinity) return;
+        point.depth = depth_ + dot(way_, direction_);
+        point.direction = direction_;
+        if (point.depth > 0) return;
+        const Vec3d straight = way_ + depth_ * direction_; // to the surface
+        point.depth = length(straight);
+        if (point.depth > 0)
+            point.direction = (1 / point.depth) * straight;
+        else
+            point.state = VOX_PENETRATION_COINCIDENT; // at the place of a neighbour on the surface
+    }
+
+private:
+    double squared_ = infinity, depth_ = 0;
+    Vec3d way_{0, 0, 0}, direction_{0, 0, 0};
+};
+
 // What edges from border points are followed together.
 constexpr std::size_t walks_at_once = 64;
 
@@ -74,7 +105,8 @@ public:
 
     void run() {
         find_border();
-        propagate();
+        const std::uint32_t wave = propagate(2, false);
+        propagate_crossing(wave);
         mark_unreached();
     }
 
@@ -102,8 +134,9 @@ private:
     void take_walks();
     void take_edge(Point& point, const Walk& walk);
     void finish_border_point();
-    void propagate();
-    void take_mean(std::uint32_t place) const;
+    std::uint32_t propagate(std::uint32_t wave, bool is_crossing);
+    void propagate_crossing(std::uint32_t wave);
+    void take_mean(std::uint32_t place, bool is_crossing) const;
     void mark_unreached();
 
     const BodyPair& pair_;
@@ -115,6 +148,7 @@ private:
     std::pmr::vector<std::uint32_t>& waves_;
     std::pmr::vector<std::uint32_t>& queue_;
     std::size_t queued_ = 0;
+    std::size_t lost_ = 0; // border points without any edge that leads out
     Normals& normals_;
     Counts& counts_;
 
@@ -127,6 +161,7 @@ private:
         Point* point = nullptr;
         Vec3d position{};
         NeighbourMean mean{};
+        NearestNeighbour nearest{};
         bool lost = false; // an edge does not lead out
     } border_;
 };
@@ -253,9 +288,10 @@ void Stages::take_edge(Point& point, const Walk& walk) {
     }
     const Vec3d way = walk.exit.point - p;
     const double squared = dot(way, way);
-    if (squared > no_distance)
+    if (squared > no_distance) {
         border_.mean.add(1 / squared, way, 0, normal);
-    else {
+        border_.nearest.add(squared, way, 0, normal);
+    } else {
         point.state = VOX_PENETRATION_COINCIDENT;
         point.direction = normal;
     }
@@ -264,17 +300,19 @@ void Stages::take_edge(Point& point, const Walk& walk) {
 void Stages::finish_border_point() {
     if (!border_.point) return;
     Point& point = *border_.point;
-    if (point.state != VOX_PENETRATION_COINCIDENT)
-        point.state =
-            !border_.lost && border_.mean.write(point) ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_CROSSING;
-    push(static_cast<std::uint32_t>(&point - points_.data()),
-         point.state == VOX_PENETRATION_CROSSING ? unusable : 1);
+    if (point.state != VOX_PENETRATION_COINCIDENT) {
+        point.state = VOX_PENETRATION_SURFACE;
+        if (border_.lost || !border_.mean.write(point)) border_.nearest.write(point);
+    }
+    const bool is_crossing = point.state == VOX_PENETRATION_CROSSING;
+    lost_ += is_crossing && !has_answer(point);
+    push(static_cast<std::uint32_t>(&point - points_.data()), is_crossing ? unusable : 1);
 }
 
-// Each wave takes its means over all points of the waves before it.
-void Stages::propagate() {
-    std::size_t first = 0;
-    for (std::uint32_t wave = 2; first < queued_ && queued_ < points_.size(); ++wave) {
+// Sends waves from the points in the queue, of which the first has the number `wave`. Each takes its means
+// over all points of the waves before it. Returns the number of the first wave without points.
+std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
+    for (std::size_t first = 0; first < queued_ && queued_ < points_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
             const std::uint32_t from = queue_[first];
@@ -284,17 +322,31 @@ void Stages::propagate() {
             });
         }
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i]);
+            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i], is_crossing);
+        if (is_crossing) continue;
         // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
             if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) waves_[queue_[i]] = unusable;
     }
+    return wave;
 }
 
-void Stages::take_mean(std::uint32_t place) const {
+// Now CROSSING points send waves, too, to those that no other wave reached. These are CROSSING as well.
+void Stages::propagate_crossing(std::uint32_t wave) {
+    if (queued_ == points_.size() && lost_ == 0) return; // all have an answer
+    queued_ = 0;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        if (waves_[i] == unusable) waves_[i] = has_answer(points_[i]) ? wave : unreached;
+        if (waves_[i] != unreached) queue_[queued_++] = i;
+    }
+    propagate(wave + 1, true);
+}
+
+void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
     Point& point = points_[place];
     const Vec3d p = position(point.vertex);
     NeighbourMean mean;
+    NearestNeighbour nearest;
     bool at_one = false; // a neighbour is at the same place: what is known there counts alone
     for_colliding(point, [&](std::uint32_t neighbour, std::uint32_t from) {
         if (at_one || waves_[from] >= waves_[place] || waves_[from] == unreached) return;
@@ -303,17 +355,19 @@ void Stages::take_mean(std::uint32_t place) const {
         at_one = !(squared > no_distance);
         if (at_one) mean = NeighbourMean();
         mean.add(at_one ? 1 : 1 / squared, way, points_[from].depth, points_[from].direction);
+        nearest.add(squared, way, points_[from].depth, points_[from].direction);
     });
-    point.state = mean.write(point) ? VOX_PENETRATION_PROPAGATED : VOX_PENETRATION_CROSSING;
+    point.state = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
+    if (!mean.write(point)) nearest.write(point);
 }
 
-// Points that no wave reached become CROSSING when they are connected to a CROSSING point, and stay ENCLOSED
+// Points without an answer become CROSSING when they are connected to a border point, and stay ENCLOSED
 // otherwise.
 void Stages::mark_unreached() {
     if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (waves_[i] == unusable) push(i, unusable);
+        if (waves_[i] == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
     for (std::size_t first = 0; first < queued_; ++first)
         for_colliding(points_[queue_[first]], [&](std::uint32_t, std::uint32_t to) {
             if (waves_[to] != unreached) return;

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t chunk_size = 64;
 
 bool needs_search(const Point& point) {
-    return point.state == VOX_PENETRATION_ENCLOSED || point.state == VOX_PENETRATION_CROSSING;
+    return (point.state == VOX_PENETRATION_ENCLOSED || point.state == VOX_PENETRATION_CROSSING) &&
+           !has_answer(point);
 }
 
 } // namespace
@@ -160,8 +161,11 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     const Vec3d p = scene.position(point);
     const Solid solid = scene.solid(item.body_b);
     Closest closest;
-    const bool found = tree && (item.self ? tree->find_in_fold(p, point.vertex, point.tet, state, closest)
-                                          : tree->find(p, SurfaceTree::no_vertex, state, closest));
+    const bool is_crossing = point.state == VOX_PENETRATION_CROSSING;
+    const bool found =
+        tree && (!item.self    ? tree->find(p, SurfaceTree::no_vertex, state, closest)
+                 : is_crossing ? tree->find_in_part(p, point.vertex, point.tet, state, closest)
+                               : tree->find_in_fold(p, point.vertex, point.tet, state, closest));
     if (found) point.closest = closest.at.triangle;
     point.depth = found ? length(closest.way) : 0;
     point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};

@@ -25,6 +25,9 @@ struct Point {
     std::uint32_t closest = no_triangle; // the triangle of b's surface that was found to be closest
 };
 
+// Whether depth and direction of an ENCLOSED or CROSSING point are known.
+inline bool has_answer(const Point& point) noexcept { return point.depth > 0; }
+
 // Vertices of body a in tetrahedra of body b.
 struct BodyPair {
     const Topology* topology_a;
