@@ -166,7 +166,8 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
         tree && (!item.self    ? tree->find(p, SurfaceTree::no_vertex, state, closest)
                  : is_crossing ? tree->find_in_part(p, point.vertex, point.tet, state, closest)
                                : tree->find_in_fold(p, point.vertex, point.tet, state, closest));
-    if (found) point.closest = closest.at.triangle;
+    // Readings search the fold.
+    if (found && !(item.self && is_crossing)) point.closest = closest.at.triangle;
     point.depth = found ? length(closest.way) : 0;
     point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
     if (length(point.direction) > 0) return;

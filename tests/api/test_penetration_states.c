@@ -164,7 +164,8 @@ START_TEST(edges_leave_on_opposite_sides) {
 END_TEST
 
 START_TEST(crossing_bars) {
-    /* A bar through a bar: what comes in at both ends meets in the middle. */
+    /* A bar through a bar: what comes in at both ends meets in the middle, and there goes to the nearer side. No edge
+     * leads through the other sides, though they may be closer. */
     body x_bar = make_box(12, 0.25f, -1.5f, -1.5f, -1.5f), y_bar = make_box(12, 0.25f, -1.5f, -1.5f, -1.5f);
     for (uint32_t v = 0; v < x_bar.vertex_count; ++v) {
         float *p = x_bar.positions + 3 * v, *q = y_bar.positions + 3 * v;
@@ -182,15 +183,19 @@ START_TEST(crossing_bars) {
         const vox_penetration* p = penetration_at(view, i);
         ++by_state[p->state];
         ck_assert_float_lt(p->depth, 0.5f); /* half of a bar's width, and a bit */
-        if (p->state == VOX_PENETRATION_CROSSING)
-            check_closest(p, place(p->mesh_a == a ? x_bar.positions : y_bar.positions, p->vertex),
-                          p->mesh_a == a ? of_y : of_x, p->mesh_a == a ? y_bar.positions : x_bar.positions,
-                          1);
+        if (p->state == VOX_PENETRATION_CROSSING) {
+            const int of_x_bar = p->mesh_a == a;
+            const vector end = plus_times(place(of_x_bar ? x_bar.positions : y_bar.positions, p->vertex),
+                                          (double)p->depth, direction_of(p));
+            ck_assert(norm(way_to(of_x_bar ? of_y : of_x, of_x_bar ? y_bar.positions : x_bar.positions, end)) < 1e-6);
+            ck_assert(fabs((double)p->direction[of_x_bar ? 0 : 1]) > 0.999999);
+        }
     }
     ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 0);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_PROPAGATED], 0);
     ck_assert_uint_gt(by_state[VOX_PENETRATION_CROSSING], 0);
     ck_assert_uint_eq(by_state[VOX_PENETRATION_ENCLOSED], 0);
+    ck_assert_uint_eq(counters_of(grid).closest_searches, 0);
     (void)b;
     vox_grid_destroy(grid);
     free(of_x.triangles);
@@ -423,34 +428,26 @@ START_TEST(flat_tets_on_the_surface) {
 END_TEST
 
 START_TEST(inverted_tets) {
-    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, and what claims to
-     * be the closest point is. */
+    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, hardly any of it needs a
+     * search, and none is farther away than what an edge may lead to. */
     body box = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.13f, 0.17f, 0.9f);
     uint32_t random = 1;
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
         box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
-    const surface s = surface_of(box.tets, box.tet_count), t = surface_of(upper.tets, upper.tet_count);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &box, VOX_MESH_SELF_COLLISION), a = insert(grid, &upper, 0);
+    insert(grid, &box, VOX_MESH_SELF_COLLISION);
+    insert(grid, &upper, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
-    uint64_t closest = 0;
+    uint64_t crossing = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
-        ck_assert_float_lt(p->depth, 4);
-        if (p->mesh_a == p->mesh_b ||
-            (p->state != VOX_PENETRATION_CROSSING && p->state != VOX_PENETRATION_ENCLOSED))
-            continue;
-        ++closest;
-        const int of_upper = p->mesh_a == a;
-        check_closest(p, place(of_upper ? upper.positions : box.positions, p->vertex), of_upper ? s : t,
-                      of_upper ? box.positions : upper.positions, 1);
+        ck_assert_float_lt(p->depth, 1);
+        crossing += p->state == VOX_PENETRATION_CROSSING;
     }
-    ck_assert_uint_gt(closest, 0);
-    (void)b;
+    ck_assert_uint_gt(crossing, 50);
+    ck_assert_uint_lt(counters_of(grid).closest_searches, crossing / 4);
     vox_grid_destroy(grid);
-    free(s.triangles);
-    free(t.triangles);
     free_body(&box);
     free_body(&upper);
 }
