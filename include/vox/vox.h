@@ -214,9 +214,9 @@ typedef struct vox_grid_desc {
      * own, so its built-in scheduler is serial, too. */
     uint32_t worker_count;
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
-    /* Most searches for a closest point that the depth stage makes in one step, for penetrations that would be ENCLOSED
-     * or CROSSING. The first ones, in the order of the penetrations, get them; the others become
-     * VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of meshes at
+    /* Most searches for a closest point that the depth stage makes in one step: for penetrations that would be ENCLOSED,
+     * or CROSSING with nothing but a closest point to go by. The first ones, in the order of the penetrations, get
+     * them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of meshes at
      * rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0 (the
      * default): no limit. */
     uint64_t closest_budget;
@@ -579,10 +579,11 @@ typedef enum vox_penetration_state {
     VOX_PENETRATION_PROPAGATED = 1, /* all neighbours of p collide; mean over those closer to the surface */
     VOX_PENETRATION_ENCLOSED = 2,   /* closest: no edge leads out from p or from a colliding vertex connected with it,
                                        or p has no edges, as in meshes without tetrahedra */
-    VOX_PENETRATION_CROSSING = 3,   /* closest: the means are unusable, as the normals nearly cancel (edges leave on
-                                       opposite sides), the depth would not be positive, or an edge that leads out
-                                       crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
-                                       case for all vertices that p is connected with */
+    VOX_PENETRATION_CROSSING = 3,   /* the means are unusable, as the normals nearly cancel (edges leave on opposite
+                                       sides), the depth would not be positive, or an edge that leads out crosses no
+                                       surface (inverted tetrahedra, non-manifold facets); or this is the case for all
+                                       vertices that p is connected with. The nearest way out alone: of the edges, or
+                                       by a neighbour. Closest only if no edge of any of these vertices leads out */
     VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface; depth is 0, direction the surface's normal at p */
     VOX_PENETRATION_UNKNOWN = 5,    /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
                                        the normal of a facet of the contact's tetrahedron */
@@ -590,8 +591,8 @@ typedef enum vox_penetration_state {
 } vox_penetration_state;
 
 /* Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by
- * depth * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as a mean
- * over neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has
+ * depth * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges
+ * and neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has
  * no surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the
  * contact's tetrahedron. Does not depend on engine, cell size, workers or machine. */
 typedef struct vox_penetration {
@@ -813,6 +814,9 @@ typedef struct vox_readings_desc {
                       copying it. The other fields of vox_reading, such as user data, are always set */
     vox_mesh mesh_a; /* VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies */
     vox_mesh mesh_b; /* VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it */
+    /* Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
+     * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit. */
+    uint64_t closest_budget;
 } vox_readings_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */

@@ -75,7 +75,7 @@ namespace {
 
 vox_readings_desc readings_defaults() noexcept {
     return {sizeof(vox_readings_desc), VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH,
-            VOX_NULL_MESH, VOX_NULL_MESH};
+            VOX_NULL_MESH, VOX_NULL_MESH, 0};
 }
 
 } // namespace

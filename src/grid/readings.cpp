@@ -113,15 +113,17 @@ std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
 
 // ---- all of them -----------------------------------------------------------------------------------
 
-void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts,
-                       const Penetrations& penetrations, SurfaceTrees& trees, Workers& workers) {
-    const Step step{what, contacts, penetrations};
+std::uint64_t Readings::prepare(std::uint32_t what, std::uint64_t closest_budget,
+                                std::span<const vox_contact> contacts, const Penetrations& penetrations,
+                                SurfaceTrees& trees, Workers& workers) {
+    const Step step{what, closest_budget, contacts, penetrations};
     const std::size_t count = all_ ? contacts.size() : chosen_.size();
     const bool surfaces = (what & VOX_READING_SURFACE) != 0;
+    std::uint64_t left_out = 0;
     // First all that can fail, but for a task system of the caller.
     if (what & (VOX_READING_POSITION | VOX_READING_SURFACE)) check_positions(step, count);
     if (surfaces) {
-        list_asks(step, count);
+        left_out = list_asks(step, count);
         fit_trees(trees);
         sort_asks(step);
     }
@@ -145,6 +147,7 @@ void Readings::prepare(std::uint32_t what, std::span<const vox_contact> contacts
     if (surfaces)
         share(true, asks_.size(), least_searches, [&](const Range& asks) { read_surfaces(asks, step); });
     prepared_ = true;
+    return left_out;
 }
 
 // Where a vertex is, and whether that is known.
@@ -243,9 +246,11 @@ void Readings::read_range(const Range& range, const Step& step) noexcept {
 
 // ---- surfaces --------------------------------------------------------------------------------------
 
-void Readings::list_asks(const Step& step, std::size_t count) {
+// Returns how many were not listed, as no search was left for them.
+std::uint64_t Readings::list_asks(const Step& step, std::size_t count) {
     asks_.clear();
     asks_.reserve(count);
+    std::uint64_t searches = 0;
     const ReadingBody* a = nullptr;
     std::uint32_t b = 0;
     PenetrationOf penetration_of(step);
@@ -260,8 +265,12 @@ void Readings::list_asks(const Step& step, std::size_t count) {
             bodies_[b].is_as_stepped ? penetration_of(contact_of(k)) : PenetrationOf::none;
         const std::uint32_t closest =
             place != PenetrationOf::none ? step.penetrations.closest()[place] : no_triangle;
+        const bool is_searched = closest == no_triangle;
+        searches += is_searched;
+        if (is_searched && step.closest_budget > 0 && searches > step.closest_budget) continue;
         asks_.push_back({b, 0, static_cast<std::uint32_t>(k), closest});
     }
+    return step.closest_budget > 0 && searches > step.closest_budget ? searches - step.closest_budget : 0;
 }
 
 // Of the meshes whose surfaces are searched, for the depth stage has not found all closest points.

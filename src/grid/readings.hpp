@@ -44,8 +44,10 @@ public:
     // changed since. Throws what the memory throws, or Error(NON_FINITE or LIMIT) for the position of a
     // vertex, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
     // no readings then. Positions of meshes with a topology have to be finite.
-    void prepare(std::uint32_t what, std::span<const vox_contact> contacts, const Penetrations& penetrations,
-                 depth::SurfaceTrees& trees, Workers& workers);
+    // `closest_budget` as in vox_readings_desc. Returns how many vertices have no surface because of it.
+    std::uint64_t prepare(std::uint32_t what, std::uint64_t closest_budget,
+                          std::span<const vox_contact> contacts, const Penetrations& penetrations,
+                          depth::SurfaceTrees& trees, Workers& workers);
     void invalidate() noexcept { prepared_ = false; }
 
     // Throws Error(INVALID_STATE) unless they are prepared.
@@ -58,6 +60,7 @@ private:
     // What all parts of prepare() read.
     struct Step {
         std::uint32_t what;
+        std::uint64_t closest_budget;
         std::span<const vox_contact> contacts;
         const Penetrations& penetrations;
     };
@@ -81,7 +84,7 @@ private:
     static bool has_position(const ReadingBody& a, std::uint32_t vertex) noexcept;
     void check_positions(const Step& step, std::size_t count) const;
     void read_range(const Range& range, const Step& step) noexcept;
-    void list_asks(const Step& step, std::size_t count);
+    std::uint64_t list_asks(const Step& step, std::size_t count);
     void fit_trees(depth::SurfaceTrees& trees);
     void sort_asks(const Step& step) noexcept;
     void read_surfaces(const Range& asks, const Step& step) noexcept;

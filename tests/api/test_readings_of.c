@@ -219,6 +219,51 @@ START_TEST(arguments) {
 }
 END_TEST
 
+/* With a budget, the first contacts that need a search get the surface, and the readings are the same otherwise. */
+START_TEST(budget) {
+    for (uint32_t flags = 0; flags <= VOX_GRID_PENETRATIONS; flags += VOX_GRID_PENETRATIONS) {
+        world w;
+        two_in_each_other(&w, 3, flags);
+        ck_ok(vox_grid_step(w.grid));
+        vox_readings_desc desc = vox_default_readings_desc();
+        ck_assert_uint_eq(desc.closest_budget, 0);
+        ck_ok(vox_grid_prepare_readings_of(w.grid, &desc));
+        const uint64_t count = readings_of(w.grid).count;
+        vox_reading* all = (vox_reading*)malloc(count * sizeof *all);
+        memcpy(all, readings_of(w.grid).data, count * sizeof *all);
+        const vox_contact_view contacts = contacts_of(w.grid);
+        uint64_t least = 0; /* contacts whose surfaces are known without a search */
+        for (uint64_t limit = 1; limit < count + 2; limit = 3 * limit + 1) {
+            desc.closest_budget = limit;
+            ck_ok(vox_grid_prepare_readings_of(w.grid, &desc));
+            const vox_reading_view view = readings_of(w.grid);
+            ck_assert_uint_eq(view.count, count);
+            uint64_t known = 0, vertices = 0;
+            for (uint64_t i = 0; i < count; ++i) {
+                vox_reading expected = all[i];
+                const int has_surface = (view.data[i].known & VOX_READING_SURFACE) != 0;
+                const int is_first = i == 0 || contacts.data[i].vertex != contacts.data[i - 1].vertex ||
+                                     contacts.data[i].mesh_a != contacts.data[i - 1].mesh_a;
+                known += (uint64_t)has_surface;
+                vertices += (uint64_t)(has_surface && is_first);
+                ck_assert_uint_eq(view.data[i].known | VOX_READING_SURFACE, expected.known);
+                if (has_surface)
+                    ck_assert_mem_eq(&view.data[i], &expected, sizeof expected);
+                else
+                    ck_assert(view.data[i].distance == 0 && view.data[i].depth == expected.depth);
+            }
+            ck_assert_uint_ge(known, least);
+            least = known;
+            if (flags == 0) ck_assert_uint_le(vertices, limit);
+            if (flags == 0 && known < count) ck_assert_uint_eq(vertices, limit);
+        }
+        ck_assert_uint_eq(least, count);
+        free(all);
+        end_world(&w);
+    }
+}
+END_TEST
+
 /* A position that is no number any more matters where it is read. */
 START_TEST(changed_positions) {
     world w;
@@ -322,7 +367,7 @@ START_TEST(workers) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, parts_and_pairs, copies_of_a_part, arguments, changed_positions, memory, workers);
+    tcase_add_each(tests, parts_and_pairs, copies_of_a_part, arguments, budget, changed_positions, memory, workers);
 }
 
 int main(void) {
