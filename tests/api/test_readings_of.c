@@ -233,7 +233,7 @@ START_TEST(budget) {
         memcpy(all, readings_of(w.grid).data, count * sizeof *all);
         const vox_contact_view contacts = contacts_of(w.grid);
         uint64_t least = 0; /* contacts whose surfaces are known without a search */
-        for (uint64_t limit = 1; limit < count + 2; limit = 3 * limit + 1) {
+        for (uint64_t limit = 1; limit < 4 * count; limit = 3 * limit + 1) {
             desc.closest_budget = limit;
             ck_ok(vox_grid_prepare_readings_of(w.grid, &desc));
             const vox_reading_view view = readings_of(w.grid);
