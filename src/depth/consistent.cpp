@@ -89,9 +89,7 @@ constexpr std::size_t walks_at_once = 64;
 class Stages {
 public:
     Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), points_(points), places_(scratch.places), waves_(scratch.waves), queue_(scratch.queue),
-          normals_(scratch.normals), counts_(counts) {
-        waves_.assign(points_.size(), unreached);
+        : pair_(pair), points_(points), places_(scratch.places), queue_(scratch.queue), normals_(scratch.normals), counts_(counts) {
         if (queue_.size() < points_.size()) queue_.resize(points_.size());
         normals_.begin(pair_.b);
         places_.reserve(pair_.vertex_count_a);
@@ -116,17 +114,31 @@ private:
         return pair_.topology_a->neighbours_of(point.vertex);
     }
     void push(std::uint32_t place, std::uint32_t wave) {
-        waves_[place] = wave;
+        points_[place].wave = wave;
         queue_[queued_++] = place;
     }
-    // Calls visit(vertex, place) for each neighbour of a point that collides.
+    // Calls visit(place) for each neighbour of a point that collides and has a wave in [first, last). They are
+    // gathered first, without branches, since no processor predicts which ones they are.
     template <class Visit>
-    void for_colliding(const Point& point, Visit&& visit) const {
-        for (const std::uint32_t neighbour : neighbours(point))
-            if (places_.has(neighbour)) visit(neighbour, places_[neighbour]);
+    void for_colliding(const Point& point, std::uint32_t first, std::uint32_t last, Visit&& visit) const {
+        std::array<std::uint32_t, 32> gathered;
+        std::uint32_t count = 0;
+        const auto flush = [&] {
+            for (std::uint32_t i = 0; i < count; ++i) visit(gathered[i]);
+            count = 0;
+        };
+        const auto itself = static_cast<std::uint32_t>(&point - points_.data());
+        for (const std::uint32_t neighbour : neighbours(point)) {
+            const std::uint32_t known = places_[neighbour], place = known != VertexPlaces::none ? known : itself;
+            gathered[count] = place;
+            count += points_[place].wave - first < last - first; // a point never has the waves it looks for
+            if (count == gathered.size()) flush();
+        }
+        flush();
     }
 
     void prefetch_links(std::size_t next) const;
+    void prefetch_queued(std::size_t next) const;
     void find_border();
     bool is_coincident(Point& point);
     Vec3d inside(const Point& point) const;
@@ -144,8 +156,6 @@ private:
     static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
 
     VertexPlaces& places_; // of body a's vertices, in points_
-    // For each point the wave in which depth and direction were found.
-    std::pmr::vector<std::uint32_t>& waves_;
     std::pmr::vector<std::uint32_t>& queue_;
     std::size_t queued_ = 0;
     std::size_t lost_ = 0; // border points without any edge that leads out
@@ -175,6 +185,16 @@ void Stages::prefetch_links(std::size_t next) const {
         hwy::Prefetch(links.place_of(points_[next + places_ahead].vertex));
     if (next + records_ahead < points_.size())
         hwy::Prefetch(links.record_of(points_[next + records_ahead].vertex));
+}
+
+// The same for points in the queue.
+void Stages::prefetch_queued(std::size_t next) const {
+    constexpr std::size_t points_ahead = 12, places_ahead = 8, records_ahead = 4;
+    const VertexLinks& links = pair_.topology_a->links;
+    const auto vertex = [&](std::size_t ahead) { return points_[queue_[next + ahead]].vertex; };
+    if (next + points_ahead < queued_) hwy::Prefetch(&points_[queue_[next + points_ahead]]);
+    if (next + places_ahead < queued_) hwy::Prefetch(links.place_of(vertex(places_ahead)));
+    if (next + records_ahead < queued_) hwy::Prefetch(links.record_of(vertex(records_ahead)));
 }
 
 // The first wave is made of the points with an edge that leads out.
@@ -315,18 +335,19 @@ std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
     for (std::size_t first = 0; first < queued_ && queued_ < points_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
+            prefetch_queued(first);
             const std::uint32_t from = queue_[first];
-            if (waves_[from] == unusable) continue;
-            for_colliding(points_[from], [&](std::uint32_t, std::uint32_t to) {
-                if (waves_[to] == unreached) push(to, wave);
-            });
+            if (points_[from].wave == unusable) continue;
+            for_colliding(points_[from], unreached, unreached + 1, [&](std::uint32_t to) { push(to, wave); });
         }
-        for (std::size_t i = last; i < queued_; ++i)
+        for (std::size_t i = last; i < queued_; ++i) {
+            prefetch_queued(i);
             if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i], is_crossing);
+        }
         if (is_crossing) continue;
         // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) waves_[queue_[i]] = unusable;
+            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) points_[queue_[i]].wave = unusable;
     }
     return wave;
 }
@@ -336,8 +357,8 @@ void Stages::propagate_crossing(std::uint32_t wave) {
     if (queued_ == points_.size() && lost_ == 0) return; // all have an answer
     queued_ = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
-        if (waves_[i] == unusable) waves_[i] = has_answer(points_[i]) ? wave : unreached;
-        if (waves_[i] != unreached) queue_[queued_++] = i;
+        if (points_[i].wave == unusable) points_[i].wave = has_answer(points_[i]) ? wave : unreached;
+        if (points_[i].wave != unreached) queue_[queued_++] = i;
     }
     propagate(wave + 1, true);
 }
@@ -348,14 +369,15 @@ void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
     NeighbourMean mean;
     NearestNeighbour nearest;
     bool at_one = false; // a neighbour is at the same place: what is known there counts alone
-    for_colliding(point, [&](std::uint32_t neighbour, std::uint32_t from) {
-        if (at_one || waves_[from] >= waves_[place] || waves_[from] == unreached) return;
-        const Vec3d way = position(neighbour) - p;
+    for_colliding(point, unreached + 1, point.wave, [&](std::uint32_t place_of_neighbour) {
+        if (at_one) return;
+        const Point& from = points_[place_of_neighbour];
+        const Vec3d way = position(from.vertex) - p;
         const double squared = dot(way, way);
         at_one = !(squared > no_distance);
         if (at_one) mean = NeighbourMean();
-        mean.add(at_one ? 1 : 1 / squared, way, points_[from].depth, points_[from].direction);
-        nearest.add(squared, way, points_[from].depth, points_[from].direction);
+        mean.add(at_one ? 1 : 1 / squared, way, from.depth, from.direction);
+        nearest.add(squared, way, from.depth, from.direction);
     });
     point.state = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
     if (!mean.write(point)) nearest.write(point);
@@ -367,10 +389,9 @@ void Stages::mark_unreached() {
     if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (waves_[i] == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
+        if (points_[i].wave == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
     for (std::size_t first = 0; first < queued_; ++first)
-        for_colliding(points_[queue_[first]], [&](std::uint32_t, std::uint32_t to) {
-            if (waves_[to] != unreached) return;
+        for_colliding(points_[queue_[first]], unreached, unreached + 1, [&](std::uint32_t to) {
             if (points_[to].state != VOX_PENETRATION_COINCIDENT) points_[to].state = VOX_PENETRATION_CROSSING;
             push(to, unusable);
         });

@@ -12,18 +12,20 @@ namespace vox::depth {
 
 constexpr std::uint32_t no_triangle = 0xffffffffu;
 
-// A colliding vertex of one body, and what is found for it.
-struct Point {
-    std::size_t hit;   // the first hit of the pair with this vertex
-    std::size_t place; // index of its penetration
-    std::uint32_t vertex;
-    std::uint32_t tet; // of the hit
-    vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
-    bool interior; // certainly in the interior of `tet`; else it may be on its boundary
+// A colliding vertex of one body, and what is found for it: a cache line, since neighbours look at it.
+struct alignas(64) Point {
     double depth = 0;
     Vec3d direction{0, 0, 0};
+    std::uint32_t wave = 0; // in which they were found (depth/consistent.cpp)
+    std::uint32_t vertex;
+    std::uint32_t tet;   // of the hit
+    std::uint32_t hit;   // the first hit of the pair with this vertex
+    std::uint32_t place; // index of its penetration
     std::uint32_t closest = no_triangle; // the triangle of b's surface that was found to be closest
+    vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
+    bool interior; // certainly in the interior of `tet`; else it may be on its boundary
 };
+static_assert(sizeof(Point) == 64);
 
 // Whether depth and direction of an ENCLOSED or CROSSING point are known.
 inline bool has_answer(const Point& point) noexcept { return point.depth > 0; }

@@ -97,8 +97,8 @@ std::size_t DepthStage::list_points(const Scene& scene, std::span<const vox_cont
                 pairs_.push_back({points_.size(), points_.size()});
             const Hit& hit = hits[starts_[i].hit];
             Point& point = points_.emplace_back();
-            point.hit = starts_[i].hit;
-            point.place = starts_[i].place;
+            point.hit = static_cast<std::uint32_t>(starts_[i].hit);
+            point.place = static_cast<std::uint32_t>(starts_[i].place);
             point.vertex = hit.vertex;
             point.tet = hit.tet;
             const float* weight = contacts[point.hit].barycentric; // within 2^-20 of the true ones
