@@ -89,14 +89,14 @@ constexpr std::size_t walks_at_once = 64;
 class Stages {
 public:
     Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), points_(points), places_(scratch.places), queue_(scratch.queue), normals_(scratch.normals), counts_(counts) {
+        : pair_(pair), points_(points), waves_(scratch.waves), queue_(scratch.queue), normals_(scratch.normals), counts_(counts) {
         if (queue_.size() < points_.size()) queue_.resize(points_.size());
         normals_.begin(pair_.b);
-        places_.reserve(pair_.vertex_count_a);
-        for (std::uint32_t i = 0; i < points_.size(); ++i) places_.add(points_[i].vertex, i);
+        waves_.reserve(pair_.vertex_count_a);
+        for (std::uint32_t i = 0; i < points_.size(); ++i) waves_.add(points_[i].vertex, unreached, i);
     }
     ~Stages() {
-        for (const Point& point : points_) places_.remove(point.vertex);
+        for (const Point& point : points_) waves_.remove(point.vertex);
     }
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
@@ -113,8 +113,10 @@ private:
     NeighbourRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
+    std::uint32_t wave_of(std::uint32_t place) const { return waves_[points_[place].vertex].wave; }
+    void set_wave(std::uint32_t place, std::uint32_t wave) { waves_.set_wave(points_[place].vertex, wave); }
     void push(std::uint32_t place, std::uint32_t wave) {
-        points_[place].wave = wave;
+        set_wave(place, wave);
         queue_[queued_++] = place;
     }
     // Calls visit(place) for each neighbour of a point that collides and has a wave in [first, last). They are
@@ -127,11 +129,10 @@ private:
             for (std::uint32_t i = 0; i < count; ++i) visit(gathered[i]);
             count = 0;
         };
-        const auto itself = static_cast<std::uint32_t>(&point - points_.data());
         for (const std::uint32_t neighbour : neighbours(point)) {
-            const std::uint32_t known = places_[neighbour], place = known != VertexPlaces::none ? known : itself;
+            const auto [wave, place] = waves_[neighbour];
             gathered[count] = place;
-            count += points_[place].wave - first < last - first; // a point never has the waves it looks for
+            count += wave - first < last - first;
             if (count == gathered.size()) flush();
         }
         flush();
@@ -153,9 +154,9 @@ private:
 
     const BodyPair& pair_;
     std::span<Point> points_;
-    static constexpr std::uint32_t unreached = 0, unusable = 0xffffffffu;
+    static constexpr std::uint32_t unreached = 0, unusable = WaveTable::absent - 1;
 
-    VertexPlaces& places_; // of body a's vertices, in points_
+    WaveTable& waves_; // of body a's vertices; places are those in points_
     std::pmr::vector<std::uint32_t>& queue_;
     std::size_t queued_ = 0;
     std::size_t lost_ = 0; // border points without any edge that leads out
@@ -206,7 +207,7 @@ void Stages::find_border() {
         bool border = false;
         Vec3d from;
         for (const std::uint32_t q : neighbours(point)) {
-            if (places_.has(q)) continue;
+            if (waves_[q].wave != WaveTable::absent) continue;
             if (!border && !coincident) from = inside(point);
             border = true;
             if (coincident) break;
@@ -337,7 +338,7 @@ std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
         for (; first < last; ++first) {
             prefetch_queued(first);
             const std::uint32_t from = queue_[first];
-            if (points_[from].wave == unusable) continue;
+            if (wave_of(from) == unusable) continue;
             for_colliding(points_[from], unreached, unreached + 1, [&](std::uint32_t to) { push(to, wave); });
         }
         for (std::size_t i = last; i < queued_; ++i) {
@@ -347,7 +348,7 @@ std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
         if (is_crossing) continue;
         // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) points_[queue_[i]].wave = unusable;
+            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) set_wave(queue_[i], unusable);
     }
     return wave;
 }
@@ -357,8 +358,8 @@ void Stages::propagate_crossing(std::uint32_t wave) {
     if (queued_ == points_.size() && lost_ == 0) return; // all have an answer
     queued_ = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i) {
-        if (points_[i].wave == unusable) points_[i].wave = has_answer(points_[i]) ? wave : unreached;
-        if (points_[i].wave != unreached) queue_[queued_++] = i;
+        if (wave_of(i) == unusable) set_wave(i, has_answer(points_[i]) ? wave : unreached);
+        if (wave_of(i) != unreached) queue_[queued_++] = i;
     }
     propagate(wave + 1, true);
 }
@@ -369,7 +370,7 @@ void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
     NeighbourMean mean;
     NearestNeighbour nearest;
     bool at_one = false; // a neighbour is at the same place: what is known there counts alone
-    for_colliding(point, unreached + 1, point.wave, [&](std::uint32_t place_of_neighbour) {
+    for_colliding(point, unreached + 1, wave_of(place), [&](std::uint32_t place_of_neighbour) {
         if (at_one) return;
         const Point& from = points_[place_of_neighbour];
         const Vec3d way = position(from.vertex) - p;
@@ -389,7 +390,7 @@ void Stages::mark_unreached() {
     if (queued_ == points_.size()) return; // all were reached
     queued_ = 0;
     for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (points_[i].wave == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
+        if (wave_of(i) == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
     for (std::size_t first = 0; first < queued_; ++first)
         for_colliding(points_[queue_[first]], unreached, unreached + 1, [&](std::uint32_t to) {
             if (points_[to].state != VOX_PENETRATION_COINCIDENT) points_[to].state = VOX_PENETRATION_CROSSING;

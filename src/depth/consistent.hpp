@@ -13,37 +13,43 @@
 
 namespace vox::depth {
 
-// The places of some vertices in a list.
-class VertexPlaces {
+// The colliding vertices of a body: for each its place in a list, and the wave in which depth and direction
+// were found, by the number of the vertex.
+class WaveTable {
 public:
-    explicit VertexPlaces(std::pmr::memory_resource* memory) : places_(memory) {}
+    explicit WaveTable(std::pmr::memory_resource* memory) : entries_(memory) {}
 
-    static constexpr std::uint32_t none = 0xffffffffu;
+    struct Entry {
+        std::uint32_t wave = absent, place = 0;
+    };
+    static constexpr std::uint32_t absent = 0xffffffffu; // the wave of a vertex that does not collide
 
-    auto& buffer() noexcept { return places_; }
+    auto& buffer() noexcept { return entries_; }
     // For vertices below `vertex_count`. Throws what the memory throws.
     void reserve(std::size_t vertex_count) {
-        if (places_.size() < vertex_count) places_.resize(vertex_count, none);
+        if (entries_.size() < vertex_count) entries_.resize(vertex_count);
     }
-    void add(std::uint32_t vertex, std::uint32_t place) noexcept { places_[vertex] = place; }
-    void remove(std::uint32_t vertex) noexcept { places_[vertex] = none; }
-    bool has(std::uint32_t vertex) const noexcept { return places_[vertex] != none; }
-    std::uint32_t operator[](std::uint32_t vertex) const noexcept { return places_[vertex]; }
+    void add(std::uint32_t vertex, std::uint32_t wave, std::uint32_t place) noexcept {
+        entries_[vertex] = {wave, place};
+    }
+    void remove(std::uint32_t vertex) noexcept { entries_[vertex].wave = absent; }
+    const Entry& operator[](std::uint32_t vertex) const noexcept { return entries_[vertex]; }
+    void set_wave(std::uint32_t vertex, std::uint32_t wave) noexcept { entries_[vertex].wave = wave; }
 
 private:
-    std::pmr::vector<std::uint32_t> places_;
+    std::pmr::vector<Entry> entries_;
 };
 
 // What find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
     explicit ConsistentScratch(std::pmr::memory_resource* memory)
-        : places(memory), queue(memory), normals(memory) {}
+        : waves(memory), queue(memory), normals(memory) {}
 
-    VertexPlaces places;                   // empty between calls
+    WaveTable waves;                       // empty between calls
     std::pmr::vector<std::uint32_t> queue; // of points
     Normals normals;
 
-    auto buffers() { return std::tuple_cat(std::tie(places.buffer(), queue), normals.buffers()); }
+    auto buffers() { return std::tuple_cat(std::tie(waves.buffer(), queue), normals.buffers()); }
 };
 
 // Sets the states of `points`, which are in the order of their vertices, and depth and direction of all that

@@ -16,7 +16,6 @@ constexpr std::uint32_t no_triangle = 0xffffffffu;
 struct alignas(64) Point {
     double depth = 0;
     Vec3d direction{0, 0, 0};
-    std::uint32_t wave = 0; // in which they were found (depth/consistent.cpp)
     std::uint32_t vertex;
     std::uint32_t tet;   // of the hit
     std::uint32_t hit;   // the first hit of the pair with this vertex
