@@ -68,8 +68,8 @@ public:
         return find_among(p, left_out, all_parts, state, out);
     }
 
-    // Finds the closest point of the part that holds `tet`, which a vertex at p of the same mesh has entered, or
-    // of all parts where that one has no triangle without the vertex.
+    // Finds the closest point of the part that holds `tet`, which a vertex at p of the same mesh has entered,
+    // or of all parts where that one has no triangle without the vertex.
     bool find_in_part(const Vec3d& p, std::uint32_t vertex, std::uint32_t tet, SearchState& state,
                       Closest& out) const;
 

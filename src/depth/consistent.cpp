@@ -89,7 +89,8 @@ constexpr std::size_t walks_at_once = 64;
 class Stages {
 public:
     Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), points_(points), waves_(scratch.waves), queue_(scratch.queue), normals_(scratch.normals), counts_(counts) {
+        : pair_(pair), points_(points), waves_(scratch.waves), queue_(scratch.queue),
+          normals_(scratch.normals), counts_(counts) {
         if (queue_.size() < points_.size()) queue_.resize(points_.size());
         normals_.begin(pair_.b);
         waves_.reserve(pair_.vertex_count_a);
@@ -119,8 +120,8 @@ private:
         set_wave(place, wave);
         queue_[queued_++] = place;
     }
-    // Calls visit(place) for each neighbour of a point that collides and has a wave in [first, last). They are
-    // gathered first, without branches, since no processor predicts which ones they are.
+    // Calls visit(place) for each neighbour of a point that collides and has a wave in [first, last). They
+    // are gathered first, without branches, since no processor predicts which ones they are.
     template <class Visit>
     void for_colliding(const Point& point, std::uint32_t first, std::uint32_t last, Visit&& visit) const {
         std::array<std::uint32_t, 32> gathered;
@@ -367,21 +368,28 @@ void Stages::propagate_crossing(std::uint32_t wave) {
 void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
     Point& point = points_[place];
     const Vec3d p = position(point.vertex);
+    const auto for_known = [&](auto&& visit) {
+        for_colliding(point, unreached + 1, wave_of(place), [&](std::uint32_t known) {
+            const Point& from = points_[known];
+            const Vec3d way = position(from.vertex) - p;
+            visit(dot(way, way), way, from.depth, from.direction);
+        });
+    };
+    point.state = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
     NeighbourMean mean;
-    NearestNeighbour nearest;
     bool at_one = false; // a neighbour is at the same place: what is known there counts alone
-    for_colliding(point, unreached + 1, wave_of(place), [&](std::uint32_t place_of_neighbour) {
+    for_known([&](double squared, const Vec3d& way, double depth, const Vec3d& direction) {
         if (at_one) return;
-        const Point& from = points_[place_of_neighbour];
-        const Vec3d way = position(from.vertex) - p;
-        const double squared = dot(way, way);
         at_one = !(squared > no_distance);
         if (at_one) mean = NeighbourMean();
-        mean.add(at_one ? 1 : 1 / squared, way, from.depth, from.direction);
-        nearest.add(squared, way, from.depth, from.direction);
+        mean.add(at_one ? 1 : 1 / squared, way, depth, direction);
     });
-    point.state = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
-    if (!mean.write(point)) nearest.write(point);
+    if (mean.write(point)) return;
+    NearestNeighbour nearest;
+    for_known([&](double squared, const Vec3d& way, double depth, const Vec3d& direction) {
+        nearest.add(squared, way, depth, direction);
+    });
+    nearest.write(point);
 }
 
 // Points without an answer become CROSSING when they are connected to a border point, and stay ENCLOSED

@@ -17,9 +17,9 @@ struct alignas(64) Point {
     double depth = 0;
     Vec3d direction{0, 0, 0};
     std::uint32_t vertex;
-    std::uint32_t tet;   // of the hit
-    std::uint32_t hit;   // the first hit of the pair with this vertex
-    std::uint32_t place; // index of its penetration
+    std::uint32_t tet;                   // of the hit
+    std::uint32_t hit;                   // the first hit of the pair with this vertex
+    std::uint32_t place;                 // index of its penetration
     std::uint32_t closest = no_triangle; // the triangle of b's surface that was found to be closest
     vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
     bool interior; // certainly in the interior of `tet`; else it may be on its boundary

@@ -48,7 +48,8 @@ static void write_message(vox_log_level level, const char* text, void* user) {
     snprintf(to->last, sizeof to->last, "%s", text);
 }
 
-/* Whether each penetration of a scene takes a search: the first one, and all that are UNKNOWN with a budget of 1. */
+/* Whether each penetration of a scene takes a search: the first one, and all that are UNKNOWN with a budget
+ * of 1. */
 static uint8_t* searched_ones(const scene* s, uint64_t count) {
     uint8_t* searched = (uint8_t*)calloc(count, 1);
     vox_grid_desc desc = engine_desc();
@@ -60,7 +61,8 @@ static uint8_t* searched_ones(const scene* s, uint64_t count) {
     ck_assert_uint_eq(view.count, count);
     ck_assert_int_eq(penetration_at(view, 0)->state, VOX_PENETRATION_ENCLOSED); /* of the ball in the box */
     searched[0] = 1;
-    for (uint64_t i = 1; i < count; ++i) searched[i] = penetration_at(view, i)->state == VOX_PENETRATION_UNKNOWN;
+    for (uint64_t i = 1; i < count; ++i)
+        searched[i] = penetration_at(view, i)->state == VOX_PENETRATION_UNKNOWN;
     vox_grid_destroy(grid);
     return searched;
 }

@@ -164,8 +164,8 @@ START_TEST(edges_leave_on_opposite_sides) {
 END_TEST
 
 START_TEST(crossing_bars) {
-    /* A bar through a bar: what comes in at both ends meets in the middle, and there goes to the nearer side. No edge
-     * leads through the other sides, though they may be closer. */
+    /* A bar through a bar: what comes in at both ends meets in the middle, and there goes to the nearer side.
+     * No edge leads through the other sides, though they may be closer. */
     body x_bar = make_box(12, 0.25f, -1.5f, -1.5f, -1.5f), y_bar = make_box(12, 0.25f, -1.5f, -1.5f, -1.5f);
     for (uint32_t v = 0; v < x_bar.vertex_count; ++v) {
         float *p = x_bar.positions + 3 * v, *q = y_bar.positions + 3 * v;
@@ -187,7 +187,8 @@ START_TEST(crossing_bars) {
             const int of_x_bar = p->mesh_a == a;
             const vector end = plus_times(place(of_x_bar ? x_bar.positions : y_bar.positions, p->vertex),
                                           (double)p->depth, direction_of(p));
-            ck_assert(norm(way_to(of_x_bar ? of_y : of_x, of_x_bar ? y_bar.positions : x_bar.positions, end)) < 1e-6);
+            ck_assert(norm(way_to(of_x_bar ? of_y : of_x, of_x_bar ? y_bar.positions : x_bar.positions,
+                                  end)) < 1e-6);
             ck_assert(fabs((double)p->direction[of_x_bar ? 0 : 1]) > 0.999999);
         }
     }
@@ -428,8 +429,8 @@ START_TEST(flat_tets_on_the_surface) {
 END_TEST
 
 START_TEST(inverted_tets) {
-    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, hardly any of it needs a
-     * search, and none is farther away than what an edge may lead to. */
+    /* Vertices thrown about until many tetrahedra are inverted. Whatever comes is defined, hardly any of it
+     * needs a search, and none is farther away than what an edge may lead to. */
     body box = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.13f, 0.17f, 0.9f);
     uint32_t random = 1;
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)

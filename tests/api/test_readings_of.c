@@ -219,7 +219,8 @@ START_TEST(arguments) {
 }
 END_TEST
 
-/* With a budget, the first contacts that need a search get the surface, and the readings are the same otherwise. */
+/* With a budget, the first contacts that need a search get the surface, and the readings are the same
+ * otherwise. */
 START_TEST(budget) {
     for (uint32_t flags = 0; flags <= VOX_GRID_PENETRATIONS; flags += VOX_GRID_PENETRATIONS) {
         world w;
@@ -367,7 +368,8 @@ START_TEST(workers) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, parts_and_pairs, copies_of_a_part, arguments, budget, changed_positions, memory, workers);
+    tcase_add_each(tests, parts_and_pairs, copies_of_a_part, arguments, budget, changed_positions, memory,
+                   workers);
 }
 
 int main(void) {
