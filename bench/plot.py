@@ -12,7 +12,7 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
-from figures import CONTACTS, F1, F2, REFERENCE, SUBJECT, read
+from figures import AVX2, CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 
 SUBJECT_COLOUR = "#c2185b"
 REFERENCE_COLOUR = "#333333"
@@ -45,7 +45,7 @@ def draw_scenes(axes, scenes):
     entrants, peers = [], []
     for scene in scenes:
         for name, row in scene.rows.items():
-            if name not in entrants:
+            if name not in entrants and name != AVX2:  # it would hide the default
                 entrants.append(name)
                 if row["kind"] == "peer":
                     peers.append(name)

@@ -14,7 +14,7 @@ import re
 import sys
 from collections import namedtuple
 
-from figures import CONTACTS, F1, F2, REFERENCE, SUBJECT, read
+from figures import AVX2, CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 
 # What is aimed at in a scene; None: nothing. The default step takes at most `over` times as long as contacts alone, and is
 # at least `peer` times as fast as the best peer, which finds contacts alone. Contacts alone are found at least so many
@@ -42,6 +42,7 @@ SIZED = {goal.scene for goal in SIZED_GOALS}
 GOAL_TETS = (0.85e6, 1.25e6)  # what counts as a million
 GOAL_BYTES_PER_TET = 40
 GOAL_INSERTED_PER_SECOND = 8e6
+GOAL_AVX2 = 1.3  # times as long as with AVX-512
 HEADLINE = "contact-1"  # the scene of the README's figures
 HARD = ("tangled", "coincident", "swallowed")  # nearly every vertex in contact: their memory is that of contacts
 
@@ -91,6 +92,11 @@ def over_contacts(scene):
     return inverse(scene.times_faster(SUBJECT, CONTACTS))
 
 
+def over_avx512(scene):
+    """How many times as long the default step takes with AVX2, or None."""
+    return scene.times_faster(SUBJECT, AVX2)
+
+
 def aims(scenes):
     """Each figure beside what is aimed at: first the default step, then contacts alone."""
     default, alone = [], []
@@ -120,6 +126,11 @@ def aims(scenes):
     if most:
         print(f"* Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the hard "
               f"ones ({most.name}, {most.tets} tets): {judged(per_tet, GOAL_BYTES_PER_TET, False)}.")
+    slowest = max((scene for scene in scenes if AVX2 in scene.rows and SUBJECT in scene.rows), key=over_avx512,
+                  default=None)
+    if slowest:
+        print(f"* The default step with AVX2 beside AVX-512, the worst scene ({slowest.name}, {slowest.tets} tets): "
+              f"{judged(over_avx512(slowest), GOAL_AVX2, False)}.")
     largest, rate = insertion(scenes, SUBJECT)
     if largest:
         print(f"* Insertion into a default grid, million tetrahedra a second ({largest.name}, {largest.tets} tets): "
@@ -132,12 +143,12 @@ def in_short(scenes):
     for scene in scenes:
         best = scene.best_peer()
         rows.append([scene.label(), str(scene.tets), number(scene.ms(SUBJECT)), number(scene.ms(CONTACTS)),
-                     number(over_contacts(scene)),
+                     number(over_contacts(scene)), number(over_avx512(scene)),
                      number(scene.times_faster(SUBJECT, best)), number(scene.times_faster(CONTACTS, best)), best or "-",
                      number(scene.times_faster(CONTACTS, REFERENCE)),
                      number(inverse(scene.times_faster(CONTACTS, F2)))])
     table(["scene", "tets", "default step, ms", "contacts alone, ms", "default / contacts alone",
-           "default: × as fast as the best other library", "contacts alone: × as fast as it", "which",
+           "default with AVX2 / with AVX-512", "default: × as fast as the best other library", "contacts alone: × as fast as it", "which",
            "contacts alone: × as fast as the paper's algorithm",
            "contacts alone: × the time of making all boxes (F2)"], rows)
     print("A default step finds contacts and penetrations. The other libraries and the paper's algorithm find contacts "

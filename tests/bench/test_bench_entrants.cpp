@@ -1,5 +1,6 @@
 // The benchmark's entrant "vox" is the grid that a user gets; "vox contacts" is the same without the depth
 // stage, and finds the same contacts.
+#include "base/simd.hpp"
 #include "entrant.hpp"
 #include "hard_scenes.hpp"
 #include "support/suite.h"
@@ -15,13 +16,15 @@ bool same(const vox_grid_desc& x, const vox_grid_desc& y) { return std::memcmp(&
 
 START_TEST(names_and_descriptions) {
     const auto makers = bench::vox_entrants();
-    ck_assert_uint_eq(makers.size(), 3);
+    ck_assert_uint_eq(makers.size(), 4);
     ck_assert_str_eq(makers[0].name.c_str(), "vox"); // first, which all others are compared with
     ck_assert_str_eq(makers[1].name.c_str(), "vox contacts");
-    ck_assert_str_eq(makers[2].name.c_str(), "vox reference");
+    ck_assert_str_eq(makers[2].name.c_str(), "vox AVX2");
+    ck_assert_str_eq(makers[3].name.c_str(), "vox reference");
 
     const vox_grid_desc usual = vox_default_grid_desc();
     ck_assert(same(bench::grid_desc("vox"), usual));
+    ck_assert(same(bench::grid_desc("vox AVX2"), usual));
     ck_assert(usual.flags & VOX_GRID_PENETRATIONS); // or the next one would be the default
 
     vox_grid_desc contacts = bench::grid_desc("vox contacts");
@@ -58,16 +61,18 @@ struct UserGrid {
 
 void check_steps(Scene scene) {
     UserGrid user(scene);
-    std::unique_ptr<Entrant> entrants[2];
+    std::unique_ptr<Entrant> entrants[3]; // the last one at AVX2
     const auto makers = bench::vox_entrants();
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
         entrants[i] = makers[i].make();
         entrants[i]->setup(scene);
     }
     for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) {
         scene.pose(frame);
         ck_ok(vox_grid_step(user.grid));
+        const vox::simd::Level level = vox::simd::level();
         for (auto& entrant : entrants) entrant->step();
+        ck_assert(vox::simd::level() == level);
         const std::vector<vox_contact> with = entrants[0]->contacts(), without = entrants[1]->contacts();
         ck_assert_uint_gt(with.size(), 0);
         ck_assert_uint_eq(with.size(), without.size());
@@ -76,6 +81,9 @@ void check_steps(Scene scene) {
         // steps.
         ck_assert_uint_eq(entrants[0]->bytes(), user.counters().bytes);
         ck_assert_uint_lt(entrants[1]->bytes(), user.counters().bytes);
+        const std::vector<vox_contact> at_avx2 = entrants[2]->contacts();
+        ck_assert_uint_eq(at_avx2.size(), with.size());
+        ck_assert_mem_eq(at_avx2.data(), with.data(), with.size() * sizeof(vox_contact));
         ck_assert_uint_gt(user.counters().penetrations, 0);
     }
 }
