@@ -182,7 +182,7 @@ void report(bench::Scene& scene, const Options& options) {
     if (options.depth) {
         table.add("topology", held(parts.of_topology));
         double across = 0;
-        for (const vox::Topology& topology : parts.topologies) across += room(topology.across);
+        for (const vox::Topology& topology : parts.topologies) across += static_cast<double>(topology.across.bytes());
         table.add("- tetrahedra across facets", across);
         table.add("depth stage", held(parts.of_depth));
         table.add("trees of surfaces", held(parts.of_trees));

@@ -24,7 +24,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.penetration_mask == 0; });
     if (hits.empty() || none) return penetrations.clear();
     const Scene scene{bodies, topologies, hits};
-    make_room(hits.size(), workers ? workers->count() : 1);
+    make_room(hits.size(), bodies.size(), workers ? workers->count() : 1);
     const std::size_t count = list_points(scene, contacts);
     // The number of points that is worth a task.
     constexpr std::size_t least = 512;
@@ -62,11 +62,11 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     }
 }
 
-// There are never more points or pairs than contacts.
-void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
+// There are never more points than contacts, nor more pairs than that or than pairs of bodies.
+void DepthStage::make_room(std::size_t contacts, std::size_t bodies, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
-    pairs_.reserve(contacts);
+    pairs_.reserve(bodies < contacts ? std::min(contacts, bodies * bodies) : contacts);
     starts_.reserve(contacts);
     workers_.grow(worker_count);
     for (Worker& worker : workers_) worker.counts = {};

@@ -65,7 +65,7 @@ private:
         depth::Solid solid(std::uint32_t body) const;
     };
 
-    void make_room(std::size_t contacts, std::size_t worker_count);
+    void make_room(std::size_t contacts, std::size_t bodies, std::size_t worker_count);
     // Returns the number of all penetrations, with those that are carried over.
     std::size_t list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);

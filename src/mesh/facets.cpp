@@ -86,34 +86,22 @@ void sort_facets(std::span<TetFacet> facets) {
 }
 
 void MatchedFacets::clear(std::size_t tets) {
-    across.assign(tets, {nothing, nothing, nothing, nothing});
+    across.begin(tets);
     triangles.clear();
     is_repaired = false;
-}
-
-void MatchedFacets::match(std::span<const Tet> tets, std::span<const TetFacet> same) {
-    const auto set_across = [&](std::span<const TetFacet> of, std::uint32_t value) {
-        for (const TetFacet& facet : of) across[facet.tet()][facet.index()] = value;
-    };
-    std::size_t second = same.size(), sides = 1; // different tetrahedra; doubled ones follow each other
-    for (std::size_t i = 1; i < same.size(); ++i)
-        if (same[i].opposite != same[i - 1].opposite && ++sides == 2) second = i;
-    if (sides == 1) {
-        const Tet& tet = tets[same[0].tet()];
-        const auto& [a, b, c] = facet_corners[same[0].index()];
-        set_across(same, surface_bit | static_cast<std::uint32_t>(triangles.size()));
-        triangles.push_back({{tet.v[a], tet.v[b], tet.v[c]}, same[0].opposite});
-    } else if (sides == 2) {
-        set_across(same.first(second), same[second].tet());
-        set_across(same.subspan(second), same[0].tet());
-    }
 }
 
 void FacetMatcher::match_at(std::uint32_t vertex, std::span<const std::uint32_t> around) {
     list_facets_at(vertex, tets_, around, facets_);
     if (facets_.size() <= most_hashed && match_pairs(vertex)) return;
     sort_facets(facets_);
-    for_equal_facets(facets_, [&](std::span<const TetFacet> same) { out_.match(tets_, same); });
+    for_equal_facets(facets_, [&](std::span<const TetFacet> same) { match(same); });
+}
+
+void FacetMatcher::match(std::span<const TetFacet> same) {
+    out_.match(tets_, same, [this](std::uint32_t tet, std::uint32_t facet, std::uint32_t value) {
+        out_.across.build(tet, facet, value);
+    });
 }
 
 // Almost all facets belong to one tetrahedron or two different ones, which a small hash table finds sooner
@@ -142,23 +130,24 @@ bool FacetMatcher::match_pairs(std::uint32_t vertex) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const TetFacet facet = facets_[i];
         if (partner_[i] != none)
-            out_.across[facet.tet()][facet.index()] = partner_[i];
+            out_.across.build(facet.tet(), facet.index(), partner_[i]);
         else
             facets_[alone++] = facet;
     }
     facets_.resize(alone);
     sort_facets(facets_);
-    for (const TetFacet& facet : facets_) out_.match(tets_, {&facet, 1});
+    for (const TetFacet& facet : facets_) match({&facet, 1});
     return true;
 }
 
 void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out) {
-    std::pmr::memory_resource* memory = out.across.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.across.memory();
     MatchedFacets made(memory);
     made.clear(tets.size());
     const IndexLists around = list_by_lowest(tets, vertex_count, memory);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) matcher.match_at(v, around[v]);
+    made.across.finish();
     out = std::move(made);
 }
 

@@ -67,7 +67,7 @@ private:
 } // namespace
 
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out) {
-    std::pmr::memory_resource* memory = out.across.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.across.memory();
     Topology made(memory);
     if (tets.empty()) {
         out = std::move(made);
@@ -80,8 +80,7 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
     GrowingRings rings(vertex_count, memory);
     made.clear(tets.size());
     made.links.resize(vertex_count);
-    constexpr std::size_t usual_words =
-        10; // for a vertex with 14 neighbours, and some that are on the surface
+    constexpr std::size_t usual_words = 17; // for a vertex with 14 neighbours, and some on the surface
     made.links.reserve(usual_words * vertex_count);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
@@ -100,6 +99,7 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
         sort_distinct(std::span(neighbours).first(count));
         made.links.assign(v, std::span(neighbours).first(count), ring);
     }
+    made.across.finish();
     made.links.shrink_to_fit();
     made.triangles.shrink_to_fit();
     out = std::move(made);
@@ -116,11 +116,10 @@ public:
           neighbours_(tets_of.memory()), ring_(tets_of.memory()) {}
 
     void run(std::span<const TetChange> changes) {
-        constexpr std::array<std::uint32_t, 4> nothing{Topology::nothing, Topology::nothing,
-                                                       Topology::nothing, Topology::nothing};
         topology_.is_repaired = true;
-        topology_.across.resize(tets_.size(), nothing);
-        for (const TetChange& change : changes) topology_.across[change.tet] = nothing;
+        topology_.across.resize(tets_.size());
+        for (const TetChange& change : changes)
+            for (std::uint32_t i = 0; i < 4; ++i) topology_.across.set(change.tet, i, Topology::nothing);
         std::pmr::vector<FacetKey> keys(facets_.get_allocator());
         list_changed_facets(changes, keys);
         for (const FacetKey& key : keys) drop_triangle(key);
@@ -133,7 +132,7 @@ public:
 private:
     // Drops the triangle of a facet that may have been on the surface; the last triangle takes its place.
     void drop_triangle(const FacetKey& key) {
-        const std::span<const std::uint32_t> ring = topology_.ring_of(key.low);
+        const LinkRange ring = topology_.ring_of(key.low);
         const auto found =
             std::find_if(ring.begin(), ring.end(), [&](std::uint32_t t) { return topology_.key(t) == key; });
         if (found == ring.end()) return;
@@ -146,12 +145,14 @@ private:
         }
         if (hole != last) {
             const FacetKey moved = topology_.key(last);
-            for (const std::uint32_t v : {moved.low, moved.middle, moved.high})
-                for (std::uint32_t& t : topology_.links.ring(v))
-                    if (t == last) t = hole;
+            for (const std::uint32_t v : {moved.low, moved.middle, moved.high}) {
+                copy_links(v);
+                std::replace(ring_.begin(), ring_.end(), last, hole);
+                topology_.links.assign(v, neighbours_, ring_);
+            }
             for_tets_at(moved, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
-                std::uint32_t& across = topology_.across[tet][i];
-                if (across == (Topology::surface_bit | last)) across = Topology::surface_bit | hole;
+                if (topology_.across(tet, i) == (Topology::surface_bit | last))
+                    topology_.across.set(tet, i, Topology::surface_bit | hole);
             });
             topology_.triangles[hole] = topology_.triangles[last];
         }
@@ -161,12 +162,15 @@ private:
     void match_again(const FacetKey& key) {
         facets_.clear();
         for_tets_at(key, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
-            topology_.across[tet][i] = Topology::nothing;
+            topology_.across.set(tet, i, Topology::nothing);
             facets_.push_back({std::uint64_t{key.middle} << 32 | key.high, tets_[tet].v[i], 4 * tet + i});
         });
         const auto triangle = static_cast<std::uint32_t>(topology_.triangles.size());
         std::sort(facets_.begin(), facets_.end());
-        if (!facets_.empty()) topology_.match(tets_, facets_);
+        if (!facets_.empty())
+            topology_.match(tets_, facets_, [this](std::uint32_t tet, std::uint32_t i, std::uint32_t across) {
+                topology_.across.set(tet, i, across);
+            });
         if (topology_.triangles.size() == triangle) return;
         for (const std::uint32_t v : {key.low, key.middle, key.high}) {
             copy_links(v);
@@ -191,8 +195,7 @@ private:
     }
 
     void copy_links(std::uint32_t vertex) {
-        const NeighbourRange neighbours = topology_.neighbours_of(vertex);
-        const std::span<const std::uint32_t> ring = topology_.ring_of(vertex);
+        const LinkRange neighbours = topology_.neighbours_of(vertex), ring = topology_.ring_of(vertex);
         neighbours_.assign(neighbours.begin(), neighbours.end());
         ring_.assign(ring.begin(), ring.end());
     }
