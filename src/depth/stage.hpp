@@ -44,8 +44,7 @@ private:
     struct Range {
         std::size_t first, last;
     };
-    struct Start { // the first hit of a vertex in body_b
-        std::uint32_t body_b;
+    struct Start { // the first hit of a vertex in a body
         std::size_t hit;
         std::size_t place; // index of its penetration
     };

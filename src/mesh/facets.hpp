@@ -70,13 +70,10 @@ struct TetFacet {
     }
 };
 
-// The tetrahedra around each vertex, without those that name a vertex twice.
-IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
-                           std::pmr::memory_resource* memory);
-
-// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
-void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
-                    std::pmr::vector<TetFacet>& facets);
+// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there. They are in `room`, which
+// grows as needed.
+std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
+                                   std::span<const std::uint32_t> around, std::pmr::vector<TetFacet>& room);
 void sort_facets(std::span<TetFacet> facets);
 
 // Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
@@ -98,9 +95,9 @@ template <class Visit>
 void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
                     Visit&& visit) {
     const IndexLists around = list_by_lowest(tets, vertex_count, memory);
-    std::pmr::vector<TetFacet> facets(memory);
+    std::pmr::vector<TetFacet> room(memory);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        list_facets_at(v, tets, around[v], facets);
+        const std::span<TetFacet> facets = list_facets_at(v, tets, around[v], room);
         sort_facets(facets);
         for_equal_facets(facets, [&](std::span<const TetFacet> same) { visit(v, same); });
     }
@@ -150,7 +147,7 @@ class FacetMatcher {
 public:
     // `out` is prepared for `tets`.
     FacetMatcher(std::span<const Tet> tets, MatchedFacets& out)
-        : tets_(tets), out_(out), facets_(out.triangles.get_allocator()) {}
+        : tets_(tets), out_(out), room_(out.triangles.get_allocator()) {}
 
     // Those whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
     void match_at(std::uint32_t vertex, std::span<const std::uint32_t> around);
@@ -164,11 +161,11 @@ private:
     };
 
     void match(std::span<const TetFacet> same);
-    bool match_pairs(std::uint32_t vertex);
+    bool match_pairs(std::uint32_t vertex, std::span<TetFacet> facets);
 
     std::span<const Tet> tets_;
     MatchedFacets& out_;
-    std::pmr::vector<TetFacet> facets_;
+    std::pmr::vector<TetFacet> room_;
     std::array<std::uint32_t, most_hashed> partner_{}; // the tetrahedron on the other side of each facet
     std::array<Slot, std::size_t{1} << table_bits> table_{};
 };

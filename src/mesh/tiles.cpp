@@ -35,14 +35,15 @@ constexpr std::uint32_t target_tets = 60;
 // The longest side of the centroids' box.
 struct LongestSide {
     explicit LongestSide(std::span<const Item> items) {
-        float lo[3] = {float_infinity, float_infinity, float_infinity},
-              hi[3] = {-float_infinity, -float_infinity, -float_infinity};
-        for (const Item& item : items)
-            for (int a = 0; a < 3; ++a) {
-                const float c = item.centroid[a];
-                lo[a] = c < lo[a] ? c : lo[a];
-                hi[a] = c > hi[a] ? c : hi[a];
-            }
+        Box box = empty_box, other = empty_box;
+        std::size_t i = 0;
+        for (; i + 1 < items.size(); i += 2) { // two minima wait for each other less than one does
+            add(box, items[i]);
+            add(other, items[i + 1]);
+        }
+        if (i < items.size()) add(box, items[i]);
+        vox::add(box, other);
+        const float *lo = box.lo, *hi = box.hi;
         for (int a = 1; a < 3; ++a)
             if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
         low = lo[axis];
@@ -51,6 +52,15 @@ struct LongestSide {
 
     int axis = 0;
     float low, length;
+
+private:
+    static void add(Box& box, const Item& item) noexcept {
+        for (int a = 0; a < 3; ++a) {
+            const float c = item.centroid[a];
+            box.lo[a] = c < box.lo[a] ? c : box.lo[a];
+            box.hi[a] = c > box.hi[a] ? c : box.hi[a];
+        }
+    }
 };
 
 // Puts the `middle` items that are lowest along the longest side before the others, in `items` or, where it

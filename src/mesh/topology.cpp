@@ -37,6 +37,24 @@ void sort_distinct(std::span<std::uint32_t> numbers) {
         numbers[static_cast<std::size_t>(below[i])] = static_cast<std::uint32_t>(number[i]) ^ 0x80000000u;
 }
 
+// The tetrahedra around each vertex, without those that name a vertex twice: list 2 * vertex has those of
+// which it is one of the two lowest corners, which may have facets of which it is the lowest, and the next
+// one the others.
+IndexLists list_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+                     std::pmr::memory_resource* memory) {
+    IndexLists lists(memory);
+    std::uint32_t corners[4];
+    lists.list_by_vertex(static_cast<std::uint32_t>(tets.size()), 2 * vertex_count, [&](std::uint32_t t) {
+        const std::uint32_t* v = tets[t].v;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int lower = (v[0] < v[i]) + (v[1] < v[i]) + (v[2] < v[i]) + (v[3] < v[i]);
+            corners[i] = 2 * v[i] + (lower > 1);
+        }
+        return std::span<const std::uint32_t>(corners, names_a_vertex_twice(tets[t]) ? 0 : 4);
+    });
+    return lists;
+}
+
 // The triangles around vertices, while triangles are added at their lowest vertices: lists that are linked
 // from their last triangle to their first one.
 class GrowingRings {
@@ -74,7 +92,7 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
         return;
     }
     check_tet_count(tets.size());
-    const IndexLists tets_around = list_whole_tets(tets, vertex_count, memory);
+    const IndexLists tets_around = list_tets(tets, vertex_count, memory);
     std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
     std::pmr::vector<std::uint32_t> neighbours(memory), ring(memory);
     GrowingRings rings(vertex_count, memory);
@@ -84,8 +102,11 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
     made.links.reserve(usual_words * vertex_count);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const std::span<const std::uint32_t> around = tets_around[v];
-        matcher.match_at(v, around);
+        const std::span<const std::uint32_t> low = tets_around[2 * std::size_t{v}],
+                                             high = tets_around[2 * std::size_t{v} + 1];
+        const std::span<const std::uint32_t> around(low.data(),
+                                                    low.size() + high.size()); // they are neighbours
+        matcher.match_at(v, low);
         rings.add(made.triangles);
         rings.list(v, ring); // later triangles have higher vertices alone
         if (neighbours.size() < 4 * around.size()) neighbours.resize(4 * around.size());
