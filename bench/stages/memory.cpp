@@ -50,16 +50,17 @@ double room(const Vectors&... vectors) {
 
 // The parts of a grid of the fast engine, which steps as vox_grid::step does.
 struct Parts {
-    CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_events;
+    CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_trees,
+        of_penetrations, of_events;
     std::vector<vox::Mesh> meshes;
     std::vector<vox::fast::MeshState> states;
     std::vector<vox::Topology> topologies;
     vox::FastEngine engine{&of_engine};
     std::pmr::vector<vox::Hit> hits{&of_hits};
     std::pmr::vector<vox_contact> contacts{&of_hits};
-    vox::depth::SurfaceTrees trees{&of_depth};
+    vox::depth::SurfaceTrees trees{&of_trees};
     vox::DepthStage depth{&of_depth, trees};
-    vox::Penetrations penetrations{&of_depth};
+    vox::Penetrations penetrations{&of_penetrations};
     vox::Events events{&of_events, false};
     vox::Workers workers{{}, 1};
 
@@ -143,7 +144,8 @@ void report(bench::Scene& scene, const Options& options) {
     const double copy = options.borrow ? 0 : tets * sizeof(vox::Tet);
     double sum = copy;
     for (const CountingMemory* memory : {&parts.of_topology, &parts.of_meshes, &parts.of_states,
-                                         &parts.of_engine, &parts.of_hits, &parts.of_depth, &parts.of_events})
+                                         &parts.of_engine, &parts.of_hits, &parts.of_depth,
+                                         &parts.of_trees, &parts.of_penetrations, &parts.of_events})
         sum += held(*memory);
     const double real = real_bytes(scene, options);
     std::printf("\n%s: %zu tets, %zu vertices, %zu bodies, %zu contacts; bytes a tetrahedron:\n",
@@ -180,9 +182,11 @@ void report(bench::Scene& scene, const Options& options) {
     if (options.depth) {
         table.add("topology", held(parts.of_topology));
         double across = 0;
-        for (const vox::Topology& topology : parts.topologies) across += room(topology.across);
+        for (const vox::Topology& topology : parts.topologies) across += static_cast<double>(topology.across.bytes());
         table.add("- tetrahedra across facets", across);
         table.add("depth stage", held(parts.of_depth));
+        table.add("trees of surfaces", held(parts.of_trees));
+        table.add("penetrations", held(parts.of_penetrations));
     }
     table.add("events", held(parts.of_events));
     std::printf("  %-34s %8.2f   (a grid: %.2f)\n", "sum", sum / tets, real / tets);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -41,8 +42,8 @@ struct SearchState {
 class SurfaceTree {
 public:
     explicit SurfaceTree(std::pmr::memory_resource* memory)
-        : order_(memory), scratch_(memory), triangles_(memory), leaves_(memory), nodes_(memory),
-          levels_(memory), part_(memory), part_of_nodes_(memory) {}
+        : triangles_(memory), leaves_(memory), nodes_(memory), levels_(memory), part_(memory),
+          part_of_nodes_(memory) {}
 
     // Fits the tree to the positions of the solid, in time linear in the number of triangles. Where that was
     // not done for its topology, the tree is built, and with `folds` the parts of the mesh are found, in time
@@ -91,8 +92,8 @@ private:
 
     void reserve(std::size_t triangles);
     void take_frame();
-    void sort_along_curve();
-    void lay_out();
+    std::pmr::vector<Key> sort_along_curve() const;
+    void lay_out(std::span<const Key> order);
     void name_parts_of_nodes();
     void fit(Workers* workers);
     void fit_leaves(std::size_t begin, std::size_t end);
@@ -112,7 +113,6 @@ private:
     double squared_exit(const Line& line, const Vec3d& way) const;
 
     Solid solid_{};
-    std::pmr::vector<Key> order_, scratch_;
     std::pmr::vector<std::uint32_t> triangles_; // of the lanes of leaves_
     std::pmr::vector<TreeLeaf> leaves_;
     std::pmr::vector<TreeNode> nodes_;

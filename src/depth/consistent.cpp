@@ -111,7 +111,7 @@ public:
 
 private:
     Vec3d position(std::uint32_t vertex) const { return exact_position(pair_.positions_a, vertex); }
-    NeighbourRange neighbours(const Point& point) const {
+    LinkRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }
     std::uint32_t wave_of(std::uint32_t place) const { return waves_[points_[place].vertex].wave; }

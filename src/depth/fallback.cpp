@@ -4,6 +4,7 @@
 
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
+#include "base/room.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -31,9 +32,6 @@ Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const 
                                   std::span<Point> points, Counts& counts) {
     const Scene scene{bodies, topologies, hits, points};
     items_.clear();
-    items_.reserve(points.size()); // there are never more, nor more chunks
-    chunks_.reserve(points.size());
-    places_.reserve(points.size());
     const std::uint64_t unknown = spend(scene, budget);
     if (items_.empty()) return {0, unknown};
 
@@ -61,6 +59,9 @@ std::uint64_t Fallback::spend(const Scene& scene, std::uint64_t budget) {
     std::uint64_t wanted = 0;
     for (const Point& point : points) wanted += needs_search(point);
     std::size_t end = ~std::size_t{0}; // the first place for which nothing is left
+    reserve_growing(items_, wanted);   // there are never more, nor more chunks
+    reserve_growing(chunks_, wanted);
+    if (budget > 0) reserve_growing(places_, wanted);
     if (budget > 0 && wanted > budget) {
         places_.clear();
         for (const Point& point : points)

@@ -151,6 +151,7 @@ std::uint32_t Normals::add_face(std::uint32_t triangle) {
 }
 
 void Normals::prepare(std::span<const std::uint32_t> triangles) {
+    if (faces_.size() > most_faces) begin(solid_);
     const std::size_t first_face = faces_.size(), first_asked = asked_.size();
     for (const std::uint32_t triangle : triangles) {
         if (asked_places_.add(triangle) < asked_.size()) continue;

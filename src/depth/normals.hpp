@@ -1,4 +1,4 @@
-// Smooth normals of a surface. Each is computed when it is first needed, and kept.
+// Smooth normals of a surface. Each is computed when it is first needed, and kept until there are too many.
 #pragma once
 
 #include "base/place_map.hpp"
@@ -64,6 +64,10 @@ private:
         std::uint32_t ring[3];
         Vec3d normal[3]; // at its corners; unit
     };
+
+    // More are forgotten before the next are prepared, so that the tables stay in cache, and small however
+    // many triangles take part.
+    static constexpr std::size_t most_faces = 8192;
 
     std::uint32_t add_face(std::uint32_t triangle);
     void list_rings(std::size_t first_asked);

@@ -24,7 +24,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.penetration_mask == 0; });
     if (hits.empty() || none) return penetrations.clear();
     const Scene scene{bodies, topologies, hits};
-    make_room(hits.size(), workers ? workers->count() : 1);
+    make_room(hits.size(), bodies.size(), workers ? workers->count() : 1);
     const std::size_t count = list_points(scene, contacts);
     // The number of points that is worth a task.
     constexpr std::size_t least = 512;
@@ -62,11 +62,11 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     }
 }
 
-// There are never more points or pairs than contacts.
-void DepthStage::make_room(std::size_t contacts, std::size_t worker_count) {
+// There are never more points than contacts, nor more pairs than that or than pairs of bodies.
+void DepthStage::make_room(std::size_t contacts, std::size_t bodies, std::size_t worker_count) {
     points_.clear();
     points_.reserve(contacts);
-    pairs_.reserve(contacts);
+    pairs_.reserve(bodies < contacts ? std::min(contacts, bodies * bodies) : contacts);
     starts_.reserve(contacts);
     workers_.grow(worker_count);
     for (Worker& worker : workers_) worker.counts = {};
@@ -78,8 +78,8 @@ std::size_t DepthStage::list_points(const Scene& scene, std::span<const vox_cont
     pairs_.clear();
     const std::span<const Hit> hits = scene.hits;
     std::size_t places = 0;
-    const auto before = [](const Start& x, const Start& y) {
-        return std::tie(x.body_b, x.place) < std::tie(y.body_b, y.place);
+    const auto before = [hits](const Start& x, const Start& y) {
+        return std::tie(hits[x.hit].body_b, x.place) < std::tie(hits[y.hit].body_b, y.place);
     };
     for (std::size_t first = 0, last; first < hits.size(); first = last) {
         starts_.clear();
@@ -87,13 +87,13 @@ std::size_t DepthStage::list_points(const Scene& scene, std::span<const vox_cont
             if (is_first_of_vertex(hits, last)) {
                 const Body &a = scene.bodies[hits[last].body_a], &b = scene.bodies[hits[last].body_b];
                 const PenetrationSource source = penetration_source(a, b);
-                if (source == PenetrationSource::found) starts_.push_back({hits[last].body_b, last, places});
+                if (source == PenetrationSource::found) starts_.push_back({last, places});
                 places += source != PenetrationSource::none;
             }
         if (!std::is_sorted(starts_.begin(), starts_.end(), before))
             std::sort(starts_.begin(), starts_.end(), before);
         for (std::size_t i = 0; i < starts_.size(); ++i) {
-            if (i == 0 || starts_[i].body_b != starts_[i - 1].body_b)
+            if (i == 0 || hits[starts_[i].hit].body_b != hits[starts_[i - 1].hit].body_b)
                 pairs_.push_back({points_.size(), points_.size()});
             const Hit& hit = hits[starts_[i].hit];
             Point& point = points_.emplace_back();

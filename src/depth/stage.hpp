@@ -44,8 +44,7 @@ private:
     struct Range {
         std::size_t first, last;
     };
-    struct Start { // the first hit of a vertex in body_b
-        std::uint32_t body_b;
+    struct Start { // the first hit of a vertex in a body
         std::size_t hit;
         std::size_t place; // index of its penetration
     };
@@ -65,7 +64,7 @@ private:
         depth::Solid solid(std::uint32_t body) const;
     };
 
-    void make_room(std::size_t contacts, std::size_t worker_count);
+    void make_room(std::size_t contacts, std::size_t bodies, std::size_t worker_count);
     // Returns the number of all penetrations, with those that are carried over.
     std::size_t list_points(const Scene& scene, std::span<const vox_contact> contacts);
     void find_consistent(const Scene& scene, const Range& range, Worker& worker);

@@ -42,8 +42,6 @@ std::uint32_t cell_of(double x, double min, double max) {
 
 void SurfaceTree::reserve(std::size_t triangles) {
     const std::size_t leaves = (triangles + tree_width - 1) / tree_width;
-    order_.reserve(triangles);
-    scratch_.reserve(triangles);
     triangles_.reserve(leaves * tree_width);
     leaves_.reserve(leaves);
     std::size_t nodes = 0;
@@ -69,38 +67,38 @@ std::uint32_t SurfaceTree::place_on_curve(const Vec3d& p) const noexcept {
 }
 
 // Part after part.
-void SurfaceTree::sort_along_curve() {
+std::pmr::vector<SurfaceTree::Key> SurfaceTree::sort_along_curve() const {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    order_.resize(count);
-    scratch_.resize(count);
+    std::pmr::vector<Key> order(count, part_.get_allocator()), scratch(count, part_.get_allocator());
     for (std::uint32_t t = 0; t < count; ++t) {
         const Box3d box = box_of(solid_, t);
-        order_[t] = {place_on_curve(0.5 * box.min + 0.5 * box.max), t};
+        order[t] = {place_on_curve(0.5 * box.min + 0.5 * box.max), t};
     }
     std::array<std::uint32_t, 1 << digit_bits> place;
     for (int shift = 0; shift < 3 * axis_bits; shift += digit_bits) {
         const auto digit = [shift](const Key& key) { return key.code >> shift & ((1u << digit_bits) - 1); };
         place.fill(0);
-        for (const Key& key : order_) ++place[digit(key)];
+        for (const Key& key : order) ++place[digit(key)];
         std::uint32_t sum = 0;
         for (std::uint32_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : order_) scratch_[place[digit(key)]++] = key;
-        order_.swap(scratch_);
+        for (const Key& key : order) scratch[place[digit(key)]++] = key;
+        order.swap(scratch);
     }
-    if (part_.empty()) return;
+    if (part_.empty()) return order;
     const auto key = [&](const Key& k) {
         return std::tuple(part_[solid_.topology->triangles[k.triangle].v[0]], k.code, k.triangle);
     };
-    std::sort(order_.begin(), order_.end(), [&](const Key& x, const Key& y) { return key(x) < key(y); });
+    std::sort(order.begin(), order.end(), [&](const Key& x, const Key& y) { return key(x) < key(y); });
+    return order;
 }
 
 // No leaf has triangles of two parts. The lanes that this leaves over hold the triangle before them again.
-void SurfaceTree::lay_out() {
+void SurfaceTree::lay_out(std::span<const Key> order) {
     triangles_.clear();
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        const std::uint32_t triangle = order_[i].triangle;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t triangle = order[i].triangle;
         const auto part = [&](std::uint32_t t) { return part_[solid_.topology->triangles[t].v[0]]; };
-        if (!part_.empty() && i > 0 && part(triangle) != part(order_[i - 1].triangle))
+        if (!part_.empty() && i > 0 && part(triangle) != part(order[i - 1].triangle))
             while (triangles_.size() % tree_width != 0) triangles_.push_back(triangles_.back());
         triangles_.push_back(triangle);
     }
@@ -158,8 +156,7 @@ void SurfaceTree::update(const Solid& solid, bool folds, Workers* workers) {
     if (!is_built_) {
         reserve(solid.topology->triangles.size());
         take_frame();
-        sort_along_curve();
-        lay_out();
+        lay_out(sort_along_curve());
         is_built_ = true;
     }
     fit(workers);

@@ -155,7 +155,7 @@ bool walk_out(const Solid& solid, std::uint32_t tet, const Vec3d& p, const Vec3d
         const Tet& from = solid.tets[tet];
         int facet = 0;
         while (from.v[facet] != gate.behind) ++facet;
-        const std::uint32_t across = solid.topology->across[tet][std::size_t(facet)];
+        const std::uint32_t across = solid.topology->across(tet, static_cast<std::uint32_t>(facet));
         if (across == Topology::nothing) return false;
         if (across & Topology::surface_bit) {
             out.triangle = across & ~Topology::surface_bit;

@@ -398,7 +398,7 @@ private:
 
     void prefetch(std::uint32_t tet) const {
         hwy::Prefetch(&solid_.tets[tet]);
-        hwy::Prefetch(&topology_.across[tet]);
+        hwy::Prefetch(topology_.across.place_of(tet));
     }
 
     void set_segment(std::size_t i, const Walk& walk) {
@@ -426,7 +426,7 @@ private:
         const auto facet =
             (v[1] == behind ? 1u : 0u) | (v[2] == behind ? 2u : 0u) | (v[3] == behind ? 3u : 0u);
         trail.behind = behind;
-        trail.across = topology_.across[trail.tet][facet];
+        trail.across = topology_.across(trail.tet, facet);
         if (trail.across & Topology::surface_bit)
             hwy::Prefetch(topology_.triangles.data() + (trail.across & ~Topology::surface_bit));
         else
@@ -458,7 +458,7 @@ private:
                                                      block.gate[2].vertex[lane]);
         set_lane(block.corner[0], lane, solid_, v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate);
         trail.tet = trail.across;
-        hwy::Prefetch(&topology_.across[trail.tet]);
+        hwy::Prefetch(topology_.across.place_of(trail.tet));
         return true;
     }
 

@@ -49,9 +49,9 @@ std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint
 template <class Visit>
 void for_neighbours(const MatchedFacets& facets, std::uint32_t t, Visit&& visit) {
     for (std::uint32_t i = 0; i < 4; ++i) {
-        const std::uint32_t across = facets.across[t][i];
+        const std::uint32_t across = facets.across(t, i);
         if (across & MatchedFacets::surface_bit) continue; // also of `nothing`
-        const auto& back = facets.across[across];
+        const std::array<std::uint32_t, 4> back = facets.across[across];
         const auto j = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), t) - back.begin());
         if (j < 4) visit(i, across, j);
     }
@@ -62,7 +62,7 @@ void for_neighbours(const MatchedFacets& facets, std::uint32_t t, Visit&& visit)
 // change. False where that cannot be.
 bool agree_with_neighbours(std::span<const Tet> tets, const MatchedFacets& facets,
                            std::span<std::uint8_t> negative) {
-    std::pmr::memory_resource* memory = facets.across.get_allocator().resource();
+    std::pmr::memory_resource* memory = facets.across.memory();
     std::pmr::vector<std::uint8_t> seen(tets.size(), 0, memory),
         found(negative.begin(), negative.end(), memory);
     std::pmr::vector<std::uint32_t> part(memory);
@@ -107,7 +107,7 @@ bool make_triangles(std::span<const Tet> tets, std::span<const std::uint8_t> neg
     for (std::uint32_t t = 0; t < tets.size(); ++t) {
         if (names_a_vertex_twice(tets[t])) continue;
         for (std::uint32_t i = 0; i < 4; ++i) {
-            const std::uint32_t across = facets.across[t][i];
+            const std::uint32_t across = facets.across(t, i);
             if (across == MatchedFacets::nothing) return false; // three tets or more
             const SortedFacet facet = as_positive(t, i);
             if (across & MatchedFacets::surface_bit) {
@@ -116,7 +116,7 @@ bool make_triangles(std::span<const Tet> tets, std::span<const std::uint8_t> neg
                 triangle = triangle_of(facet);
                 continue;
             }
-            const auto& back = facets.across[across];
+            const std::array<std::uint32_t, 4> back = facets.across[across];
             const auto j = static_cast<std::uint32_t>(std::find(back.begin(), back.end(), t) - back.begin());
             if (j == 4) return false;                                    // a doubled tet
             if (as_positive(across, j).even == facet.even) return false; // both on one side

@@ -28,15 +28,6 @@ std::array<std::uint64_t, 4> sorted_corners(const Tet& tet) noexcept {
 
 } // namespace
 
-IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
-                           std::pmr::memory_resource* memory) {
-    IndexLists lists(memory);
-    lists.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count, [&](std::uint32_t t) {
-        return std::span<const std::uint32_t>(tets[t].v, names_a_vertex_twice(tets[t]) ? 0 : 4);
-    });
-    return lists;
-}
-
 IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
                           std::pmr::memory_resource* memory) {
     IndexLists lists(memory);
@@ -49,28 +40,30 @@ IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
     return lists;
 }
 
-void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
-                    std::pmr::vector<TetFacet>& facets) {
-    facets.resize(3 * around.size());
-    std::size_t count = 0;
+// Without branches, which would be mispredicted in meshes numbered at random: of each tetrahedron all facets
+// that may be wanted are written, and then as many kept as are.
+std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
+                                   std::span<const std::uint32_t> around, std::pmr::vector<TetFacet>& room) {
+    if (room.size() < 3 * around.size()) room.resize(3 * around.size());
+    TetFacet* next = room.data();
     for (const std::uint32_t t : around) {
-        // With two lower corners, every facet has one of them.
         const std::uint32_t* v = tets[t].v;
-        if ((v[0] < vertex) + (v[1] < vertex) + (v[2] < vertex) + (v[3] < vertex) > 1) continue;
+        // With two lower corners, every facet has one of them.
+        const auto lower =
+            static_cast<std::uint32_t>((v[0] < vertex) + (v[1] < vertex) + (v[2] < vertex) + (v[3] < vertex));
         const std::array<std::uint64_t, 4> c = sorted_corners(tets[t]);
-        const auto facet = [&](std::size_t middle, std::size_t high, std::size_t opposite) {
-            return TetFacet{c[middle] >> 2 << 32 | c[high] >> 2, static_cast<std::uint32_t>(c[opposite] >> 2),
-                            4 * t + static_cast<std::uint32_t>(c[opposite] & 3)};
+        const auto facet = [t](std::uint64_t middle, std::uint64_t high, std::uint64_t opposite) {
+            return TetFacet{middle >> 2 << 32 | high >> 2, static_cast<std::uint32_t>(opposite >> 2),
+                            4 * t + static_cast<std::uint32_t>(opposite & 3)};
         };
-        const bool lowest = c[0] >> 2 == vertex; // else it is the second
-        facets[count] = facet(lowest ? 1 : 2, lowest ? 2 : 3, lowest ? 3 : 0);
-        if (lowest) {
-            facets[count + 1] = facet(1, 3, 2);
-            facets[count + 2] = facet(2, 3, 1);
-        }
-        count += lowest ? 3 : 1;
+        const std::uint64_t other = c[lower == 0];
+        next[0] = facet(c[2], c[3], other);
+        next[1] = facet(other, c[2], c[3]);
+        next[2] = facet(other, c[3], c[2]);
+        constexpr std::uint8_t wanted[] = {3, 1, 0, 0};
+        next += wanted[lower];
     }
-    facets.resize(count);
+    return {room.data(), next};
 }
 
 void sort_facets(std::span<TetFacet> facets) {
@@ -86,44 +79,32 @@ void sort_facets(std::span<TetFacet> facets) {
 }
 
 void MatchedFacets::clear(std::size_t tets) {
-    across.assign(tets, {nothing, nothing, nothing, nothing});
+    across.begin(tets);
     triangles.clear();
     is_repaired = false;
 }
 
-void MatchedFacets::match(std::span<const Tet> tets, std::span<const TetFacet> same) {
-    const auto set_across = [&](std::span<const TetFacet> of, std::uint32_t value) {
-        for (const TetFacet& facet : of) across[facet.tet()][facet.index()] = value;
-    };
-    std::size_t second = same.size(), sides = 1; // different tetrahedra; doubled ones follow each other
-    for (std::size_t i = 1; i < same.size(); ++i)
-        if (same[i].opposite != same[i - 1].opposite && ++sides == 2) second = i;
-    if (sides == 1) {
-        const Tet& tet = tets[same[0].tet()];
-        const auto& [a, b, c] = facet_corners[same[0].index()];
-        set_across(same, surface_bit | static_cast<std::uint32_t>(triangles.size()));
-        triangles.push_back({{tet.v[a], tet.v[b], tet.v[c]}, same[0].opposite});
-    } else if (sides == 2) {
-        set_across(same.first(second), same[second].tet());
-        set_across(same.subspan(second), same[0].tet());
-    }
+void FacetMatcher::match_at(std::uint32_t vertex, std::span<const std::uint32_t> around) {
+    const std::span<TetFacet> facets = list_facets_at(vertex, tets_, around, room_);
+    if (facets.size() <= most_hashed && match_pairs(vertex, facets)) return;
+    sort_facets(facets);
+    for_equal_facets(facets, [&](std::span<const TetFacet> same) { match(same); });
 }
 
-void FacetMatcher::match_at(std::uint32_t vertex, std::span<const std::uint32_t> around) {
-    list_facets_at(vertex, tets_, around, facets_);
-    if (facets_.size() <= most_hashed && match_pairs(vertex)) return;
-    sort_facets(facets_);
-    for_equal_facets(facets_, [&](std::span<const TetFacet> same) { out_.match(tets_, same); });
+void FacetMatcher::match(std::span<const TetFacet> same) {
+    out_.match(tets_, same, [this](std::uint32_t tet, std::uint32_t facet, std::uint32_t value) {
+        out_.across.build(tet, facet, value);
+    });
 }
 
 // Almost all facets belong to one tetrahedron or two different ones, which a small hash table finds sooner
 // than sorting does. Returns false, and has matched nothing, where a facet does not.
-bool FacetMatcher::match_pairs(std::uint32_t vertex) {
+bool FacetMatcher::match_pairs(std::uint32_t vertex, std::span<TetFacet> facets) {
     constexpr std::uint32_t none = 0xffffffffu;
     constexpr std::size_t last = (std::size_t{1} << table_bits) - 1;
-    const auto count = static_cast<std::uint32_t>(facets_.size());
+    const auto count = static_cast<std::uint32_t>(facets.size());
     for (std::uint32_t i = 0; i < count; ++i) {
-        const TetFacet& facet = facets_[i];
+        const TetFacet& facet = facets[i];
         // Multiplicative hashing (D. E. Knuth, The Art of Computer Programming 3, Sect. 6.4).
         std::size_t place = facet.others * 0x9e3779b97f4a7c15u >> (64 - table_bits);
         while (table_[place].used_at == vertex + 1 && table_[place].others != facet.others)
@@ -134,31 +115,31 @@ bool FacetMatcher::match_pairs(std::uint32_t vertex) {
             slot = {facet.others, vertex + 1, i};
             continue;
         }
-        if (partner_[slot.first] != none || facets_[slot.first].opposite == facet.opposite) return false;
+        if (partner_[slot.first] != none || facets[slot.first].opposite == facet.opposite) return false;
         partner_[slot.first] = facet.tet();
-        partner_[i] = facets_[slot.first].tet();
+        partner_[i] = facets[slot.first].tet();
     }
     std::size_t alone = 0; // they move to the front
     for (std::uint32_t i = 0; i < count; ++i) {
-        const TetFacet facet = facets_[i];
+        const TetFacet facet = facets[i];
         if (partner_[i] != none)
-            out_.across[facet.tet()][facet.index()] = partner_[i];
+            out_.across.build(facet.tet(), facet.index(), partner_[i]);
         else
-            facets_[alone++] = facet;
+            facets[alone++] = facet;
     }
-    facets_.resize(alone);
-    sort_facets(facets_);
-    for (const TetFacet& facet : facets_) out_.match(tets_, {&facet, 1});
+    sort_facets(facets.first(alone));
+    for (const TetFacet& facet : facets.first(alone)) match({&facet, 1});
     return true;
 }
 
 void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out) {
-    std::pmr::memory_resource* memory = out.across.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.across.memory();
     MatchedFacets made(memory);
     made.clear(tets.size());
     const IndexLists around = list_by_lowest(tets, vertex_count, memory);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) matcher.match_at(v, around[v]);
+    made.across.finish();
     out = std::move(made);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/lists.hpp"
 #include "base/scene.hpp"
+#include "mesh/across.hpp"
 
 #include <array>
 #include <compare>
@@ -69,13 +70,10 @@ struct TetFacet {
     }
 };
 
-// The tetrahedra around each vertex, without those that name a vertex twice.
-IndexLists list_whole_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
-                           std::pmr::memory_resource* memory);
-
-// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
-void list_facets_at(std::uint32_t vertex, std::span<const Tet> tets, std::span<const std::uint32_t> around,
-                    std::pmr::vector<TetFacet>& facets);
+// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there. They are in `room`, which
+// grows as needed.
+std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
+                                   std::span<const std::uint32_t> around, std::pmr::vector<TetFacet>& room);
 void sort_facets(std::span<TetFacet> facets);
 
 // Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
@@ -97,9 +95,9 @@ template <class Visit>
 void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
                     Visit&& visit) {
     const IndexLists around = list_by_lowest(tets, vertex_count, memory);
-    std::pmr::vector<TetFacet> facets(memory);
+    std::pmr::vector<TetFacet> room(memory);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        list_facets_at(v, tets, around[v], facets);
+        const std::span<TetFacet> facets = list_facets_at(v, tets, around[v], room);
         sort_facets(facets);
         for_equal_facets(facets, [&](std::span<const TetFacet> same) { visit(v, same); });
     }
@@ -115,27 +113,41 @@ struct Triangle {
 struct MatchedFacets {
     explicit MatchedFacets(std::pmr::memory_resource* memory) noexcept : across(memory), triangles(memory) {}
 
-    // What lies across a facet: a tetrahedron, or on the surface one of `triangles`, or nothing that can be
-    // determined where three or more tetrahedra meet.
-    static constexpr std::uint32_t surface_bit = 0x80000000u;
-    static constexpr std::uint32_t nothing = 0xffffffffu;
+    static constexpr std::uint32_t surface_bit = Across::surface_bit, nothing = Across::nothing;
 
-    std::pmr::vector<std::array<std::uint32_t, 4>> across; // of each tetrahedron's facets
+    Across across; // a triangle of the surface is one of `triangles`
     std::pmr::vector<Triangle> triangles;
     bool is_repaired = false; // else the triangles are sorted by their FacetKey
 
     // Prepares for `tets` tetrahedra, of which none is matched yet.
     void clear(std::size_t tets);
-    // Matches the tetrahedra that have one facet.
-    void match(std::span<const Tet> tets, std::span<const TetFacet> same);
+    // Matches the tetrahedra that have one facet: calls set(tet, facet, what is across).
+    template <class Set>
+    void match(std::span<const Tet> tets, std::span<const TetFacet> same, Set&& set) {
+        const auto set_across = [&](std::span<const TetFacet> of, std::uint32_t value) {
+            for (const TetFacet& facet : of) set(facet.tet(), facet.index(), value);
+        };
+        std::size_t second = same.size(), sides = 1; // different tetrahedra; doubled ones follow each other
+        for (std::size_t i = 1; i < same.size(); ++i)
+            if (same[i].opposite != same[i - 1].opposite && ++sides == 2) second = i;
+        if (sides == 1) {
+            const Tet& tet = tets[same[0].tet()];
+            const auto& [a, b, c] = facet_corners[same[0].index()];
+            set_across(same, surface_bit | static_cast<std::uint32_t>(triangles.size()));
+            triangles.push_back({{tet.v[a], tet.v[b], tet.v[c]}, same[0].opposite});
+        } else if (sides == 2) {
+            set_across(same.first(second), same[second].tet());
+            set_across(same.subspan(second), same[0].tet());
+        }
+    }
 };
 
-// Matches facets vertex by vertex, in ascending order.
+// Matches facets vertex by vertex, in ascending order; across.finish() is left to the caller.
 class FacetMatcher {
 public:
     // `out` is prepared for `tets`.
     FacetMatcher(std::span<const Tet> tets, MatchedFacets& out)
-        : tets_(tets), out_(out), facets_(out.across.get_allocator()) {}
+        : tets_(tets), out_(out), room_(out.triangles.get_allocator()) {}
 
     // Those whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
     void match_at(std::uint32_t vertex, std::span<const std::uint32_t> around);
@@ -148,11 +160,12 @@ private:
         std::uint32_t first = 0;   // of facets_
     };
 
-    bool match_pairs(std::uint32_t vertex);
+    void match(std::span<const TetFacet> same);
+    bool match_pairs(std::uint32_t vertex, std::span<TetFacet> facets);
 
     std::span<const Tet> tets_;
     MatchedFacets& out_;
-    std::pmr::vector<TetFacet> facets_;
+    std::pmr::vector<TetFacet> room_;
     std::array<std::uint32_t, most_hashed> partner_{}; // the tetrahedron on the other side of each facet
     std::array<Slot, std::size_t{1} << table_bits> table_{};
 };

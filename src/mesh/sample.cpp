@@ -20,7 +20,7 @@ MeshSample make_sample(const Body& body, const Topology& topology, std::pmr::mem
         if (has_bit(body.off, t)) return;
         std::uint32_t shared = 0;
         for (std::uint32_t f = 0; f < 4; ++f) {
-            const std::uint32_t across = topology.across[t][f];
+            const std::uint32_t across = topology.across(static_cast<std::uint32_t>(t), f);
             // Where three or more tetrahedra meet, `across` names none of them.
             const bool own = across != Topology::nothing && (across & Topology::surface_bit) != 0;
             shared |= std::uint32_t{!own} << f;

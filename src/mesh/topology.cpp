@@ -37,6 +37,24 @@ void sort_distinct(std::span<std::uint32_t> numbers) {
         numbers[static_cast<std::size_t>(below[i])] = static_cast<std::uint32_t>(number[i]) ^ 0x80000000u;
 }
 
+// The tetrahedra around each vertex, without those that name a vertex twice: list 2 * vertex has those of
+// which it is one of the two lowest corners, which may have facets of which it is the lowest, and the next
+// one the others.
+IndexLists list_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+                     std::pmr::memory_resource* memory) {
+    IndexLists lists(memory);
+    std::uint32_t corners[4];
+    lists.list_by_vertex(static_cast<std::uint32_t>(tets.size()), 2 * vertex_count, [&](std::uint32_t t) {
+        const std::uint32_t* v = tets[t].v;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int lower = (v[0] < v[i]) + (v[1] < v[i]) + (v[2] < v[i]) + (v[3] < v[i]);
+            corners[i] = 2 * v[i] + (lower > 1);
+        }
+        return std::span<const std::uint32_t>(corners, names_a_vertex_twice(tets[t]) ? 0 : 4);
+    });
+    return lists;
+}
+
 // The triangles around vertices, while triangles are added at their lowest vertices: lists that are linked
 // from their last triangle to their first one.
 class GrowingRings {
@@ -67,26 +85,28 @@ private:
 } // namespace
 
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out) {
-    std::pmr::memory_resource* memory = out.across.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.across.memory();
     Topology made(memory);
     if (tets.empty()) {
         out = std::move(made);
         return;
     }
     check_tet_count(tets.size());
-    const IndexLists tets_around = list_whole_tets(tets, vertex_count, memory);
+    const IndexLists tets_around = list_tets(tets, vertex_count, memory);
     std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
     std::pmr::vector<std::uint32_t> neighbours(memory), ring(memory);
     GrowingRings rings(vertex_count, memory);
     made.clear(tets.size());
     made.links.resize(vertex_count);
-    constexpr std::size_t usual_words =
-        10; // for a vertex with 14 neighbours, and some that are on the surface
+    constexpr std::size_t usual_words = 17; // for a vertex with 14 neighbours, and some on the surface
     made.links.reserve(usual_words * vertex_count);
     FacetMatcher matcher(tets, made);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const std::span<const std::uint32_t> around = tets_around[v];
-        matcher.match_at(v, around);
+        const std::span<const std::uint32_t> low = tets_around[2 * std::size_t{v}],
+                                             high = tets_around[2 * std::size_t{v} + 1];
+        const std::span<const std::uint32_t> around(low.data(),
+                                                    low.size() + high.size()); // they are neighbours
+        matcher.match_at(v, low);
         rings.add(made.triangles);
         rings.list(v, ring); // later triangles have higher vertices alone
         if (neighbours.size() < 4 * around.size()) neighbours.resize(4 * around.size());
@@ -100,6 +120,7 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
         sort_distinct(std::span(neighbours).first(count));
         made.links.assign(v, std::span(neighbours).first(count), ring);
     }
+    made.across.finish();
     made.links.shrink_to_fit();
     made.triangles.shrink_to_fit();
     out = std::move(made);
@@ -116,11 +137,10 @@ public:
           neighbours_(tets_of.memory()), ring_(tets_of.memory()) {}
 
     void run(std::span<const TetChange> changes) {
-        constexpr std::array<std::uint32_t, 4> nothing{Topology::nothing, Topology::nothing,
-                                                       Topology::nothing, Topology::nothing};
         topology_.is_repaired = true;
-        topology_.across.resize(tets_.size(), nothing);
-        for (const TetChange& change : changes) topology_.across[change.tet] = nothing;
+        topology_.across.resize(tets_.size());
+        for (const TetChange& change : changes)
+            for (std::uint32_t i = 0; i < 4; ++i) topology_.across.set(change.tet, i, Topology::nothing);
         std::pmr::vector<FacetKey> keys(facets_.get_allocator());
         list_changed_facets(changes, keys);
         for (const FacetKey& key : keys) drop_triangle(key);
@@ -133,7 +153,7 @@ public:
 private:
     // Drops the triangle of a facet that may have been on the surface; the last triangle takes its place.
     void drop_triangle(const FacetKey& key) {
-        const std::span<const std::uint32_t> ring = topology_.ring_of(key.low);
+        const LinkRange ring = topology_.ring_of(key.low);
         const auto found =
             std::find_if(ring.begin(), ring.end(), [&](std::uint32_t t) { return topology_.key(t) == key; });
         if (found == ring.end()) return;
@@ -146,12 +166,14 @@ private:
         }
         if (hole != last) {
             const FacetKey moved = topology_.key(last);
-            for (const std::uint32_t v : {moved.low, moved.middle, moved.high})
-                for (std::uint32_t& t : topology_.links.ring(v))
-                    if (t == last) t = hole;
+            for (const std::uint32_t v : {moved.low, moved.middle, moved.high}) {
+                copy_links(v);
+                std::replace(ring_.begin(), ring_.end(), last, hole);
+                topology_.links.assign(v, neighbours_, ring_);
+            }
             for_tets_at(moved, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
-                std::uint32_t& across = topology_.across[tet][i];
-                if (across == (Topology::surface_bit | last)) across = Topology::surface_bit | hole;
+                if (topology_.across(tet, i) == (Topology::surface_bit | last))
+                    topology_.across.set(tet, i, Topology::surface_bit | hole);
             });
             topology_.triangles[hole] = topology_.triangles[last];
         }
@@ -161,12 +183,15 @@ private:
     void match_again(const FacetKey& key) {
         facets_.clear();
         for_tets_at(key, tets_, tets_of_, [&](std::uint32_t tet, std::uint32_t i) {
-            topology_.across[tet][i] = Topology::nothing;
+            topology_.across.set(tet, i, Topology::nothing);
             facets_.push_back({std::uint64_t{key.middle} << 32 | key.high, tets_[tet].v[i], 4 * tet + i});
         });
         const auto triangle = static_cast<std::uint32_t>(topology_.triangles.size());
         std::sort(facets_.begin(), facets_.end());
-        if (!facets_.empty()) topology_.match(tets_, facets_);
+        if (!facets_.empty())
+            topology_.match(tets_, facets_, [this](std::uint32_t tet, std::uint32_t i, std::uint32_t across) {
+                topology_.across.set(tet, i, across);
+            });
         if (topology_.triangles.size() == triangle) return;
         for (const std::uint32_t v : {key.low, key.middle, key.high}) {
             copy_links(v);
@@ -191,8 +216,7 @@ private:
     }
 
     void copy_links(std::uint32_t vertex) {
-        const NeighbourRange neighbours = topology_.neighbours_of(vertex);
-        const std::span<const std::uint32_t> ring = topology_.ring_of(vertex);
+        const LinkRange neighbours = topology_.neighbours_of(vertex), ring = topology_.ring_of(vertex);
         neighbours_.assign(neighbours.begin(), neighbours.end());
         ring_.assign(ring.begin(), ring.end());
     }

@@ -26,12 +26,11 @@ struct Topology : MatchedFacets {
     // Of each vertex the neighbours over edges, and the triangles around it in the order of before().
     VertexLinks links;
 
-    NeighbourRange neighbours_of(std::uint32_t vertex) const noexcept {
-        return links.empty() ? NeighbourRange() : links.neighbours(vertex);
+    LinkRange neighbours_of(std::uint32_t vertex) const noexcept {
+        return links.empty() ? LinkRange() : links.neighbours(vertex);
     }
-    std::span<const std::uint32_t> ring_of(std::uint32_t vertex) const noexcept {
-        if (links.empty()) return {};
-        return links.ring(vertex);
+    LinkRange ring_of(std::uint32_t vertex) const noexcept {
+        return links.empty() ? LinkRange() : links.ring(vertex);
     }
 
     // The order of triangles by their sorted vertices, which does not depend on earlier edits.

@@ -6,15 +6,38 @@
 
 namespace vox {
 
-std::size_t VertexLinks::length(std::size_t neighbours, std::size_t ring, bool is_long, bool wide) noexcept {
-    const std::size_t differences = neighbours == 0 ? 0 : neighbours - 1;
-    return (is_long ? 3 : 1) + ring + (neighbours > 0) + (wide ? differences : (differences + 1) / 2);
+namespace {
+
+// Whether the numbers ascend, in steps of 16 bits.
+bool are_near(std::span<const std::uint32_t> numbers) noexcept {
+    bool near = true;
+    for (std::size_t i = 1; i < numbers.size(); ++i) near &= numbers[i] - numbers[i - 1] <= 0xffff;
+    return near;
 }
+
+std::uint16_t* write32(std::uint32_t number, std::uint16_t* to) noexcept {
+    std::memcpy(to, &number, sizeof number);
+    return to + 2;
+}
+
+// All but the first.
+std::uint16_t* write_differences(std::span<const std::uint32_t> numbers, bool wide,
+                                 std::uint16_t* to) noexcept {
+    for (std::size_t i = 1; i < numbers.size(); ++i) {
+        const std::uint32_t difference = numbers[i] - numbers[i - 1];
+        if (wide)
+            to = write32(difference, to);
+        else
+            *to++ = static_cast<std::uint16_t>(difference);
+    }
+    return to;
+}
+
+} // namespace
 
 std::size_t VertexLinks::length_of(std::uint32_t vertex) const noexcept {
     const Record record = this->record(vertex);
-    return length(record.neighbour_count, record.ring_count, words_[places_[vertex]] == long_record,
-                  record.wide);
+    return length(record.neighbour_count, record.ring_count, record.wide);
 }
 
 void VertexLinks::resize(std::size_t vertices) {
@@ -24,10 +47,10 @@ void VertexLinks::resize(std::size_t vertices) {
 
 void VertexLinks::assign(std::uint32_t vertex, std::span<const std::uint32_t> neighbours,
                          std::span<const std::uint32_t> ring) {
-    const bool is_long = neighbours.size() >= few_neighbours || ring.size() >= few_triangles;
-    bool wide = is_long;
-    for (std::size_t i = 1; i < neighbours.size(); ++i) wide |= neighbours[i] - neighbours[i - 1] > 0xffff;
-    const std::size_t needed = length(neighbours.size(), ring.size(), is_long, wide);
+    const std::uint32_t first = neighbours.empty() ? 0 : neighbours[0] - vertex;
+    const bool wide = neighbours.size() >= few || ring.size() >= few || first + 0x8000 > 0xffff ||
+                      !are_near(neighbours) || !are_near(ring);
+    const std::size_t needed = length(neighbours.size(), ring.size(), wide);
     const std::size_t room = places_[vertex] == 0 ? 0 : length_of(vertex);
     std::size_t place = places_[vertex];
     if (needed > room) {
@@ -41,36 +64,34 @@ void VertexLinks::assign(std::uint32_t vertex, std::span<const std::uint32_t> ne
         abandoned_ += room - needed;
     }
 
-    std::uint32_t* next = words_.data() + place;
+    std::uint16_t* next = words_.data() + place;
     const auto neighbour_count = static_cast<std::uint32_t>(neighbours.size());
     const auto ring_count = static_cast<std::uint32_t>(ring.size());
-    if (is_long) {
-        for (const std::uint32_t word : {long_record, neighbour_count, ring_count}) *next++ = word;
+    if (wide) {
+        *next++ = static_cast<std::uint16_t>(wide_record);
+        next = write32(ring_count, write32(neighbour_count, next));
     } else {
-        *next++ = (wide ? wide_bit : 0) | neighbour_count << 16 | ring_count;
+        *next++ = static_cast<std::uint16_t>(ring_count << few_bits | neighbour_count);
     }
-    next = std::copy(ring.begin(), ring.end(), next);
-    if (!neighbours.empty()) *next++ = neighbours.front();
-    auto* bytes = reinterpret_cast<std::byte*>(next);
-    for (std::size_t i = 1; i < neighbours.size(); ++i) {
-        const std::uint32_t difference = neighbours[i] - neighbours[i - 1];
-        const auto half = static_cast<std::uint16_t>(difference);
+    if (!ring.empty()) next = write_differences(ring, wide, write32(ring[0], next));
+    if (!neighbours.empty()) {
         if (wide)
-            std::memcpy(bytes + 4 * (i - 1), &difference, sizeof difference);
+            next = write32(neighbours[0], next);
         else
-            std::memcpy(bytes + 2 * (i - 1), &half, sizeof half);
+            *next++ = static_cast<std::uint16_t>(first);
+        write_differences(neighbours, wide, next);
     }
     if (abandoned_ > words_.size() / 2 + 64) compact();
 }
 
 // Moves all records together.
 void VertexLinks::compact() {
-    std::pmr::vector<std::uint32_t> words(words_.get_allocator());
+    std::pmr::vector<std::uint16_t> words(words_.get_allocator());
     words.reserve(words_.size() - abandoned_);
     words.push_back(0);
     for (std::uint32_t v = 0; v < places_.size(); ++v) {
         if (places_[v] == 0) continue;
-        const std::uint32_t* from = words_.data() + places_[v];
+        const std::uint16_t* from = words_.data() + places_[v];
         const std::size_t length = length_of(v);
         places_[v] = static_cast<std::uint32_t>(words.size());
         words.insert(words.end(), from, from + length);

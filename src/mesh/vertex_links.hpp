@@ -1,6 +1,6 @@
 // What the topology knows of each vertex: its neighbours over edges, and the triangles of the surface around
-// it, in one place. Neighbours ascend, so all but the first are stored as differences, in 16 bits where those
-// of a vertex fit. A vertex takes about 40 bytes, mostly in one cache line.
+// it, in one place. Numbers ascend, so all but the first are stored as differences, in 16 bits where those
+// of a vertex fit. A vertex inside takes about 35 bytes, mostly in one cache line.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace vox {
 
-// Vertices in ascending order, as they are stored.
-class NeighbourRange {
+// Vertices or triangles in their order, as they are stored.
+class LinkRange {
 public:
     class Iterator {
     public:
@@ -24,13 +24,13 @@ public:
         using pointer = void;
         using iterator_category = std::forward_iterator_tag;
 
-        std::uint32_t operator*() const noexcept { return vertex_; }
+        std::uint32_t operator*() const noexcept { return number_; }
         Iterator& operator++() noexcept {
             if (--left_ == 0) return *this;
             if (wide_) {
-                vertex_ += read<std::uint32_t>();
+                number_ += read<std::uint32_t>();
             } else {
-                vertex_ += read<std::uint16_t>();
+                number_ += read<std::uint16_t>();
             }
             return *this;
         }
@@ -42,27 +42,26 @@ public:
         bool operator==(const Iterator& other) const noexcept { return left_ == other.left_; }
 
     private:
-        friend class NeighbourRange;
+        friend class LinkRange;
 
         template <class Difference>
         Difference read() noexcept {
             Difference difference;
             std::memcpy(&difference, next_, sizeof difference);
-            next_ += sizeof difference;
+            next_ += sizeof difference / sizeof *next_;
             return difference;
         }
 
-        const std::byte* next_ = nullptr;
-        std::uint32_t left_ = 0, vertex_ = 0;
+        const std::uint16_t* next_ = nullptr;
+        std::uint32_t left_ = 0, number_ = 0;
         bool wide_ = false;
     };
 
-    NeighbourRange() = default;
-    // `words` is the first vertex and what follows it.
-    NeighbourRange(const std::uint32_t* words, std::uint32_t count, bool wide) noexcept {
-        if (count == 0) return;
-        first_.vertex_ = *words;
-        first_.next_ = reinterpret_cast<const std::byte*>(words + 1);
+    LinkRange() = default;
+    // `next` are the differences between `count` numbers, of which the first is given.
+    LinkRange(std::uint32_t first, const std::uint16_t* next, std::uint32_t count, bool wide) noexcept {
+        first_.number_ = first;
+        first_.next_ = next;
         first_.left_ = count;
         first_.wide_ = wide;
     }
@@ -82,18 +81,22 @@ public:
 
     std::size_t size() const noexcept { return places_.size(); } // vertices
     bool empty() const noexcept { return places_.empty(); }
-    std::size_t capacity() const noexcept { return places_.capacity() + words_.capacity(); }
-    NeighbourRange neighbours(std::uint32_t vertex) const noexcept {
-        const Record record = this->record(vertex);
-        return {record.ring + record.ring_count, record.neighbour_count, record.wide};
+    std::size_t bytes() const noexcept {
+        return places_.capacity() * sizeof places_[0] + words_.capacity() * sizeof words_[0];
     }
-    std::span<const std::uint32_t> ring(std::uint32_t vertex) const noexcept {
+    LinkRange neighbours(std::uint32_t vertex) const noexcept {
         const Record record = this->record(vertex);
-        return {record.ring, record.ring_count};
+        const std::uint16_t* words = record.ring + record.ring_length();
+        if (record.neighbour_count == 0) return {};
+        if (record.wide) return {read32(words), words + 2, record.neighbour_count, true};
+        const auto first = static_cast<std::int16_t>(*words); // from the vertex on
+        return {vertex + static_cast<std::uint32_t>(std::int32_t{first}), words + 1, record.neighbour_count,
+                false};
     }
-    std::span<std::uint32_t> ring(std::uint32_t vertex) noexcept {
+    LinkRange ring(std::uint32_t vertex) const noexcept {
         const Record record = this->record(vertex);
-        return {words_.data() + (record.ring - words_.data()), record.ring_count};
+        if (record.ring_count == 0) return {};
+        return {read32(record.ring), record.ring + 2, record.ring_count, record.wide};
     }
 
     // For a vertex that is looked at soon, the first some time before the second.
@@ -104,35 +107,51 @@ public:
     // nothing then.
     // Sets the number of vertices; new ones have neither neighbours nor triangles.
     void resize(std::size_t vertices);
-    void reserve(std::size_t words) { words_.reserve(words); }
+    void reserve(std::size_t words) { words_.reserve(words); } // of 16 bits
     void shrink_to_fit() { words_.shrink_to_fit(); }
-    // `neighbours` ascend.
+    // `neighbours` ascend. A ring takes the least room if it does.
     void assign(std::uint32_t vertex, std::span<const std::uint32_t> neighbours,
                 std::span<const std::uint32_t> ring);
 
 private:
-    // A record is a word with the counts and the kind of differences, or three words where the counts are
-    // large. Then come the ring, the first neighbour, and the differences between neighbours.
-    static constexpr std::uint32_t long_record = 0xffffffffu, wide_bit = 0x80000000u;
-    static constexpr std::uint32_t few_neighbours = 0x7fff, few_triangles = 0xffff; // less than that
+    // A record begins with a word: 7 bits for the number of neighbours, 7 for that of triangles. Then come
+    // the ring and the neighbours, each as its first number and the differences between the others. The first
+    // neighbour is a difference, too, from the vertex. Where all this does not fit, the first word is the bit
+    // for wide records, and all that follows has 32 bits: the numbers of both, and what is said above. The
+    // differences are modulo 2^32 then.
+    static constexpr std::uint32_t wide_record = 0x8000u, few_bits = 7, few = 1u << few_bits;
 
     struct Record {
-        const std::uint32_t* ring;
+        const std::uint16_t* ring;
         std::uint32_t neighbour_count, ring_count;
         bool wide;
-    };
 
-    Record record(std::uint32_t vertex) const noexcept {
-        const std::uint32_t* words = words_.data() + places_[vertex];
-        if (*words == long_record) return {words + 3, words[1], words[2], true};
-        return {words + 1, *words >> 16 & few_neighbours, *words & few_triangles, (*words & wide_bit) != 0};
+        std::size_t ring_length() const noexcept { return vox::VertexLinks::ring_length(ring_count, wide); }
+    };
+    // In words.
+    static std::size_t ring_length(std::uint32_t count, bool wide) noexcept {
+        return count == 0 ? 0 : wide ? 2 * std::size_t{count} : std::size_t{count} + 1;
     }
-    static std::size_t length(std::size_t neighbours, std::size_t ring, bool is_long, bool wide) noexcept;
+    static std::size_t length(std::size_t neighbours, std::size_t ring, bool wide) noexcept {
+        return wide ? 5 + 2 * (neighbours + ring)
+                    : 1 + neighbours + ring_length(static_cast<std::uint32_t>(ring), false);
+    }
+
+    static std::uint32_t read32(const std::uint16_t* words) noexcept {
+        std::uint32_t number;
+        std::memcpy(&number, words, sizeof number);
+        return number;
+    }
+    Record record(std::uint32_t vertex) const noexcept {
+        const std::uint16_t* words = words_.data() + places_[vertex];
+        if (*words == wide_record) return {words + 5, read32(words + 1), read32(words + 3), true};
+        return {words + 1, *words & (few - 1), std::uint32_t{*words} >> few_bits, false};
+    }
     std::size_t length_of(std::uint32_t vertex) const noexcept;
     void compact();
 
     std::pmr::vector<std::uint32_t> places_; // of each vertex, where its record begins in words_
-    std::pmr::vector<std::uint32_t> words_;  // the first record is that of all vertices without links
+    std::pmr::vector<std::uint16_t> words_;  // the first record is that of all vertices without links
     std::size_t abandoned_ = 0;              // words that are in no record
 };
 

@@ -135,11 +135,11 @@ struct Links {
 
 void expect_links(const VertexLinks& links, const std::vector<Links>& expected) {
     for (std::uint32_t v = 0; v < expected.size(); ++v) {
-        const NeighbourRange neighbours = links.neighbours(v);
+        const LinkRange neighbours = links.neighbours(v), ring = links.ring(v);
         ck_assert_uint_eq(neighbours.size(), expected[v].neighbours.size());
+        ck_assert_uint_eq(ring.size(), expected[v].ring.size());
         ck_assert(std::equal(neighbours.begin(), neighbours.end(), expected[v].neighbours.begin()));
-        const std::span<const std::uint32_t> ring = links.ring(v);
-        ck_assert(std::equal(ring.begin(), ring.end(), expected[v].ring.begin(), expected[v].ring.end()));
+        ck_assert(std::equal(ring.begin(), ring.end(), expected[v].ring.begin()));
     }
 }
 
@@ -155,6 +155,7 @@ START_TEST(records_of_vertices) {
         // Differences of 16 bits, just that, and more; rarely as many as take a longer record.
         const std::uint32_t reach = random.below(3) == 0 ? 1u << 28 : random.below(2) == 0 ? 65536 : 500;
         std::uint32_t count = random.below(30), next = random.below(reach), triangles = random.below(9);
+        if (random.below(2) == 0) next = v + random.below(80000) - std::min(v, random.below(40000));
         if (change % 500 == 499) {
             count = 32760 + random.below(20);
             triangles = 65530 + random.below(20);
@@ -165,7 +166,10 @@ START_TEST(records_of_vertices) {
             if (next > UINT32_MAX - step) break;
             next += step;
         }
-        for (std::uint32_t i = 0; i < triangles; ++i) of.ring.push_back(random.below(1u << 31));
+        // In the order of their numbers, or in none, as after edits.
+        for (std::uint32_t i = 0; i < triangles; ++i)
+            of.ring.push_back(random.below(std::max(reach, 1u << 20)));
+        if (random.below(3) > 0) std::sort(of.ring.begin(), of.ring.end());
         links.assign(v, of.neighbours, of.ring);
         if (change % 100 == 0) expect_links(links, expected);
     }
@@ -184,7 +188,54 @@ START_TEST(records_that_change_keep_their_room) {
     for (std::uint32_t i = 0; i < many.size(); ++i) many[i] = 3 * i;
     few = {1, 2, 3};
     for (int i = 0; i < 10000; ++i) links.assign(std::uint32_t(i) % 10, i / 10 % 2 ? many : few, {});
-    ck_assert_uint_lt(links.capacity(), 5000);
+    ck_assert_uint_lt(links.bytes(), 10000);
+}
+END_TEST
+
+START_TEST(what_lies_across) {
+    // Small meshes, large ones numbered in order, and large ones numbered at random, which take 32 bits.
+    Random random{std::uint64_t(_i) + 1};
+    const std::uint32_t tets = _i % 3 == 0 ? 1 + random.below(50000) : 60000 + random.below(40000);
+    const bool in_order = _i % 3 < 2;
+    std::vector<std::array<std::uint32_t, 4>> expected(
+        tets, {Across::nothing, Across::nothing, Across::nothing, Across::nothing});
+    const auto some_tet = [&](std::uint32_t near) {
+        const std::uint32_t reach = in_order && random.below(50) > 0 ? 57344 : 2 * tets;
+        const std::int64_t tet = std::int64_t{near} + random.below(reach) - reach / 2;
+        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(tet, 0, tets - 1));
+    };
+    const auto expect = [&](const Across& across) {
+        ck_assert_uint_eq(across.size(), expected.size());
+        for (std::uint32_t t = 0; t < expected.size(); ++t) {
+            ck_assert(across[t] == expected[t]);
+            ck_assert_uint_eq(across(t, t % 4), expected[t][t % 4]);
+        }
+    };
+    Across across(memory());
+    across.begin(tets);
+    for (std::uint32_t t = 0; t < tets; ++t)
+        for (std::uint32_t i = 0; i < 4; ++i)
+            if (random.below(10) > 0) across.build(t, i, expected[t][i] = some_tet(t));
+    std::uint32_t triangle = 0;
+    for (std::uint32_t i = 0; i < tets / 5; ++i) { // they ascend, but not as the tetrahedra do
+        const std::uint32_t t = in_order ? some_tet(std::min(5 * i, tets - 1)) : random.below(tets);
+        std::uint32_t& facet = expected[t][i % 4];
+        if (facet != Across::nothing) continue;
+        across.build(t, i % 4, facet = Across::surface_bit | triangle++);
+    }
+    across.finish();
+    expect(across);
+    if (in_order) ck_assert_uint_lt(across.bytes(), 9 * std::size_t{tets});
+    across.widen();
+    expect(across);
+    ck_assert_uint_le(across.bytes(), 16 * std::size_t{tets});
+    across.resize(tets + 3);
+    expected.resize(tets + 3, {Across::nothing, Across::nothing, Across::nothing, Across::nothing});
+    for (int change = 0; change < 100; ++change) {
+        const std::uint32_t t = random.below(tets + 3), i = random.below(4);
+        across.set(t, i, expected[t][i] = change % 2 ? random.below(tets) : Across::nothing);
+    }
+    expect(across);
 }
 END_TEST
 
@@ -219,6 +270,7 @@ int main() {
     tcase_add_test(tests, no_walks);
     tcase_add_loop_test(tests, records_of_vertices, 0, 4);
     tcase_add_test(tests, records_that_change_keep_their_room);
+    tcase_add_loop_test(tests, what_lies_across, 0, 6);
     tcase_add_loop_test(tests, places_of_numbers, 0, 4);
     return run_suite(suite);
 }

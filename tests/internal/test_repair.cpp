@@ -196,9 +196,9 @@ void check_topology(const Edited& e, const Topology& repaired) {
     }
     for (std::uint32_t v = 0; v < vertex_count(e.mesh); ++v) {
         ck_assert(std::ranges::equal(repaired.neighbours_of(v), anew.neighbours_of(v)));
-        const std::span<const std::uint32_t> ring = repaired.ring_of(v), other = anew.ring_of(v);
-        ck_assert_uint_eq(ring.size(), other.size());
-        for (std::size_t i = 0; i < ring.size(); ++i) ck_assert_uint_eq(number[ring[i]], other[i]);
+        std::vector<std::uint32_t> ring;
+        for (const std::uint32_t t : repaired.ring_of(v)) ring.push_back(number[t]);
+        ck_assert(std::ranges::equal(ring, anew.ring_of(v)));
     }
     ck_assert_uint_eq(repaired.across.size(), anew.across.size());
     for (std::size_t t = 0; t < anew.across.size(); ++t)
