@@ -341,7 +341,7 @@ START_TEST(pairs_are_all_that_overlap) {
                 if (meet) expected.emplace_back(a, b);
                 touching += meet && touch;
             }
-        fast::find_pairs(boxes, buffers, pairs);
+        fast::find_pairs(boxes, {}, buffers, pairs);
         for (const fast::Pair& pair : pairs) found.emplace_back(pair.a, pair.b);
         ck_assert_msg(found == expected, "%zu boxes: %zu pairs, expected %zu", boxes.size(), found.size(),
                       expected.size());
