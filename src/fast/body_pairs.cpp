@@ -1,12 +1,11 @@
-// First a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies, 1992; Cohen et al.,
-// I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that begin before it ends.
-// The axis is the one along which the boxes' centres vary most. It is given up where most of what it tests is in
-// vain, as in a scaffold of rods.
+// Where that takes few tests, a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid
+// bodies, 1992; Cohen et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against
+// those that begin before it ends. The axis is the one along which the boxes' centres vary most.
 //
-// Then a streamed segment tree, which does not depend on where the boxes are (A. Zomorodian, H. Edelsbrunner,
-// Fast software for box intersections, Int. J. Comput. Geom. Appl. 12, 2002, Sect. 3; the same as a join). It is
-// given up in turn where most of what it finds is excluded by filters, as in a pile of bodies of one negative
-// group; then classes of bodies that the filters treat alike are joined, two at a time.
+// Else, as for a scaffold of rods, a streamed segment tree, whose time does not depend on where the boxes are
+// (A. Zomorodian, H. Edelsbrunner, Fast software for box intersections, Int. J. Comput. Geom. Appl. 12, 2002,
+// Sect. 3). It is given up where most of what it finds is excluded by filters, as in a pile of bodies of one
+// negative group; then classes of bodies that the filters treat alike are joined, two at a time.
 #include "fast/body_pairs.hpp"
 
 #include "mesh/filter.hpp"
@@ -14,16 +13,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 
 namespace vox::fast {
 
 namespace {
 
-// A way to find pairs is given up when it has looked at so many for each box in vain. By bench_pairs, the join
-// takes as long as 100 to 400 tests of the sweep for each box.
-constexpr std::uint64_t sweep_patience = 64;
-constexpr std::uint64_t join_patience = 64;
-constexpr std::uint64_t least_patience = 16384; // for all boxes
+// Tests of the sweep for each box beyond which the join is faster: by bench_stages, it takes as long as 250
+// to 800.
+constexpr std::uint64_t most_tests = 400;
+// The join is given up when so many pairs that it found for each box are excluded.
+constexpr std::uint64_t most_excluded = 64;
+constexpr std::uint64_t few_boxes = 64; // that all of this is not worth the trouble for
 
 int widest_axis(std::span<const Box> boxes) {
     double sum[3] = {}, squares[3] = {}, count = 0;
@@ -57,31 +58,31 @@ void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair
     for (const Pair& pair : from) to[first[pair.*key]++] = pair;
 }
 
-// Collects the pairs that are wanted, and counts what was looked at in vain.
+// Collects the pairs that are wanted, and counts those that are not.
 class PairCollector {
 public:
-    PairCollector(const PairRules& rules, std::pmr::vector<Pair>& found) : rules_(rules), found_(found) {
-        found_.clear();
-    }
+    PairCollector(const PairRules& rules, std::pmr::vector<Pair>& found) : rules_(rules), found_(found) {}
 
-    void start(std::uint64_t patience) {
+    // Begins anew. It is full when it was given more than so many pairs that are excluded.
+    void start(std::uint64_t most) {
         found_.clear();
-        patience_ = patience;
-        in_vain = 0;
+        most_excluded_ = most;
+        excluded_ = 0;
     }
-    bool gave_up() const noexcept { return in_vain > patience_; }
+    bool is_full() const noexcept { return excluded_ > most_excluded_; }
 
     // Two boxes overlap.
     void add(std::uint32_t a, std::uint32_t b) {
         if (!is_wanted(a, b)) {
-            ++in_vain;
+            ++excluded_;
             return;
         }
         found_.push_back({a, b});
         found_.push_back({b, a});
     }
 
-    std::uint64_t in_vain = 0;
+    void count_looks(std::uint64_t looks) noexcept { looks_ += looks; }
+    std::uint64_t looks() const noexcept { return looks_; }
 
 private:
     bool is_wanted(std::uint32_t a, std::uint32_t b) const {
@@ -93,36 +94,10 @@ private:
 
     const PairRules& rules_;
     std::pmr::vector<Pair>& found_;
-    std::uint64_t patience_ = 0;
+    std::uint64_t most_excluded_ = 0, excluded_ = 0, looks_ = 0;
 };
 
-// ---- the sweep --------------------------------------------------------------------------------------
-
-void sweep(std::span<const Box> boxes, PairBuffers& buffers, PairCollector& out) {
-    std::pmr::vector<std::uint32_t>& order = buffers.order;
-    const int axis = widest_axis(boxes);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const float x = boxes[a].lo[axis], y = boxes[b].lo[axis];
-        return x != y ? x < y : a < b;
-    });
-    buffers.boxes.clear();
-    for (const std::uint32_t i : order) buffers.boxes.push_back(boxes[i]);
-    const Box* sorted = buffers.boxes.data();
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Box box = sorted[i];
-        std::size_t j = i + 1;
-        std::uint64_t overlapping = 0;
-        for (; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j) {
-            if (!overlap(box, sorted[j])) continue;
-            ++overlapping;
-            out.add(order[i], order[j]);
-        }
-        out.in_vain += j - i - 1 - overlapping;
-        if (out.gave_up()) return;
-    }
-}
-
-// ---- the join ---------------------------------------------------------------------------------------
+// ---- order --------------------------------------------------------------------------------------------
 
 // The bits of a float in the order of its value; the two zeros are one.
 std::uint32_t ordered_bits(float value) noexcept {
@@ -130,28 +105,90 @@ std::uint32_t ordered_bits(float value) noexcept {
     return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
 
-// Of the boxes in `order`.
-void rank_boxes(std::span<const Box> boxes, std::span<const std::uint32_t> order,
-                std::pmr::vector<std::uint64_t>& corners, std::pmr::vector<RankedBox>& ranked) {
-    const auto count = static_cast<std::uint32_t>(order.size());
-    ranked.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) ranked[i].box = order[i];
-    corners.resize(2 * std::size_t{count});
-    constexpr std::uint32_t is_high = 0x80000000u; // after low corners in the same place
+// Sorts by the upper half: a radix sort, stable (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
+// `other` is a buffer.
+void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other) {
+    constexpr std::size_t few_items = 512; // are sorted faster by comparisons; their lower halves ascend
+    if (items.size() <= few_items) return std::sort(items.begin(), items.end());
+    other.resize(items.size());
+    constexpr int digit_bits = 11;
+    constexpr std::size_t values = std::size_t{1} << digit_bits;
+    std::array<std::uint32_t, values> place;
+    for (int shift = 32; shift < 64; shift += digit_bits) {
+        place.fill(0);
+        for (const std::uint64_t item : items) ++place[(item >> shift) % values];
+        std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
+        for (const std::uint64_t item : items) other[place[(item >> shift) % values]++] = item;
+        items.swap(other);
+    }
+}
+
+// The boxes that are not empty, by where they begin along an axis, then by index.
+void sort_boxes(std::span<const Box> boxes, int axis, PairBuffers& buffers) {
+    buffers.corners.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (!is_empty(boxes[i]))
+            buffers.corners.push_back(std::uint64_t{ordered_bits(boxes[i].lo[axis])} << 32 | i);
+    sort_by_upper_half(buffers.corners, buffers.other_corners);
+    buffers.order.resize(buffers.corners.size());
+    buffers.boxes.resize(buffers.corners.size());
+    for (std::size_t i = 0; i < buffers.corners.size(); ++i) {
+        buffers.order[i] = static_cast<std::uint32_t>(buffers.corners[i]);
+        buffers.boxes[i] = boxes[buffers.order[i]];
+    }
+}
+
+// ---- the sweep --------------------------------------------------------------------------------------
+
+// How many tests it takes, or a number above `most` where it takes more.
+std::uint64_t count_tests(std::span<const Box> sorted, int axis, std::uint64_t most) {
+    std::uint64_t tests = 0;
+    for (std::size_t i = 0; i < sorted.size() && tests <= most; ++i) {
+        const float end = sorted[i].hi[axis];
+        std::size_t step = 1; // doubled, then halved: mostly few boxes begin before one ends
+        while (i + step < sorted.size() && sorted[i + step].lo[axis] <= end) step *= 2;
+        const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(i + step / 2),
+                   last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(i + step, sorted.size()));
+        const auto next = std::partition_point(first + (first < last), last,
+                                               [&](const Box& box) { return box.lo[axis] <= end; });
+        tests += static_cast<std::uint64_t>(next - sorted.begin()) - i - 1;
+    }
+    return tests;
+}
+
+void sweep(std::span<const Box> sorted, std::span<const std::uint32_t> order, int axis, PairCollector& out) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Box box = sorted[i];
+        std::size_t j = i + 1;
+        for (; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j)
+            if (overlap(box, sorted[j])) out.add(order[i], order[j]);
+        out.count_looks(j - i);
+    }
+}
+
+// ---- the join ---------------------------------------------------------------------------------------
+
+// Of the sorted boxes. Their last axis is the given one.
+void rank_boxes(int axis_of_last, PairBuffers& buffers) {
+    const auto count = static_cast<std::uint32_t>(buffers.order.size());
+    buffers.ranked.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) buffers.ranked[i].box = buffers.order[i];
+    buffers.corners.resize(2 * std::size_t{count});
     for (int axis = 0; axis < 3; ++axis) {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const Box& box = boxes[order[i]];
-            corners[2 * i] = std::uint64_t{ordered_bits(box.lo[axis])} << 32 | i;
-            corners[2 * i + 1] = std::uint64_t{ordered_bits(box.hi[axis])} << 32 | is_high | i;
+        const int from = (axis_of_last + 1 + axis) % 3;
+        for (std::uint32_t i = 0; i < count; ++i) { // low corners before high ones in the same place
+            const Box& box = buffers.boxes[i];
+            buffers.corners[i] = std::uint64_t{ordered_bits(box.lo[from])} << 32 | i;
+            buffers.corners[count + i] = std::uint64_t{ordered_bits(box.hi[from])} << 32 | (count + i);
         }
-        std::sort(corners.begin(), corners.end());
+        sort_by_upper_half(buffers.corners, buffers.other_corners);
         std::uint32_t next = 0;
-        for (const std::uint64_t corner : corners) {
-            const auto low_bits = static_cast<std::uint32_t>(corner);
-            if (low_bits & is_high)
-                ranked[low_bits & ~is_high].hi[axis] = next - 1;
+        for (const std::uint64_t item : buffers.corners) {
+            const auto corner = static_cast<std::uint32_t>(item);
+            if (corner < count)
+                buffers.ranked[corner].lo[axis] = next++;
             else
-                ranked[low_bits].lo[axis] = next++;
+                buffers.ranked[corner - count].hi[axis] = next - 1;
         }
     }
 }
@@ -165,17 +202,18 @@ bool holds_low_corner(const RankedBox& outer, const RankedBox& inner, int axis) 
 }
 
 // Adds all pairs of an outer and an inner box of which the outer one holds the low corner of the inner one
-// along `axis`, and that overlap along the axes before it; along those after it they are known to. It goes down
-// a segment tree over the ranks [first, last), of `all` ranks, that is not stored. The low corners of inner boxes
-// are in that range, and outer boxes meet it. Boxes change their order.
+// along `axis`, and that overlap along the axes before it; along those after it they are known to. It goes
+// down a segment tree over the ranks [first, last), of `all` ranks, that is not stored. The low corners of
+// inner boxes are in that range, and outer boxes meet it. Boxes change their order.
 void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t first, std::uint32_t last,
           std::uint32_t all, int axis, PairCollector& out) {
     constexpr std::size_t few = 12; // boxes that are tested one by one
     const auto add = [&](const RankedBox& a, const RankedBox& b) {
         if (a.box != b.box) out.add(a.box, b.box);
     };
-    if (outer.empty() || inner.empty() || out.gave_up()) return;
+    if (outer.empty() || inner.empty() || out.is_full()) return;
     if (std::min(outer.size(), inner.size()) <= few) {
+        out.count_looks(outer.size() * inner.size());
         for (const RankedBox& a : outer)
             for (const RankedBox& b : inner) {
                 bool meet = holds_low_corner(a, b, axis);
@@ -184,6 +222,7 @@ void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t 
             }
         return;
     }
+    out.count_looks(outer.size() + inner.size());
     const auto end_of_spanning = std::partition(outer.begin(), outer.end(), [=](const RankedBox& box) {
         return box.lo[axis] <= first && box.hi[axis] >= last - 1;
     });
@@ -192,17 +231,18 @@ void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t 
         join(spanning, inner, 0, all, all, axis - 1, out);
         join(inner, spanning, 0, all, all, axis - 1, out);
     } else {
+        out.count_looks(spanning.size() * inner.size());
         for (const RankedBox& a : spanning) {
             for (const RankedBox& b : inner) add(a, b);
-            if (out.gave_up()) return;
+            if (out.is_full()) return;
         }
     }
     if (rest.empty()) return;
     const std::uint32_t middle = first + (last - first) / 2;
     const auto low_inner = std::partition(inner.begin(), inner.end(),
                                           [=](const RankedBox& box) { return box.lo[axis] < middle; });
-    const auto low_end = std::partition(rest.begin(), rest.end(),
-                                        [=](const RankedBox& box) { return box.lo[axis] < middle; });
+    const auto low_end =
+        std::partition(rest.begin(), rest.end(), [=](const RankedBox& box) { return box.lo[axis] < middle; });
     join({rest.begin(), low_end}, {inner.begin(), low_inner}, first, middle, all, axis, out);
     const auto high_end = std::partition(rest.begin(), rest.end(),
                                          [=](const RankedBox& box) { return box.hi[axis] >= middle; });
@@ -288,22 +328,25 @@ void join_classes(const PairRules& rules, PairBuffers& buffers, PairCollector& o
 
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
                 std::pmr::vector<Pair>& pairs) {
-    buffers.order.clear();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (!is_empty(boxes[i])) buffers.order.push_back(i);
-    const auto patience = [&](std::uint64_t of_each) { return least_patience + of_each * boxes.size(); };
+    const int axis = widest_axis(boxes);
+    sort_boxes(boxes, axis, buffers);
+    const std::size_t count = buffers.order.size();
+    const std::uint64_t most = most_tests * count;
+    constexpr std::uint64_t no_limit = ~std::uint64_t{0};
     PairCollector out(rules, buffers.found);
-    out.start(patience(sweep_patience));
-    sweep(boxes, buffers, out);
-    if (out.gave_up()) {
-        rank_boxes(boxes, buffers.order, buffers.corners, buffers.ranked);
-        out.start(patience(join_patience));
+    if (count <= few_boxes || count_tests(buffers.boxes, axis, most) <= most) {
+        out.start(no_limit);
+        sweep(buffers.boxes, buffers.order, axis, out);
+    } else {
+        rank_boxes(axis, buffers);
+        out.start(rules.bodies.empty() ? no_limit : most_excluded * count);
         join_all(buffers, out);
+        if (out.is_full()) {
+            out.start(no_limit);
+            join_classes(rules, buffers, out);
+        }
     }
-    if (out.gave_up()) {
-        out.start(~std::uint64_t{0});
-        join_classes(rules, buffers, out);
-    }
+    buffers.looks = out.looks();
 
     std::pmr::vector<Pair>& found = buffers.found;
     pairs.resize(found.size());

@@ -36,22 +36,22 @@ struct RankedBox {
 // Buffers kept from step to step.
 struct PairBuffers {
     explicit PairBuffers(std::pmr::memory_resource* memory)
-        : order(memory), boxes(memory), found(memory), first(memory), corners(memory), ranked(memory),
-          inner(memory), outer(memory) {}
+        : order(memory), boxes(memory), corners(memory), other_corners(memory), found(memory), first(memory),
+          ranked(memory), inner(memory), outer(memory) {}
 
-    std::pmr::vector<std::uint32_t> order;
-    std::pmr::vector<Box> boxes; // in that order
+    std::pmr::vector<std::uint32_t> order; // boxes that are not empty, along the axis of the sweep
+    std::pmr::vector<Box> boxes;           // in that order
+    std::pmr::vector<std::uint64_t> corners, other_corners;
     std::pmr::vector<Pair> found;
     std::pmr::vector<std::uint32_t> first;
-    // Of scenes for which the sweep does not do.
-    std::pmr::vector<std::uint64_t> corners;
-    std::pmr::vector<RankedBox> ranked, inner, outer;
+    std::pmr::vector<RankedBox> ranked, inner, outer; // of scenes for which the sweep does not do
+    std::uint64_t looks = 0; // at a pair, or at a box to divide them, in the last call
 };
 
-// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap and are wanted either way, sorted
-// by a, then b. Empty boxes overlap nothing. Of n boxes, takes O(n log^3 n) and what the wanted pairs take, but
-// for pairs of boxes that overlap and that more than most_rule_classes kinds of filters, or exceptions, exclude:
-// these are tested one by one. Memory is taken for boxes and for wanted pairs alone.
+// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap and are wanted either way,
+// sorted by a, then b. Empty boxes overlap nothing. Of n boxes, takes O(n log^3 n) and what the wanted pairs
+// take, but for pairs of boxes that overlap and that more than most_rule_classes kinds of filters, or
+// exceptions, exclude: these are tested one by one. Memory is taken for boxes and for wanted pairs alone.
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
                 std::pmr::vector<Pair>& pairs);
 inline constexpr std::size_t most_rule_classes = 32;

@@ -131,16 +131,30 @@ constexpr std::size_t task_boxes = 4096;
 constexpr std::size_t task_blocks = 4 * piece_blocks;
 constexpr std::size_t task_tiles = 256;
 
-// Pairs of bodies that may collide, with the region where their boxes overlap.
+// The box around those vertices of a body of one block that are in a region.
+Box box_of_vertices(const StepBody& body, const Box& region) {
+    Box box = empty_box;
+    const float* p = body.positions;
+    for (std::uint32_t v = body.tiles->block_first.front(); v < body.tiles->block_first.back(); ++v, p += 3) {
+        const Box point{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+        if (overlap(point, region)) add(box, point);
+    }
+    return box;
+}
+
+// Pairs of bodies that may collide, with the region where their boxes overlap. Where many small bodies are in
+// one place, their vertices show that most pairs are none.
 void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
     find_pairs(boxes.bodies, {step.bodies, step.of}, out.pair_buffers, out.pairs);
     out.regions.clear();
-    if (out.regions.capacity() < out.pairs.size())
-        out.regions.reserve(out.pairs.size() + out.pairs.size() / 8);
     for (const Pair& pair : out.pairs) {
         if (step.bodies[pair.b].tets.empty()) continue;
         PairRegion region{pair.a, pair.b, boxes.bodies[pair.a], {}};
         intersect(region.region, boxes.bodies[pair.b]);
+        if (step.of[pair.a].tiles->block_count() == 1) {
+            region.region = box_of_vertices(step.of[pair.a], region.region);
+            if (is_empty(region.region)) continue;
+        }
         out.regions.push_back(region);
     }
 }
@@ -190,8 +204,8 @@ void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& pie
 }
 
 // The boxes of the super-tiles of a body, and of all tiles in those that others reach. Of a super-tile inside
-// the regions that it meets, only the first tile gets one: nearly all of its tiles will be looked up in, and their
-// vertices be read for that anyway.
+// the regions that it meets, only the first tile gets one: nearly all of its tiles will be looked up in, and
+// their vertices be read for that anyway.
 void make_reached_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {
     if (!broad.is_reached(piece.body)) return;
     const StepBody& body = step.of[piece.body];
