@@ -63,7 +63,7 @@ class PairCollector {
 public:
     PairCollector(const PairRules& rules, std::pmr::vector<Pair>& found) : rules_(rules), found_(found) {}
 
-    // Begins anew. It is full when it was given more than so many pairs that are excluded.
+    // Starts again. It is full when it was given more than so many pairs that are excluded.
     void start(std::uint64_t most) {
         found_.clear();
         most_excluded_ = most;
