@@ -278,7 +278,7 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
          }},
         {"block boxes", "vertex", s.vertices,
          [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},
-        {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, s.pair_buffers, s.pairs); }},
+        {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, {}, s.pair_buffers, s.pairs); }},
         {"sides", "block", s.blocks.size(),
          [&s] { fast::find_sides(s.blocks.data(), s.blocks.size(), s.region, s.sides.data()); }},
         {"tile boxes", "tet", tets,

@@ -2,7 +2,7 @@
 
 #include "base/sampling.hpp"
 #include "base/vectors.hpp"
-#include "fast/broad_phase.hpp"
+#include "fast/body_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
     }
     fast::PairBuffers buffers(scene.memory);
     std::pmr::vector<fast::Pair> pairs(scene.memory);
-    fast::find_pairs(boxes, buffers, pairs);
+    fast::find_pairs(boxes, {.bodies = scene.bodies}, buffers, pairs);
     const fast::Pair* pair = pairs.data(); // sorted by a
     const fast::Pair* const last_pair = pair + pairs.size();
     std::uint32_t first = 0;

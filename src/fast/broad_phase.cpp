@@ -1,11 +1,8 @@
-// Pairs of bodies by a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid bodies,
-// 1992; Cohen et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against those that
-// begin before it ends. The axis is the one along which the boxes' centres vary most. Then, for each pair,
-// the region where the boxes of the two bodies overlap is shrunk to what blocks of a and tiles of b cover.
+// For each pair of bodies (body_pairs.hpp), the region where the boxes of the two overlap is shrunk to what
+// blocks of a and tiles of b cover.
 #include "fast/broad_phase.hpp"
 
 #include "base/simd.hpp"
-#include "mesh/filter.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -127,71 +124,6 @@ void make_tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t f
 
 namespace {
 
-int widest_axis(std::span<const Box> boxes) {
-    double sum[3] = {}, squares[3] = {}, count = 0;
-    for (const Box& box : boxes) {
-        if (is_empty(box)) continue;
-        count += 1;
-        for (int a = 0; a < 3; ++a) {
-            const double c = 0.5 * (double{box.lo[a]} + double{box.hi[a]});
-            sum[a] += c;
-            squares[a] += c * c;
-        }
-    }
-    int axis = 0;
-    double widest = -1;
-    for (int a = 0; a < 3 && count > 0; ++a) {
-        const double variance = squares[a] / count - sum[a] / count * (sum[a] / count);
-        if (variance > widest) {
-            widest = variance;
-            axis = a;
-        }
-    }
-    return axis;
-}
-
-// One pass of a radix sort whose digit is a whole index: stable, by Pair::*key.
-void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair> from, std::span<Pair> to,
-             std::pmr::vector<std::uint32_t>& first) {
-    first.assign(indices + 1, 0);
-    for (const Pair& pair : from) ++first[pair.*key + 1];
-    for (std::size_t i = 1; i <= indices; ++i) first[i] += first[i - 1];
-    for (const Pair& pair : from) to[first[pair.*key]++] = pair;
-}
-
-} // namespace
-
-void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs) {
-    std::pmr::vector<std::uint32_t>& order = buffers.order;
-    std::pmr::vector<Pair>& found = buffers.found;
-    order.clear();
-    found.clear();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (!is_empty(boxes[i])) order.push_back(i);
-    const int axis = widest_axis(boxes);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const float x = boxes[a].lo[axis], y = boxes[b].lo[axis];
-        return x != y ? x < y : a < b;
-    });
-    buffers.boxes.clear();
-    for (const std::uint32_t i : order) buffers.boxes.push_back(boxes[i]);
-    const Box* sorted = buffers.boxes.data();
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Box box = sorted[i];
-        for (std::size_t j = i + 1; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j) {
-            if (!overlap(box, sorted[j])) continue;
-            found.push_back({order[i], order[j]});
-            found.push_back({order[j], order[i]});
-        }
-    }
-    pairs.resize(found.size());
-    sort_by(&Pair::b, boxes.size(), found, pairs, buffers.first);
-    std::copy(pairs.begin(), pairs.end(), found.begin());
-    sort_by(&Pair::a, boxes.size(), found, pairs, buffers.first);
-}
-
-namespace {
-
 // How much work is worth a task of its own. Handing out a task takes a microsecond or more, and by
 // bench_stages so much work takes two to eight: testing boxes at 0.5 to 1 ns each, or making boxes of tiles
 // at 15 to 30 ns each.
@@ -199,17 +131,30 @@ constexpr std::size_t task_boxes = 4096;
 constexpr std::size_t task_blocks = 4 * piece_blocks;
 constexpr std::size_t task_tiles = 256;
 
-// Pairs of bodies that may collide, with the region where their boxes overlap.
+// The box around those vertices of a body of one block that are in a region.
+Box box_of_vertices(const StepBody& body, const Box& region) {
+    Box box = empty_box;
+    const float* p = body.positions;
+    for (std::uint32_t v = body.tiles->block_first.front(); v < body.tiles->block_first.back(); ++v, p += 3) {
+        const Box point{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+        if (overlap(point, region)) add(box, point);
+    }
+    return box;
+}
+
+// Pairs of bodies that may collide, with the region where their boxes overlap. Where many small bodies are in
+// one place, their vertices show that most pairs are none.
 void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
-    find_pairs(boxes.bodies, out.pair_buffers, out.pairs);
+    find_pairs(boxes.bodies, {step.bodies, step.of}, out.pair_buffers, out.pairs);
     out.regions.clear();
-    if (out.regions.capacity() < out.pairs.size())
-        out.regions.reserve(out.pairs.size() + out.pairs.size() / 8);
     for (const Pair& pair : out.pairs) {
-        if (step.bodies[pair.b].tets.empty() || !collide(step.bodies[pair.a], step.bodies[pair.b])) continue;
-        if (!step.of[pair.a].moved && !step.of[pair.b].moved) continue;
+        if (step.bodies[pair.b].tets.empty()) continue;
         PairRegion region{pair.a, pair.b, boxes.bodies[pair.a], {}};
         intersect(region.region, boxes.bodies[pair.b]);
+        if (step.of[pair.a].tiles->block_count() == 1) {
+            region.region = box_of_vertices(step.of[pair.a], region.region);
+            if (is_empty(region.region)) continue;
+        }
         out.regions.push_back(region);
     }
 }
@@ -259,8 +204,8 @@ void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& pie
 }
 
 // The boxes of the super-tiles of a body, and of all tiles in those that others reach. Of a super-tile inside
-// the regions that it meets, only the first tile gets one: nearly all of its tiles will be looked up in, and their
-// vertices be read for that anyway.
+// the regions that it meets, only the first tile gets one: nearly all of its tiles will be looked up in, and
+// their vertices be read for that anyway.
 void make_reached_boxes(const Step& step, const BroadPhase& broad, const Piece& piece, StepBoxes& boxes) {
     if (!broad.is_reached(piece.body)) return;
     const StepBody& body = step.of[piece.body];

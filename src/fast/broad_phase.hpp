@@ -1,9 +1,10 @@
 // The broad phase: from boxes of bodies and of blocks to regions in which vertices of one body may be in
 // tetrahedra of another. Plain functions over the arrays of a step, which the fast engine and its cost model
-// call; the reference engine's cost model calls find_pairs().
+// call.
 #pragma once
 
 #include "base/boxes.hpp"
+#include "fast/body_pairs.hpp"
 #include "fast/step.hpp"
 #include "mesh/tile_sides.hpp"
 
@@ -15,25 +16,6 @@
 
 namespace vox::fast {
 
-struct Pair {
-    std::uint32_t a, b; // indices of boxes
-};
-
-// Buffers kept from step to step.
-struct PairBuffers {
-    explicit PairBuffers(std::pmr::memory_resource* memory)
-        : order(memory), boxes(memory), found(memory), first(memory) {}
-
-    std::pmr::vector<std::uint32_t> order;
-    std::pmr::vector<Box> boxes; // in that order
-    std::pmr::vector<Pair> found;
-    std::pmr::vector<std::uint32_t> first;
-};
-
-// Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap, sorted by a, then b. Empty
-// boxes overlap nothing.
-void find_pairs(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<Pair>& pairs);
-
 // sides_of() each of the boxes.
 void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uint8_t* sides);
 
@@ -42,8 +24,8 @@ inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
 // A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
-// the two bodies, the box around those blocks of a that meet these, and the box around those tiles of b that
-// meet what is left, with the box of a super-tile in place of its tiles where that is inside. Empty where no
+// the two bodies, the box around those blocks of a that meet these (of a single block: its vertices that are in
+// both), and the box around those tiles of b that meet what is left, with the box of a super-tile in place of its tiles where that is inside. Empty where no
 // tile of b meets it.
 struct PairRegion {
     std::uint32_t a, b;

@@ -18,7 +18,7 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
 void MeshTable::reserve(std::uint32_t mesh_count) {
     if (mesh_count > VOX_MAX_MESHES)
         throw Error(VOX_ERROR_LIMIT, format("mesh_count is %u, the limit is %u", mesh_count, VOX_MAX_MESHES));
-    reserve_exactly(slots_, mesh_count);
+    slots_.reserve(mesh_count);
     reserve_exactly(free_slots_, mesh_count);
 }
 
@@ -29,7 +29,7 @@ void MeshTable::check_room(const Body& mesh, const Mesh* old) const {
 
 vox_mesh MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
     if (free_slots_.empty()) {
-        reserve_growing(slots_, slots_.size() + 1);
+        slots_.reserve(slots_.size() + 1);
         reserve_growing(free_slots_, slots_.size() + 1);
         free_slots_.push_back(static_cast<std::uint32_t>(slots_.size()));
         slots_.emplace_back(memory());

@@ -1,6 +1,7 @@
 // The meshes of a grid: slots, ids, generations and limits.
 #pragma once
 
+#include "base/blocks.hpp"
 #include "fast/mesh_state.hpp"
 #include "mesh/ids.hpp"
 #include "mesh/mesh.hpp"
@@ -85,9 +86,9 @@ private:
     friend class Snapshot;
 
     void vacate(std::uint32_t slot) noexcept;
-    std::pmr::memory_resource* memory() const noexcept { return slots_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return slots_.memory(); }
 
-    std::pmr::vector<MeshSlot> slots_;
+    Blocks<MeshSlot> slots_;
     std::pmr::vector<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
     std::uint64_t vertex_count_ = 0;
     std::uint64_t tet_count_ = 0;

@@ -77,7 +77,10 @@ void Snapshot::save_slots(const vox_grid& grid, SnapshotWriter& out) {
     out.begin_chunk("SLOT");
     out.u32(static_cast<std::uint32_t>(grid.meshes_.slots_.size()));
     out.u32(static_cast<std::uint32_t>(grid.meshes_.free_slots_.size()));
-    for (const MeshSlot& slot : grid.meshes_.slots_) out.u32(slot.generation | (slot.live ? live_bit : 0));
+    for (std::size_t s = 0; s < grid.meshes_.slots_.size(); ++s) {
+        const MeshSlot& slot = grid.meshes_.slots_[s];
+        out.u32(slot.generation | (slot.live ? live_bit : 0));
+    }
     for (const std::uint32_t slot : grid.meshes_.free_slots_) out.u32(slot);
     out.end_chunk();
 }

@@ -39,7 +39,7 @@ double cells_between(const CellCoord& min, const CellCoord& max) {
 } // namespace
 
 ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
-    : particles_(memory), exact_(memory), first_(memory), skipped_(memory), boxes_(memory), cells_(memory) {}
+    : particles_(memory), exact_(memory), first_(memory), body_of_(memory), boxes_(memory), cells_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
                              std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
@@ -53,7 +53,7 @@ void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettin
     for (const Body& body : bodies)
         step.some_filtered |= body.filter != PairFilter{} || !body.exceptions.empty();
     const std::uint64_t start = nanoseconds();
-    load_particles(bodies);
+    load_particles(bodies, step.some_filtered);
     compute_boxes(step);
     profile.bin_ns = nanoseconds() - start;
 
@@ -101,7 +101,7 @@ void ReferenceEngine::run(Step& step, const Sizes& sizes, const Lattice& lattice
 
 // ---- pass one -------------------------------------------------------------------------------------
 
-void ReferenceEngine::load_particles(std::span<const Body> bodies) {
+void ReferenceEngine::load_particles(std::span<const Body> bodies, bool some_filtered) {
     std::size_t count = 0;
     first_.clear();
     for (const Body& body : bodies) {
@@ -109,6 +109,9 @@ void ReferenceEngine::load_particles(std::span<const Body> bodies) {
         count += body.vertex_count;
     }
     first_.push_back(std::uint32_t(count));
+    body_of_.resize(some_filtered ? count : 0);
+    for (std::uint32_t b = 0; b < bodies.size() && some_filtered; ++b)
+        std::fill(body_of_.begin() + first_[b], body_of_.begin() + first_[b + 1], b);
 
     const bool rounded =
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
@@ -216,19 +219,6 @@ void ReferenceEngine::classify(Step& step, const Lattice& lattice, const Address
     step.counters.fullest_cell = std::max<std::uint64_t>(step.counters.fullest_cell, fullest);
 }
 
-// Marks in skipped_ the particles of other bodies that must not collide with `body`. Returns false when there
-// are none.
-bool ReferenceEngine::filter_particles(std::span<const Body> bodies, std::uint32_t body) {
-    const auto is_filtered = [&](std::size_t a) { return a != body && !collide(bodies[a], bodies[body]); };
-    bool any = false;
-    for (std::size_t a = 0; a < bodies.size() && !any; ++a) any = is_filtered(a);
-    if (!any) return false;
-    skipped_.resize(particles_.size());
-    for (std::size_t a = 0; a < bodies.size(); ++a)
-        std::fill(skipped_.begin() + first_[a], skipped_.begin() + first_[a + 1], is_filtered(a));
-    return true;
-}
-
 // ---- pass two -------------------------------------------------------------------------------------
 
 template <class Address>
@@ -239,7 +229,17 @@ void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* b
     const std::uint32_t first_own = first_[body];
     // The body's own particles are left out, or if it collides with itself, only the tetrahedron's corners.
     const std::uint32_t own_count = step.bodies[body].self_collision ? 0 : step.bodies[body].vertex_count;
-    const bool filtered = step.some_filtered && filter_particles(step.bodies, body);
+    // Particles of a body follow each other in a cell: the filters are asked when the body changes.
+    std::uint32_t asked = body;
+    bool asked_collides = true;
+    const auto is_filtered = [&](std::uint32_t particle) {
+        const std::uint32_t a = body_of_[particle];
+        if (a != asked) {
+            asked = a;
+            asked_collides = a == body || collide(step.bodies[a], step.bodies[body]);
+        }
+        return !asked_collides;
+    };
     std::uint64_t visited_cells = 0, visited_entries = 0;
 
     for (std::size_t t = 0; t < tets.size(); ++t) {
@@ -252,7 +252,7 @@ void ReferenceEngine::broad_phase(Step& step, std::uint32_t body, const Box3f* b
             visited_entries += cell.count;
             for (std::uint32_t p = cell.first; p != CellLists::none; p = particles[p].next) {
                 if (p - first_own < own_count || !contains(box, particles[p].position)) continue;
-                if (filtered && skipped_[p]) continue;
+                if (step.some_filtered && is_filtered(p)) continue;
                 // The number of the vertex in this body; a particle of another body has a number beyond its
                 // last.
                 const std::uint32_t v = p - first_own;

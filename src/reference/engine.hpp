@@ -56,8 +56,7 @@ private:
         double above, most;
     };
 
-    bool filter_particles(std::span<const Body> bodies, std::uint32_t body);
-    void load_particles(std::span<const Body> bodies);
+    void load_particles(std::span<const Body> bodies, bool some_filtered);
     Vec3d position(std::size_t particle) const;
     void compute_boxes(Step& step);
     void detect_level(Step& step, double cell_size, const Sizes& sizes);
@@ -75,7 +74,7 @@ private:
     std::pmr::vector<Particle> particles_;   // of all bodies, one after the other
     std::pmr::vector<Vec3d> exact_;          // their positions; empty where floats are enough
     std::pmr::vector<std::uint32_t> first_;  // each body's first particle, and the end
-    std::pmr::vector<std::uint8_t> skipped_; // whether a particle is filtered from the current body
+    std::pmr::vector<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
     std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full

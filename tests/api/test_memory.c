@@ -203,6 +203,22 @@ START_TEST(budget_is_kept) {
 }
 END_TEST
 
+/* What vox.h says that a reserved contact takes, exactly. */
+START_TEST(reserved_contacts) {
+    enum { contacts = 1000000 };
+    for (uint32_t flags = 0; flags < 4; ++flags) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = flags;
+        vox_grid* grid = grid_of(&desc);
+        const uint64_t before = counters_of(grid).bytes;
+        ck_ok(vox_grid_reserve(grid, 0, contacts));
+        const uint64_t each = 84 + (flags & VOX_GRID_PENETRATIONS ? 76 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
+        ck_assert_uint_eq(counters_of(grid).bytes - before, each * contacts);
+        vox_grid_destroy(grid);
+    }
+}
+END_TEST
+
 START_TEST(reserved_room) {
     ledger l = {0, 0, 0, 0};
     vox_grid_desc desc = counted_desc(&l);
@@ -257,7 +273,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
-                   budget_is_kept, reserved_room, many_meshes);
+                   budget_is_kept, reserved_contacts, reserved_room, many_meshes);
 }
 
 int main(void) {

@@ -132,6 +132,36 @@ START_TEST(disabled_meshes) {
 }
 END_TEST
 
+/* Pairs that are filtered out take no memory, however many there are. */
+START_TEST(many_bodies_in_one_place) {
+    enum { bodies = 2000 };
+    const vox_engine engines[] = {VOX_ENGINE_FAST, VOX_ENGINE_REFERENCE};
+    for (int e = 0; e < 2; ++e)
+        for (int masks = 0; masks < 2; ++masks) {
+            vox_grid_desc grid_desc = vox_default_grid_desc();
+            grid_desc.engine = engines[e];
+            vox_grid* grid = NULL;
+            ck_ok(vox_grid_create(&grid_desc, &grid));
+            body tet = make_box(1, 1, 0, 0, 0);
+            vox_filter filter = vox_default_filter();
+            vox_mesh_desc desc = body_desc(&tet);
+            desc.filter = &filter;
+            for (uint32_t i = 0; i < bodies; ++i) {
+                if (!masks) filter.group = -7;
+                if (masks) filter.category = i % 2 + 1, filter.mask = 4;
+                insert(grid, &desc);
+            }
+            const uint64_t before = counters_of(grid).bytes;
+            ck_ok(vox_grid_step(grid));
+            const vox_counters counters = counters_of(grid);
+            ck_assert_uint_eq(counters.contacts, 0);
+            ck_assert_uint_lt((counters.peak_bytes - before) / bodies, 2000);
+            vox_grid_destroy(grid);
+            free_body(&tet);
+        }
+}
+END_TEST
+
 /* ---- arguments -------------------------------------------------------------------------------- */
 
 START_TEST(arguments) {
@@ -219,7 +249,7 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, arguments);
+    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, many_bodies_in_one_place, arguments);
 }
 
 int main(void) {

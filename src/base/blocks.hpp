@@ -1,0 +1,52 @@
+// A list in small blocks: what is in it never moves, and there is hardly more room than is needed.
+#pragma once
+
+#include "base/room.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace vox {
+
+template <class T>
+class Blocks {
+public:
+    explicit Blocks(std::pmr::memory_resource* memory) noexcept : blocks_(memory) {}
+
+    std::pmr::memory_resource* memory() const noexcept { return blocks_.get_allocator().resource(); }
+    std::size_t size() const noexcept { return size_; }
+    T& operator[](std::size_t i) noexcept { return blocks_[i / block][i % block]; }
+    const T& operator[](std::size_t i) const noexcept { return blocks_[i / block][i % block]; }
+
+    // Room for `count` in all. Throws what the memory throws.
+    void reserve(std::uint64_t count) {
+        if (count > blocks_.max_size()) throw std::bad_alloc();
+        reserve_growing(blocks_, static_cast<std::size_t>((count + block - 1) / block));
+        while (blocks_.size() * block < count) {
+            std::pmr::vector<T> one(memory());
+            one.reserve(block);
+            blocks_.push_back(std::move(one));
+        }
+    }
+
+    // Throws what the memory throws, and has changed nothing then.
+    template <class... Arguments>
+    T& emplace_back(Arguments&&... arguments) {
+        reserve(size_ + 1);
+        T& added = blocks_[size_ / block].emplace_back(std::forward<Arguments>(arguments)...);
+        ++size_;
+        return added;
+    }
+
+private:
+    static constexpr std::size_t block = 4;
+
+    std::pmr::vector<std::pmr::vector<T>> blocks_;
+    std::size_t size_ = 0;
+};
+
+} // namespace vox

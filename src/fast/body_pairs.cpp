@@ -1,0 +1,358 @@
+// Where that takes few tests, a sweep along one axis (Baraff, Dynamic simulation of non-penetrating rigid
+// bodies, 1992; Cohen et al., I-COLLIDE, 1995): the boxes sorted by where they begin, each tested against
+// those that begin before it ends. The axis is the one along which the boxes' centres vary most.
+//
+// Else, as for a scaffold of rods, a streamed segment tree, whose time does not depend on where the boxes are
+// (A. Zomorodian, H. Edelsbrunner, Fast software for box intersections, Int. J. Comput. Geom. Appl. 12, 2002,
+// Sect. 3). It is given up where most of what it finds is excluded by filters, as in a pile of bodies of one
+// negative group; then classes of bodies that the filters treat alike are joined, two at a time.
+#include "fast/body_pairs.hpp"
+
+#include "mesh/filter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+
+namespace vox::fast {
+
+namespace {
+
+// Tests of the sweep for each box beyond which the join is faster: by bench_stages, it takes as long as 250
+// to 800.
+constexpr std::uint64_t most_tests = 400;
+// The join is given up when so many pairs that it found for each box are excluded.
+constexpr std::uint64_t most_excluded = 64;
+constexpr std::uint64_t few_boxes = 64; // that all of this is not worth the trouble for
+
+int widest_axis(std::span<const Box> boxes) {
+    double sum[3] = {}, squares[3] = {}, count = 0;
+    for (const Box& box : boxes) {
+        if (is_empty(box)) continue;
+        count += 1;
+        for (int a = 0; a < 3; ++a) {
+            const double c = 0.5 * (double{box.lo[a]} + double{box.hi[a]});
+            sum[a] += c;
+            squares[a] += c * c;
+        }
+    }
+    int axis = 0;
+    double widest = -1;
+    for (int a = 0; a < 3 && count > 0; ++a) {
+        const double variance = squares[a] / count - sum[a] / count * (sum[a] / count);
+        if (variance > widest) {
+            widest = variance;
+            axis = a;
+        }
+    }
+    return axis;
+}
+
+// One pass of a radix sort whose digit is a whole index: stable, by Pair::*key.
+void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair> from, std::span<Pair> to,
+             std::pmr::vector<std::uint32_t>& first) {
+    first.assign(indices + 1, 0);
+    for (const Pair& pair : from) ++first[pair.*key + 1];
+    for (std::size_t i = 1; i <= indices; ++i) first[i] += first[i - 1];
+    for (const Pair& pair : from) to[first[pair.*key]++] = pair;
+}
+
+// Collects the pairs that are wanted, and counts those that are not.
+class PairCollector {
+public:
+    PairCollector(const PairRules& rules, std::pmr::vector<Pair>& found) : rules_(rules), found_(found) {}
+
+    // Starts again. It is full when it was given more than so many pairs that are excluded.
+    void start(std::uint64_t most) {
+        found_.clear();
+        most_excluded_ = most;
+        excluded_ = 0;
+    }
+    bool is_full() const noexcept { return excluded_ > most_excluded_; }
+
+    // Two boxes overlap.
+    void add(std::uint32_t a, std::uint32_t b) {
+        if (!is_wanted(a, b)) {
+            ++excluded_;
+            return;
+        }
+        found_.push_back({a, b});
+        found_.push_back({b, a});
+    }
+
+    void count_looks(std::uint64_t looks) noexcept { looks_ += looks; }
+    std::uint64_t looks() const noexcept { return looks_; }
+
+private:
+    bool is_wanted(std::uint32_t a, std::uint32_t b) const {
+        if (rules_.bodies.empty()) return true;
+        if (!rules_.of.empty() && !rules_.of[a].moved && !rules_.of[b].moved) return false;
+        const Body &body_a = rules_.bodies[a], &body_b = rules_.bodies[b];
+        return !(body_a.tets.empty() && body_b.tets.empty()) && collide(body_a, body_b);
+    }
+
+    const PairRules& rules_;
+    std::pmr::vector<Pair>& found_;
+    std::uint64_t most_excluded_ = 0, excluded_ = 0, looks_ = 0;
+};
+
+// ---- order --------------------------------------------------------------------------------------------
+
+// The bits of a float in the order of its value; the two zeros are one.
+std::uint32_t ordered_bits(float value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
+    return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts by the upper half: a radix sort, stable (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
+// `other` is a buffer.
+void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other) {
+    constexpr std::size_t few_items = 512; // are sorted faster by comparisons; their lower halves ascend
+    if (items.size() <= few_items) return std::sort(items.begin(), items.end());
+    other.resize(items.size());
+    constexpr int digit_bits = 11;
+    constexpr std::size_t values = std::size_t{1} << digit_bits;
+    std::array<std::uint32_t, values> place;
+    for (int shift = 32; shift < 64; shift += digit_bits) {
+        place.fill(0);
+        for (const std::uint64_t item : items) ++place[(item >> shift) % values];
+        std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
+        for (const std::uint64_t item : items) other[place[(item >> shift) % values]++] = item;
+        items.swap(other);
+    }
+}
+
+// The boxes that are not empty, by where they begin along an axis, then by index.
+void sort_boxes(std::span<const Box> boxes, int axis, PairBuffers& buffers) {
+    buffers.corners.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (!is_empty(boxes[i]))
+            buffers.corners.push_back(std::uint64_t{ordered_bits(boxes[i].lo[axis])} << 32 | i);
+    sort_by_upper_half(buffers.corners, buffers.other_corners);
+    buffers.order.resize(buffers.corners.size());
+    buffers.boxes.resize(buffers.corners.size());
+    for (std::size_t i = 0; i < buffers.corners.size(); ++i) {
+        buffers.order[i] = static_cast<std::uint32_t>(buffers.corners[i]);
+        buffers.boxes[i] = boxes[buffers.order[i]];
+    }
+}
+
+// ---- the sweep --------------------------------------------------------------------------------------
+
+// How many tests it takes, or a number above `most` where it takes more.
+std::uint64_t count_tests(std::span<const Box> sorted, int axis, std::uint64_t most) {
+    std::uint64_t tests = 0;
+    for (std::size_t i = 0; i < sorted.size() && tests <= most; ++i) {
+        const float end = sorted[i].hi[axis];
+        std::size_t step = 1; // doubled, then halved: mostly few boxes begin before one ends
+        while (i + step < sorted.size() && sorted[i + step].lo[axis] <= end) step *= 2;
+        const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(i + step / 2),
+                   last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(i + step, sorted.size()));
+        const auto next = std::partition_point(first + (first < last), last,
+                                               [&](const Box& box) { return box.lo[axis] <= end; });
+        tests += static_cast<std::uint64_t>(next - sorted.begin()) - i - 1;
+    }
+    return tests;
+}
+
+void sweep(std::span<const Box> sorted, std::span<const std::uint32_t> order, int axis, PairCollector& out) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Box box = sorted[i];
+        std::size_t j = i + 1;
+        for (; j < order.size() && sorted[j].lo[axis] <= box.hi[axis]; ++j)
+            if (overlap(box, sorted[j])) out.add(order[i], order[j]);
+        out.count_looks(j - i);
+    }
+}
+
+// ---- the join ---------------------------------------------------------------------------------------
+
+// Of the sorted boxes. Their last axis is the given one.
+void rank_boxes(int axis_of_last, PairBuffers& buffers) {
+    const auto count = static_cast<std::uint32_t>(buffers.order.size());
+    buffers.ranked.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) buffers.ranked[i].box = buffers.order[i];
+    buffers.corners.resize(2 * std::size_t{count});
+    for (int axis = 0; axis < 3; ++axis) {
+        const int from = (axis_of_last + 1 + axis) % 3;
+        for (std::uint32_t i = 0; i < count; ++i) { // low corners before high ones in the same place
+            const Box& box = buffers.boxes[i];
+            buffers.corners[i] = std::uint64_t{ordered_bits(box.lo[from])} << 32 | i;
+            buffers.corners[count + i] = std::uint64_t{ordered_bits(box.hi[from])} << 32 | (count + i);
+        }
+        sort_by_upper_half(buffers.corners, buffers.other_corners);
+        std::uint32_t next = 0;
+        for (const std::uint64_t item : buffers.corners) {
+            const auto corner = static_cast<std::uint32_t>(item);
+            if (corner < count)
+                buffers.ranked[corner].lo[axis] = next++;
+            else
+                buffers.ranked[corner - count].hi[axis] = next - 1;
+        }
+    }
+}
+
+bool overlap(const RankedBox& a, const RankedBox& b, int axis) noexcept {
+    return (a.lo[axis] <= b.hi[axis]) & (b.lo[axis] <= a.hi[axis]);
+}
+
+bool holds_low_corner(const RankedBox& outer, const RankedBox& inner, int axis) noexcept {
+    return (outer.lo[axis] <= inner.lo[axis]) & (inner.lo[axis] <= outer.hi[axis]);
+}
+
+// Adds all pairs of an outer and an inner box of which the outer one holds the low corner of the inner one
+// along `axis`, and that overlap along the axes before it; along those after it they are known to. It goes
+// down a segment tree over the ranks [first, last), of `all` ranks, that is not stored. The low corners of
+// inner boxes are in that range, and outer boxes meet it. Boxes change their order.
+void join(std::span<RankedBox> outer, std::span<RankedBox> inner, std::uint32_t first, std::uint32_t last,
+          std::uint32_t all, int axis, PairCollector& out) {
+    constexpr std::size_t few = 12; // boxes that are tested one by one
+    const auto add = [&](const RankedBox& a, const RankedBox& b) {
+        if (a.box != b.box) out.add(a.box, b.box);
+    };
+    if (outer.empty() || inner.empty() || out.is_full()) return;
+    if (std::min(outer.size(), inner.size()) <= few) {
+        out.count_looks(outer.size() * inner.size());
+        for (const RankedBox& a : outer)
+            for (const RankedBox& b : inner) {
+                bool meet = holds_low_corner(a, b, axis);
+                for (int i = 0; i < axis; ++i) meet &= overlap(a, b, i);
+                if (meet) add(a, b);
+            }
+        return;
+    }
+    out.count_looks(outer.size() + inner.size());
+    const auto end_of_spanning = std::partition(outer.begin(), outer.end(), [=](const RankedBox& box) {
+        return box.lo[axis] <= first && box.hi[axis] >= last - 1;
+    });
+    const std::span<RankedBox> spanning(outer.begin(), end_of_spanning), rest(end_of_spanning, outer.end());
+    if (axis > 0) {
+        join(spanning, inner, 0, all, all, axis - 1, out);
+        join(inner, spanning, 0, all, all, axis - 1, out);
+    } else {
+        out.count_looks(spanning.size() * inner.size());
+        for (const RankedBox& a : spanning) {
+            for (const RankedBox& b : inner) add(a, b);
+            if (out.is_full()) return;
+        }
+    }
+    if (rest.empty()) return;
+    const std::uint32_t middle = first + (last - first) / 2;
+    const auto low_inner = std::partition(inner.begin(), inner.end(),
+                                          [=](const RankedBox& box) { return box.lo[axis] < middle; });
+    const auto low_end =
+        std::partition(rest.begin(), rest.end(), [=](const RankedBox& box) { return box.lo[axis] < middle; });
+    join({rest.begin(), low_end}, {inner.begin(), low_inner}, first, middle, all, axis, out);
+    const auto high_end = std::partition(rest.begin(), rest.end(),
+                                         [=](const RankedBox& box) { return box.hi[axis] >= middle; });
+    join({rest.begin(), high_end}, {low_inner, inner.end()}, middle, last, all, axis, out);
+}
+
+constexpr int last_axis = 2;
+
+void join_all(PairBuffers& buffers, PairCollector& out) {
+    const std::span<RankedBox> ranked = buffers.ranked;
+    const auto all = static_cast<std::uint32_t>(ranked.size());
+    buffers.inner.assign(ranked.begin(), ranked.end());
+    join(ranked, buffers.inner, 0, all, all, last_axis, out);
+}
+
+// ---- classes ----------------------------------------------------------------------------------------
+
+// Bodies that all rules but exceptions treat alike.
+struct RuleClass {
+    Body body; // its filter, and tets if any
+    bool moved;
+    std::uint32_t first, count; // of the boxes, sorted by class
+};
+
+// Gives each ranked box its class. Returns how many there are, or 0 where they are too many.
+std::size_t find_classes(const PairRules& rules, std::span<RankedBox> ranked,
+                         std::array<RuleClass, most_rule_classes>& classes) {
+    std::size_t count = 0;
+    for (RankedBox& box : ranked) {
+        const Body& body = rules.bodies[box.box];
+        const bool moved = rules.of.empty() || rules.of[box.box].moved;
+        std::size_t c = 0;
+        while (c < count && (classes[c].body.filter != body.filter || classes[c].moved != moved ||
+                             classes[c].body.tets.empty() != body.tets.empty()))
+            ++c;
+        if (c == most_rule_classes) return 0;
+        if (c == count) {
+            classes[count++] = {{.tets = body.tets, .filter = body.filter}, moved, 0, 0};
+        }
+        box.rule = static_cast<std::uint32_t>(c);
+        ++classes[c].count;
+    }
+    return count;
+}
+
+void join_classes(const PairRules& rules, PairBuffers& buffers, PairCollector& out) {
+    std::array<RuleClass, most_rule_classes> classes;
+    const std::size_t count = find_classes(rules, buffers.ranked, classes);
+    if (count == 0) return join_all(buffers, out);
+    std::sort(buffers.ranked.begin(), buffers.ranked.end(), [](const RankedBox& a, const RankedBox& b) {
+        return a.rule != b.rule ? a.rule < b.rule : a.box < b.box;
+    });
+    std::uint32_t first = 0;
+    for (std::size_t c = 0; c < count; first += classes[c++].count) classes[c].first = first;
+    const auto all = static_cast<std::uint32_t>(buffers.ranked.size());
+    const auto of_class = [&](const RuleClass& c) {
+        return std::span<const RankedBox>(buffers.ranked).subspan(c.first, c.count);
+    };
+    const auto meet = [](const RuleClass& a, const RuleClass& b) {
+        return (a.moved || b.moved) && !(a.body.tets.empty() && b.body.tets.empty()) &&
+               collide(a.body, b.body);
+    };
+    for (std::size_t c = 0; c < count; ++c) {
+        const std::span<const RankedBox> own = of_class(classes[c]);
+        buffers.outer.assign(own.begin(), own.end());
+        buffers.inner.clear();
+        if (meet(classes[c], classes[c])) {
+            buffers.inner.assign(own.begin(), own.end());
+            join(buffers.outer, buffers.inner, 0, all, all, last_axis, out);
+            buffers.inner.clear();
+        }
+        for (std::size_t d = c + 1; d < count; ++d) {
+            const std::span<const RankedBox> others = of_class(classes[d]);
+            if (meet(classes[c], classes[d]))
+                buffers.inner.insert(buffers.inner.end(), others.begin(), others.end());
+        }
+        join(buffers.outer, buffers.inner, 0, all, all, last_axis, out);
+        join(buffers.inner, buffers.outer, 0, all, all, last_axis, out);
+    }
+}
+
+} // namespace
+
+void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
+                std::pmr::vector<Pair>& pairs) {
+    const int axis = widest_axis(boxes);
+    sort_boxes(boxes, axis, buffers);
+    const std::size_t count = buffers.order.size();
+    const std::uint64_t most = most_tests * count;
+    constexpr std::uint64_t no_limit = ~std::uint64_t{0};
+    PairCollector out(rules, buffers.found);
+    if (count <= few_boxes || count_tests(buffers.boxes, axis, most) <= most) {
+        out.start(no_limit);
+        sweep(buffers.boxes, buffers.order, axis, out);
+    } else {
+        rank_boxes(axis, buffers);
+        out.start(rules.bodies.empty() ? no_limit : most_excluded * count);
+        join_all(buffers, out);
+        if (out.is_full()) {
+            out.start(no_limit);
+            join_classes(rules, buffers, out);
+        }
+    }
+    buffers.looks = out.looks();
+
+    std::pmr::vector<Pair>& found = buffers.found;
+    pairs.resize(found.size());
+    sort_by(&Pair::b, boxes.size(), found, pairs, buffers.first);
+    std::copy(pairs.begin(), pairs.end(), found.begin());
+    sort_by(&Pair::a, boxes.size(), found, pairs, buffers.first);
+}
+
+} // namespace vox::fast
