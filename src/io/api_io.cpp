@@ -58,11 +58,11 @@ MeshData read_one(const File& given, const std::optional<std::string>& folder, v
     case VOX_IO_FORMAT_SURFACE:
         return read_surface(file, folder, mesh_index);
     default:
-        throw Error(
-            VOX_ERROR_UNSUPPORTED,
-            format("%s: expected a mesh, found neither known content nor a known extension (.msh .node .ele .mesh "
-                   ".veg .vtk .vtu, and surfaces: .obj .ply .stl .off .gltf .glb)",
-                   given.name.c_str()));
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("%s: expected a mesh, found neither known content nor a known extension (.msh "
+                           ".node .ele .mesh "
+                           ".veg .vtk .vtu, and surfaces: .obj .ply .stl .off .gltf .glb)",
+                           given.name.c_str()));
     }
 }
 
@@ -76,7 +76,8 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
     const File& file = bytes.file();
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
-    if (which == VOX_IO_FORMAT_ASSIMP && desc.format == which) return read_by_assimp_at(path, desc.mesh_index);
+    if (which == VOX_IO_FORMAT_ASSIMP && desc.format == which)
+        return read_by_assimp_at(path, desc.mesh_index);
     if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh_index);
 
     const std::string extension = extension_of(path);
@@ -210,7 +211,7 @@ const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->
 const char* vox_io_format_string(vox_io_format format) {
     static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
                                             "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
-                                            "VTK XML .vtu", "surface",           "surface, by assimp"};
+                                            "VTK XML .vtu", "surface",   "surface, by assimp"};
     const auto index = static_cast<std::uint32_t>(format);
     return index < std::size(names) ? names[index] : "unknown format";
 }

@@ -42,8 +42,7 @@ private:
 class SceneReader {
 public:
     SceneReader(const aiScene& scene, const std::string& name, std::uint32_t mesh_index)
-        : scene_(scene), name_(name), mesh_index_(mesh_index),
-          surface_(name, max_count, VOX_IO_ALL_MESHES) {}
+        : scene_(scene), name_(name), mesh_index_(mesh_index), surface_(name, max_count, VOX_IO_ALL_MESHES) {}
 
     MeshData read() {
         if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= scene_.mNumMeshes)
@@ -137,6 +136,14 @@ void configure(Assimp::Importer& importer) {
 
 MeshData convert(Assimp::Importer& importer, const aiScene* scene, const std::string& name,
                  std::uint32_t mesh_index) {
+    const std::string extension = extension_of(name);
+    const bool known = !extension.empty() && extension.find_first_of("*;") == std::string::npos &&
+                       importer.IsExtensionSupported("." + extension);
+    if (!scene && !known)
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("%s: expected a surface that assimp reads, found neither known "
+                           "content nor a known extension",
+                           name.c_str()));
     if (!scene || !scene->mRootNode)
         throw Error(VOX_ERROR_FORMAT, format("%s: expected a surface, found this: %s", name.c_str(),
                                              printable(importer.GetErrorString(), 400).c_str()));

@@ -5,8 +5,8 @@
 
 namespace vox::io {
 
-// Decodes base64 text into at most `most` bytes. Padding may end a group anywhere, as VTK encodes the header and
-// the data separately. White space is skipped. `fail` must throw.
+// Decodes base64 text into at most `most` bytes. Padding may end a group anywhere, as VTK encodes the header
+// and the data separately. White space is skipped. `fail` must throw.
 template <class Fail>
 std::string from_base64(std::string_view text, std::size_t most, const Fail& fail) {
     std::string out;

@@ -57,10 +57,11 @@ MeshData read_surface(const File& file, const std::optional<std::string>& folder
     SurfaceReader read = surface_of_content(file.bytes);
     if (!read) read = surface_of_extension(extension_of(file.name));
     if (!read)
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    format("%s: expected a surface, found neither known content nor a known extension (.obj .ply "
-                           ".stl .off .gltf .glb)",
-                           file.name.c_str()));
+        throw Error(
+            VOX_ERROR_UNSUPPORTED,
+            format("%s: expected a surface, found neither known content nor a known extension (.obj .ply "
+                   ".stl .off .gltf .glb)",
+                   file.name.c_str()));
     return read(file, folder, mesh_index);
 }
 

@@ -1,5 +1,5 @@
-// Reads JSON (RFC 8259) in one pass, value by value, without building a tree: a tree of small values takes many
-// times the memory of the text.
+// Reads JSON (RFC 8259) in one pass, value by value, without building a tree: a tree of small values takes
+// many times the memory of the text.
 #pragma once
 
 #include "io/formats/scan.hpp"
@@ -32,8 +32,8 @@ public:
         while (another(']'));
     }
 
-    // The parts of the above, for a caller that reads something else in between. Passes `open`, and `close` if
-    // it follows; returns whether there is an element.
+    // The parts of the above, for a caller that reads something else in between. Passes `open`, and `close`
+    // if it follows; returns whether there is an element.
     bool enter(char open, char close, const char* what);
     // Passes a comma, or `close`; returns whether there is another element.
     bool another(char close);

@@ -1,5 +1,5 @@
-// Wavefront OBJ (Advanced Visualizer manual, appendix B1): vertices and polygons. Normals, texture coordinates,
-// materials, curves and surfaces are skipped.
+// Wavefront OBJ (Advanced Visualizer manual, appendix B1): vertices and polygons. Normals, texture
+// coordinates, materials, curves and surfaces are skipped.
 #include "io/formats/indexed_points.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
@@ -81,7 +81,8 @@ private:
         if (wanted) surface_.polygon(corners_);
     }
 
-    // A vertex number, and numbers of other things behind slashes. Negative numbers count from the last vertex.
+    // A vertex number, and numbers of other things behind slashes. Negative numbers count from the last
+    // vertex.
     std::uint32_t read_corner() {
         const std::string_view word = in_.peek();
         const char* const end = word.data() + word.size();
@@ -91,8 +92,8 @@ private:
         const auto count = static_cast<std::int64_t>(points_.size());
         if (number < 0) number += count + 1;
         if (number < 1 || number > count)
-            in_.fail(format("expected a vertex number from 1 to %lld, of the vertices above, found %s", lld(count),
-                            printable(word).c_str()));
+            in_.fail(format("expected a vertex number from 1 to %lld, of the vertices above, found %s",
+                            lld(count), printable(word).c_str()));
         in_.word("a vertex number");
         return static_cast<std::uint32_t>(number - 1);
     }

@@ -1,5 +1,5 @@
-// PLY, text and binary of either byte order (G. Turk, The PLY polygon file format, 1994): the elements "vertex",
-// "face" and "tristrips"; other elements and properties are skipped.
+// PLY, text and binary of either byte order (G. Turk, The PLY polygon file format, 1994): the elements
+// "vertex", "face" and "tristrips"; other elements and properties are skipped.
 #include "io/formats/indexed_points.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
@@ -12,7 +12,16 @@ struct PlyType {
     std::size_t size;
 };
 
-enum : std::size_t { ply_int8, ply_uint8, ply_int16, ply_uint16, ply_int32, ply_uint32, ply_float, ply_double };
+enum : std::size_t {
+    ply_int8,
+    ply_uint8,
+    ply_int16,
+    ply_uint16,
+    ply_int32,
+    ply_uint32,
+    ply_float,
+    ply_double
+};
 
 constexpr PlyType ply_types[] = {{"char", "int8", 1},     {"uchar", "uint8", 1},   {"short", "int16", 2},
                                  {"ushort", "uint16", 2}, {"int", "int32", 4},     {"uint", "uint32", 4},
@@ -121,7 +130,8 @@ private:
         property.is_list = in_.accept("list");
         if (property.is_list) {
             property.count_type = read_type();
-            if (property.count_type >= ply_float) in_.fail("expected an integer type for the length of a list");
+            if (property.count_type >= ply_float)
+                in_.fail("expected an integer type for the length of a list");
         }
         property.type = read_type();
         property.name = in_.word("the name of a property");
@@ -146,8 +156,8 @@ private:
         if (text_ && bytes > 0) --bytes; // the file may end without a line end
         if (bytes == 0 && element.count > 0)
             throw Error(VOX_ERROR_FORMAT,
-                        format("%s: element %s: expected properties, found none", in_.place(element.counted_at).c_str(),
-                               printable(element.name).c_str()));
+                        format("%s: element %s: expected properties, found none",
+                               in_.place(element.counted_at).c_str(), printable(element.name).c_str()));
         const std::string what = "number of elements " + printable(element.name);
         if (bytes > 0) in_.check_count(what.c_str(), element.count, bytes, max_count, element.counted_at);
     }
@@ -201,10 +211,12 @@ private:
         const std::int64_t length = integer(property.count_type, "the length of a list");
         const std::size_t bytes = text_ ? 2 : ply_types[property.type].size;
         const auto most = (in_.remaining() + 1) / bytes; // the file may end without a line end
-        if (length >= 0 && static_cast<std::uint64_t>(length) <= most) return static_cast<std::uint64_t>(length);
+        if (length >= 0 && static_cast<std::uint64_t>(length) <= most)
+            return static_cast<std::uint64_t>(length);
         in_.seek(at);
-        in_.fail(format("expected the length of a list, at most %llu for what is left of the file, found %lld",
-                        llu(most), lld(length)));
+        in_.fail(
+            format("expected the length of a list, at most %llu for what is left of the file, found %lld",
+                   llu(most), lld(length)));
     }
 
     void skip(const Property& property) {
@@ -236,7 +248,10 @@ private:
             begin_item();
             for (std::size_t i = 0; i < element.properties.size(); ++i) {
                 const auto number = static_cast<int>(i);
-                const std::size_t k = number == axis_of[0] ? 0 : number == axis_of[1] ? 1 : number == axis_of[2] ? 2 : 3;
+                const std::size_t k = number == axis_of[0]   ? 0
+                                      : number == axis_of[1] ? 1
+                                      : number == axis_of[2] ? 2
+                                                             : 3;
                 if (k < 3)
                     p[k] = real(element.properties[i].type, "a coordinate");
                 else
@@ -271,10 +286,11 @@ private:
                 for (std::uint64_t c = 0; c < length; ++c) {
                     const std::size_t at = in_.offset();
                     const std::int64_t point = integer(property.type, "a vertex number");
-                    if ((point < 0 || point >= static_cast<std::int64_t>(points_.size())) && !(ends && point == -1)) {
+                    if ((point < 0 || point >= static_cast<std::int64_t>(points_.size())) &&
+                        !(ends && point == -1)) {
                         in_.seek(at);
-                        in_.fail(format("expected a vertex number below %llu, found %lld", llu(points_.size()),
-                                        lld(point)));
+                        in_.fail(format("expected a vertex number below %llu, found %lld",
+                                        llu(points_.size()), lld(point)));
                     }
                     visit(point);
                 }
@@ -298,8 +314,8 @@ private:
             });
     }
 
-    // In a strip every vertex makes a triangle with the two before it. The one of even number comes first, which
-    // turns every other triangle over.
+    // In a strip every vertex makes a triangle with the two before it. The one of even number comes first,
+    // which turns every other triangle over.
     void read_strips(const Element& element) {
         const bool wanted = surface_.begin_element();
         std::uint32_t last[2] = {0, 0};

@@ -17,8 +17,8 @@ MeshData read_vega(const File& file);
 MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
-// Surfaces, as triangles. mesh_index is as in vox_io_load_desc. Files that a .gltf names are looked for in `folder`;
-// without one it must be complete.
+// Surfaces, as triangles. mesh_index is as in vox_io_load_desc. Files that a .gltf names are looked for in
+// `folder`; without one it must be complete.
 MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
 MeshData read_gltf(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
 MeshData read_obj(const File& file, std::uint32_t mesh_index);
@@ -27,8 +27,9 @@ MeshData read_ply(const File& file, std::uint32_t mesh_index);
 MeshData read_stl(const File& file, std::uint32_t mesh_index);
 bool is_binary_stl(std::string_view bytes); // by the size that its number of triangles gives
 
-// Surfaces of many more formats, by a library that is not made for damaged files: only where a caller asks for it. From
-// memory, with an extension without its dot, or from a path, beside which other files may be needed.
+// Surfaces of many more formats, by a library that is not made for damaged files: only where a caller asks
+// for it. From memory, with an extension without its dot, or from a path, beside which other files may be
+// needed.
 MeshData read_by_assimp(const File& file, const std::string& extension, std::uint32_t mesh_index);
 MeshData read_by_assimp_at(const std::string& path, std::uint32_t mesh_index);
 

@@ -1,5 +1,5 @@
-// STL, text and binary (3D Systems, StereoLithography Interface Specification, 1989). Normals and attributes are
-// skipped: the order of the corners says where outside is.
+// STL, text and binary (3D Systems, StereoLithography Interface Specification, 1989). Normals and attributes
+// are skipped: the order of the corners says where outside is.
 #include "io/formats/readers.hpp"
 #include "io/formats/surface_builder.hpp"
 
@@ -11,9 +11,8 @@ namespace {
 constexpr std::size_t stl_head = 84, stl_facet = 50; // bytes: name and count; normal, corners, attribute
 
 bool same_word(std::string_view word, std::string_view lower_case) {
-    return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == b;
-    });
+    return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+                      [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
 class StlText {
@@ -70,8 +69,8 @@ MeshData read_stl_binary(const File& file, std::uint32_t mesh_index) {
     const std::uint64_t facets = in.binary<std::uint32_t>(host_is_big_endian, "the number of triangles");
     in.check_count("number of triangles", facets, stl_facet, max_count, counted_at);
     if (in.remaining() != facets * stl_facet)
-        in.fail(format("expected the end of the file after %llu triangles, found %llu bytes more", llu(facets),
-                       llu(in.remaining() - facets * stl_facet)));
+        in.fail(format("expected the end of the file after %llu triangles, found %llu bytes more",
+                       llu(facets), llu(in.remaining() - facets * stl_facet)));
     SurfaceBuilder surface(file.name, most_triangles(file.bytes.size()), mesh_index);
     for (std::uint64_t f = 0; f < facets; ++f) {
         const char* const bytes = in.take(stl_facet, "a triangle");
@@ -98,8 +97,9 @@ MeshData read_stl_binary(const File& file, std::uint32_t mesh_index) {
 
 bool is_binary_stl(std::string_view bytes) {
     return bytes.size() >= stl_head &&
-           bytes.size() - stl_head == stl_facet * std::uint64_t{load<std::uint32_t>(bytes.data() + stl_head - 4,
-                                                                                   host_is_big_endian)};
+           bytes.size() - stl_head ==
+               stl_facet *
+                   std::uint64_t{load<std::uint32_t>(bytes.data() + stl_head - 4, host_is_big_endian)};
 }
 
 MeshData read_stl(const File& file, std::uint32_t mesh_index) {

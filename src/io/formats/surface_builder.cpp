@@ -43,7 +43,8 @@ void SurfaceBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 void SurfaceBuilder::polygon(const std::vector<std::uint32_t>& corners) {
     if (corners.size() < 3) return skip(1);
     if (corners.size() > 3 && !is_convex(corners)) return cut_ears(corners);
-    for (std::size_t i = 2; i < corners.size(); ++i) triangle(corners[0], corners[i - 1], corners[i]); // a fan
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        triangle(corners[0], corners[i - 1], corners[i]); // a fan
 }
 
 namespace {

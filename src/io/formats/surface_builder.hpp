@@ -11,13 +11,13 @@
 
 namespace vox::io {
 
-// How many triangles a surface file of that many bytes may give. Polygons, strips and scenes that repeat a mesh
-// can stand for any number of triangles; with this limit no file takes more memory than 16 times its size and
-// 16 MB, the report included.
+// How many triangles a surface file of that many bytes may give. Polygons, strips and scenes that repeat a
+// mesh can stand for any number of triangles; with this limit no file takes more memory than 16 times its
+// size and 16 MB, the report included.
 constexpr std::uint64_t most_triangles(std::uint64_t bytes) { return bytes / 6 + (std::uint64_t{1} << 17); }
 
-// Merges vertices at exactly the same position, in order of first use: formats repeat a vertex for every normal,
-// texture coordinate or material that it has, which would leave a closed surface open.
+// Merges vertices at exactly the same position, in order of first use: formats repeat a vertex for every
+// normal, texture coordinate or material that it has, which would leave a closed surface open.
 class SurfaceBuilder {
 public:
     // mesh_index is as in vox_io_load_desc. More than `most` triangles are a failure.
@@ -53,10 +53,10 @@ private:
     std::uint32_t mesh_index_;
     bool begins_ = true;
     std::uint64_t meshes_ = 0;
-    std::uint64_t work_left_;       // how many corners may still be compared with ears
-    std::uint64_t uncut_ = 0;       // polygons for which that did not suffice
-    int axes_[2] = {0, 1};          // the plane of the polygon at hand
-    double sign_ = 1;               // and its orientation there
+    std::uint64_t work_left_; // how many corners may still be compared with ears
+    std::uint64_t uncut_ = 0; // polygons for which that did not suffice
+    int axes_[2] = {0, 1};    // the plane of the polygon at hand
+    double sign_ = 1;         // and its orientation there
     MeshData data_;
     PositionTable table_;
 };
