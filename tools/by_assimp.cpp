@@ -4,11 +4,14 @@
 
 #if defined(__unix__) || defined(__APPLE__)
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -27,6 +30,15 @@ struct Answer {
     std::uint64_t text_size, vertices, triangles;
     vox_io_report report;
 };
+
+// It reserves terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool address_sanitizer = true;
+#elif defined(__has_feature)
+constexpr bool address_sanitizer = __has_feature(address_sanitizer);
+#else
+constexpr bool address_sanitizer = false;
+#endif
 
 void limit(int resource, rlim_t most) {
     rlimit values{};
@@ -57,12 +69,12 @@ void put(int pipe, const void* data, std::size_t size) {
 }
 
 [[noreturn]] void read_and_answer(const std::string& path, int pipe) {
-#if !defined(__SANITIZE_ADDRESS__) // which reserves terabytes
-    limit(RLIMIT_AS, address_space() + most_bytes);
-#endif
+    if (!address_sanitizer) limit(RLIMIT_AS, address_space() + most_bytes);
     limit(RLIMIT_CPU, most_seconds);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 0); // it has no file to write
+    limit(RLIMIT_FSIZE, 0);                          // it has no file to write
+    const int nowhere = open("/dev/null", O_WRONLY); // what a library says as it dies
+    if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
     vox_io_load_desc desc;
     vox_io_load_desc_init(&desc, sizeof desc);
     desc.format = VOX_IO_FORMAT_ASSIMP;

@@ -218,9 +218,9 @@ START_TEST(mutations) {
         free(bent.data);
     }
     if (asked)
-        printf("%-32s %ld mutations, %ld meshes; at most %.3f s and %.1f MB of memory beyond 16 times the "
+        printf("%-32s %ld mutations, %ld meshes; at most %.3f s and %zu bytes of memory beyond 16 times the "
                "file\n",
-               name, rounds, loaded, slowest, 1e-6 * (double)most_heap);
+               name, rounds, loaded, slowest, most_heap);
     free(file.data);
 }
 END_TEST
