@@ -1,5 +1,6 @@
 #include "body.hpp"
 
+#include "by_assimp.hpp"
 #include "failure.hpp"
 
 #include <cmath>
@@ -32,10 +33,14 @@ void place(Body& body, const Placement& placement) {
 
 } // namespace
 
-Mesh load_mesh(const std::string& path) {
-    vox_io_mesh* mesh = nullptr;
-    check(vox_io_load(path.c_str(), nullptr, &mesh));
-    return Mesh(mesh);
+Mesh load_mesh(const std::string& path, vox_io_report* report) {
+    vox_io_mesh* loaded = nullptr;
+    const vox_result result = vox_io_load(path.c_str(), nullptr, &loaded);
+    if (result == VOX_ERROR_UNSUPPORTED) return load_by_assimp(path, vox_last_error(), report);
+    check(result);
+    Mesh mesh(loaded);
+    if (report) check(vox_io_mesh_report(mesh.get(), report));
+    return mesh;
 }
 
 Body own_body(const std::string& name, vox_io_mesh* mesh) {

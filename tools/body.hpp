@@ -40,8 +40,9 @@ struct Fill {
     double cell = 0;
 };
 
-// Reads a mesh file. Throws Failure with the reader's error text.
-Mesh load_mesh(const std::string& path);
+// Reads a mesh file, and its report unless that is null; report->struct_size must be set. Throws Failure with
+// the reader's error text.
+Mesh load_mesh(const std::string& path, vox_io_report* report = nullptr);
 
 // Throws Failure with the reader's error text, or if a placed coordinate is beyond the range of float.
 Body load_body(const std::string& path, const Placement& placement = {}, const Fill& fill = {});

@@ -27,12 +27,11 @@ struct Info {
 Info read_info(const std::string& file) {
     Info info;
     info.file = file;
-    const Mesh mesh = load_mesh(file);
+    info.report.struct_size = sizeof info.report;
+    const Mesh mesh = load_mesh(file, &info.report);
     vox_io_mesh_view view{};
     check(vox_io_mesh_get(mesh.get(), &view));
     info.shape = measure_shape(view);
-    info.report.struct_size = sizeof info.report;
-    check(vox_io_mesh_report(mesh.get(), &info.report));
     std::istringstream lines(vox_io_mesh_warnings(mesh.get()));
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) info.warnings.push_back(line);

@@ -29,7 +29,11 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_VEGA = 4,    /* .veg */
     VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary */
     VOX_IO_FORMAT_VTU = 6,     /* XML .vtu: ASCII, base64, appended; raw or zlib */
-    VOX_IO_FORMAT_SURFACE = 7, /* any format that assimp reads; triangles, no tets */
+    VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
+    /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
+     * busy without end and fill its memory. So AUTO never chooses it, and libraries built without it (the CMake option
+     * VOX_IO_ASSIMP is off by default) answer UNSUPPORTED. */
+    VOX_IO_FORMAT_ASSIMP = 8,
     VOX_IO_FORMAT_FORCE_32_BITS = 0x7fffffff
 } vox_io_format;
 

@@ -21,7 +21,7 @@ vox_io_load_desc default_load_desc() {
 vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return default_load_desc();
     const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
-    if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_SURFACE)
+    if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_ASSIMP)
         refuse(format("vox_io_load_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
     if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
     return desc;
@@ -40,8 +40,9 @@ File without_byte_order_mark(File file) {
     return file;
 }
 
-// Reads any format except TetGen, which needs two files.
-MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_index) {
+// Reads any format except TetGen, which needs two files. Scenes may name other files in `folder`.
+MeshData read_one(const File& given, const std::optional<std::string>& folder, vox_io_format which,
+                  std::uint32_t mesh_index) {
     const File file = without_byte_order_mark(given);
     switch (which) {
     case VOX_IO_FORMAT_GMSH:
@@ -55,20 +56,19 @@ MeshData read_one(const File& given, vox_io_format which, std::uint32_t mesh_ind
     case VOX_IO_FORMAT_VTU:
         return read_vtu(file);
     case VOX_IO_FORMAT_SURFACE:
-        if (is_off(file)) {
-            if (mesh_index != VOX_IO_ALL_MESHES && mesh_index != 0)
-                refuse(format("%s: mesh %u was asked for, but the file holds 1", given.name.c_str(),
-                              mesh_index));
-            return read_off(file);
-        }
-        return read_surface(given, extension_of(given.name), mesh_index);
+        return read_surface(file, folder, mesh_index);
     default:
-        throw Error(
-            VOX_ERROR_UNSUPPORTED,
-            format("%s: expected a mesh, found neither known content nor a known extension "
-                   "(.msh .node .ele .mesh .veg .vtk .vtu, and surfaces as .obj .ply .stl .off .gltf)",
-                   given.name.c_str()));
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("%s: expected a mesh, found neither known content nor a known extension (.msh "
+                           ".node .ele .mesh "
+                           ".veg .vtk .vtu, and surfaces: .obj .ply .stl .off .gltf .glb)",
+                           given.name.c_str()));
     }
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.find_last_of("/\\");
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
 MeshData load(const std::string& path, const vox_io_load_desc& desc) {
@@ -76,9 +76,9 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
     const File& file = bytes.file();
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
-    if (which == VOX_IO_FORMAT_SURFACE && !is_off(without_byte_order_mark(file)))
-        return read_surface_at(path, desc.mesh_index);
-    if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, which, desc.mesh_index);
+    if (which == VOX_IO_FORMAT_ASSIMP && desc.format == which)
+        return read_by_assimp_at(path, desc.mesh_index);
+    if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh_index);
 
     const std::string extension = extension_of(path);
     if (extension != "node" && extension != "ele")
@@ -108,7 +108,9 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
         const vox_io_format which = format_of(first, desc.format);
         if (which == VOX_IO_FORMAT_TETGEN)
             refuse(format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
-        return read_one(first, which, desc.mesh_index);
+        if (desc.format == VOX_IO_FORMAT_ASSIMP)
+            return read_by_assimp(first, extension_of(first.name), desc.mesh_index);
+        return read_one(first, std::nullopt, which, desc.mesh_index);
     }
     if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)
         refuse("source_count is 2, which only TetGen meshes need");
@@ -209,7 +211,7 @@ const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->
 const char* vox_io_format_string(vox_io_format format) {
     static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
                                             "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
-                                            "VTK XML .vtu", "surface"};
+                                            "VTK XML .vtu", "surface",   "surface, by assimp"};
     const auto index = static_cast<std::uint32_t>(format);
     return index < std::size(names) ? names[index] : "unknown format";
 }

@@ -4,14 +4,13 @@
 
 #include "base/error.hpp"
 #include "base/llu.hpp"
-#include "base/sampling.hpp"
 #include "exact/predicates.hpp"
 #include "io/buckets.hpp"
 #include "io/determinant.hpp"
+#include "io/position_table.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cfloat>
 #include <cmath>
 
@@ -86,28 +85,9 @@ void count_edges(const MeshData& data, vox_io_report& report) {
 }
 
 void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {
-    constexpr Index empty = 0xffffffffu;
-    std::vector<Index> table(std::bit_ceil(report.vertices * 2 + 1), empty);
-    const std::uint64_t mask = table.size() - 1;
-    for (std::uint64_t v = 0; v < report.vertices; ++v) {
-        const double* p = &data.positions[3 * v];
-        std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) {
-            hash += std::bit_cast<std::uint64_t>(p[k] + 0.0); // adding 0.0 turns -0 into 0
-            hash = next_random(hash);
-        }
-        for (std::uint64_t slot = hash & mask;; slot = (slot + 1) & mask) {
-            if (table[slot] == empty) {
-                table[slot] = static_cast<Index>(v);
-                break;
-            }
-            const double* q = &data.positions[3 * static_cast<std::size_t>(table[slot])];
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) {
-                ++report.duplicate_vertices;
-                break;
-            }
-        }
-    }
+    PositionTable table(data.positions);
+    table.reserve(report.vertices);
+    for (Index v = 0; v < report.vertices; ++v) report.duplicate_vertices += table.enter(v) != v;
 }
 
 // Counts components (by union-find over the vertices of each element, with path halving) and unused vertices,

@@ -223,11 +223,29 @@ def surfaces():
     write("cube.ply", "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
           "property float z\nelement face 6\nproperty list uchar int vertex_index\nend_header\n" +
           lines(corners) + lines((4, *q) for q in quads))
+    triangles = [t for q in quads for t in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))]
+    for order, name in (("<", "little"), (">", "big")):
+        out = ("ply\nformat binary_%s_endian 1.0\ncomment with colours and labels\nelement vertex 8\n"
+               "property uchar red\nproperty double x\nproperty float32 y\nproperty short z\n"
+               "property list uint8 ushort labels\nelement face 6\nproperty char side\n"
+               "property list int32 uint32 vertex_indices\nelement edge 1\nproperty int a\nend_header\n" % name).encode()
+        for p in corners:
+            out += struct.pack(order + "BdfhB2H", 255, *p, 2, 10, 11)
+        for q in quads:
+            out += struct.pack(order + "bi4I", 0, 4, *q)
+        write("cube_%s.ply" % name, out + struct.pack(order + "i", 7))
+    # The cube as strips: three sides that follow each other, and each of the others.
+    write("cube_strips.ply", "ply\nformat ascii 1.0\nobj_info four strips\nelement vertex 8\nproperty float x\n"
+          "property float y\nproperty float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+          "end_header\n" + lines(corners) + "23 0 1 2 3 6 7 4 5 -1 1 5 3 7 -1 0 2 4 6 -1 0 4 1 5\n")
     out = b"a unit cube".ljust(80) + struct.pack("<I", 12)
-    for q in quads:
-        for t in ((q[0], q[1], q[2]), (q[0], q[2], q[3])):
-            out += struct.pack("<12fH", 0, 0, 0, *(float(x) for c in t for x in corners[c]), 0)
+    for t in triangles:
+        out += struct.pack("<12fH", 0, 0, 0, *(float(x) for c in t for x in corners[c]), 0)
     write("cube.stl", out)
+    write("cube_text.stl", "solid cube\n" + "".join(
+        "  facet normal nan nan nan\n    outer loop\n" +
+        "".join("      vertex %e %e %e\n" % corners[c] for c in t) + "    endloop\n  endfacet\n"
+        for t in triangles) + "endsolid cube\n")
     # A scene: the same tetrahedron twice, moved by its nodes, once mirrored.
     data = struct.pack("<12f12H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
     write("two_tetrahedra.gltf", """{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
@@ -239,6 +257,19 @@ def surfaces():
  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
  "buffers": [{"byteLength": 72, "uri": "data:application/octet-stream;base64,%s"}]}
 """ % base64.b64encode(data).decode())
+    # The same as one file, with positions in integers and a strip.
+    data = struct.pack("<16h8B", 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 2, 1, 3, 0, 2, 0, 0)
+    json = ('{"asset":{"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization"],"scenes":[{"nodes":[1]}],'
+            '"nodes":[{"mesh":0,"rotation":[0,0,1,0]},{"children":[0,2],"matrix":[2,0,0,0,0,2,0,0,0,0,2,0,1,1,1,1]},'
+            '{"mesh":0,"translation":[10,0,0]}],'
+            '"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5}]}],'
+            '"accessors":[{"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"},'
+            '{"bufferView":1,"componentType":5121,"count":6,"type":"SCALAR"}],'
+            '"bufferViews":[{"buffer":0,"byteLength":32,"byteStride":8},{"buffer":0,"byteOffset":32,"byteLength":6}],'
+            '"buffers":[{"byteLength":40}]}').encode()
+    json += b" " * (-len(json) % 4)
+    write("two_tetrahedra.glb", struct.pack("<4sII", b"glTF", 2, 28 + len(json) + len(data)) +
+          struct.pack("<I4s", len(json), b"JSON") + json + struct.pack("<I4s", len(data), b"BIN\0") + data)
 
 
 for make in (gmsh_1, gmsh_22, gmsh_4, tetgen, medit, vega, vtk, vtu, surfaces):

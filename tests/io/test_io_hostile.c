@@ -1,6 +1,11 @@
 /* Small files of every format, cut, bent and lied in: a reader gives an error or a sound mesh, reads nothing
- * beyond its buffer (which a sanitizer sees) and asks for no memory by a number that it has not checked. */
+ * beyond its buffer (which a sanitizer sees), soon ends, and takes no more memory than 16 times the file and
+ * 16 MB. FUZZ_SECONDS in the environment asks for that many thousand mutations of each file, and for a line
+ * about each. */
+#include "support/heap_peak.h"
 #include "support/io_files.h"
+
+#include <time.h>
 
 #define FOLDER VOX_TEST_DATA
 
@@ -29,8 +34,24 @@ static const char* const samples[] = {"box_1.msh",
                                       "box_appended.vtu",
                                       "box_appended_zlib_big.vtu",
                                       "box_appended_base64.vtu",
-                                      "box_appended_base64_zlib.vtu"};
-enum { sample_count = sizeof samples / sizeof *samples };
+                                      "box_appended_base64_zlib.vtu",
+                                      "cube.stl", /* from here on surfaces */
+                                      "cube_text.stl",
+                                      "cube.obj",
+                                      "cube.ply",
+                                      "cube_little.ply",
+                                      "cube_big.ply",
+                                      "cube_strips.ply",
+                                      "cube.off",
+                                      "two_tetrahedra.gltf",
+                                      "two_tetrahedra.glb"};
+enum { sample_count = sizeof samples / sizeof *samples, first_surface = 25 };
+
+/* Processor time in seconds. */
+static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+static double slowest;   /* of all attacks so far: seconds of processor time */
+static size_t most_heap; /* and bytes beyond 16 times the file */
 
 /* Reads a copy of exactly `size` bytes; the result is checked and destroyed. */
 static vox_result attack(const char* name, const unsigned char* data, size_t size) {
@@ -44,7 +65,16 @@ static vox_result attack(const char* name, const unsigned char* data, size_t siz
     }
     const vox_io_source sources[2] = {{name, copy, size}, {partner, other.data, other.size}};
     vox_io_mesh* mesh = NULL;
+    heap_begin();
+    const double start = seconds();
     const vox_result result = vox_io_read(sources, partner ? 2 : 1, NULL, &mesh);
+    const double taken = seconds() - start;
+    const size_t heap = heap_peak(), fair = 16 * (size + other.size);
+    if (taken > slowest) slowest = taken;
+    if (heap > fair && heap - fair > most_heap) most_heap = heap - fair;
+    ck_assert_msg(heap <= fair + 16000000, "%s: %zu bytes of memory for a file of %zu", name, heap, size);
+    /* A thousand times what the slowest takes: only a loop without end, or nearly so, comes there. */
+    ck_assert_msg(taken < 100, "%s: %g s for %zu bytes", name, taken, size);
     if (result == VOX_OK) {
         check_sound(mesh);
         vox_io_mesh_destroy(mesh);
@@ -68,6 +98,17 @@ START_TEST(whole) {
         ck_ok(vox_io_load(path, NULL, &mesh));
         check_sound(mesh);
         const vox_io_report report = report_of(mesh);
+        if (s >= first_surface) {
+            const int two = strstr(samples[s], "two") != NULL;
+            ck_assert_msg(report.vertices == 8 && report.triangles == (two ? 8 : 12),
+                          "%s: %llu vertices, %llu triangles", samples[s],
+                          (unsigned long long)report.vertices, (unsigned long long)report.triangles);
+            ck_assert_uint_eq(report.open_edges + report.misoriented_edges + report.non_manifold_facets, 0);
+            ck_assert_uint_eq(report.components, two ? 2 : 1);
+            ck_assert_double_gt(report.volume, 0.99);
+            vox_io_mesh_destroy(mesh);
+            continue;
+        }
         const int mixed = !is_tetgen(samples[s]) && strcmp(samples[s], "box.veg") != 0;
         ck_assert_msg(report.vertices == 12 && report.tets == 10, "%s: %llu vertices, %llu tets", samples[s],
                       (unsigned long long)report.vertices, (unsigned long long)report.tets);
@@ -87,47 +128,99 @@ START_TEST(cut_at_every_byte) {
     size_t loaded = 0;
     for (size_t size = 0; size < file.size; ++size) loaded += attack(name, file.data, size) == VOX_OK;
     /* Only an end that holds nothing of the mesh may be missing: a line end, a closing tag, data on points.
-     */
-    ck_assert_msg(loaded < 120, "%s: %zu cut files were taken for whole ones", name, loaded);
+     * OBJ has no end: every whole face makes a mesh. */
+    ck_assert_msg(strcmp(extension_of(name), "obj") == 0 || loaded < 120,
+                  "%s: %zu cut files were taken for whole ones", name, loaded);
     free(file.data);
 }
 END_TEST
 
-static uint32_t next_random(uint32_t* state) {
-    *state = *state * 1664525u + 1013904223u;
-    return *state >> 8;
+static uint32_t next_random(uint64_t* state) { /* splitmix64 */
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (uint32_t)(z >> 32);
 }
 
-START_TEST(bent_bytes) {
-    const char* name = samples[_i];
+/* Replaces `removed` bytes of `file` at `at` by `size` others. */
+static void splice(bytes* file, size_t at, size_t removed, const void* data, size_t size) {
+    unsigned char* out = (unsigned char*)malloc(file->size - removed + size + 1);
+    memcpy(out, file->data, at);
+    memcpy(out + at, data, size);
+    memcpy(out + at + size, file->data + at + removed, file->size - at - removed);
+    file->size += size - removed;
+    free(file->data);
+    file->data = out;
+}
+
+static void mutate(bytes* file, uint64_t* random) {
+    static const char* const words[] = {"-1",     "0",  "4294967295", "99999999", "1e309", "nan", "-",
+                                        "1e-320", "\n", " ",          "\r\n",     "\"",    "{}",  "[",
+                                        "]",      "}",  ",",          "/",        "#",     "\\"};
+    const size_t n = file->size, at = next_random(random) % n;
+    const size_t piece = 1 + next_random(random) % (next_random(random) % 4 ? 8 : 64);
+    const size_t length = piece < n - at ? piece : n - at;
+    switch (next_random(random) % 8) {
+    case 0:
+        file->data[at] = (unsigned char)next_random(random);
+        break;
+    case 1:
+        file->data[at] ^= (unsigned char)(1u << next_random(random) % 8);
+        break;
+    case 2:
+        file->data[at] = (unsigned char)"0159-+.eE \n#$<>\"'"[next_random(random) % 17];
+        break;
+    case 3: { /* a piece over another */
+        const size_t from = next_random(random) % n, last = at > from ? at : from;
+        memmove(file->data + at, file->data + from, (n - last) / 4);
+        break;
+    }
+    case 4:
+        if (length < n) splice(file, at, length, "", 0);
+        break;
+    case 5: { /* a word in place of a number, or put in */
+        const char* const word = words[next_random(random) % (sizeof words / sizeof *words)];
+        size_t start = at, end = at;
+        while (end < n && strchr("+-.0123456789", file->data[end]) && file->data[end]) ++end;
+        while (start > 0 && end > at && strchr("+-.0123456789", file->data[start - 1]) &&
+               file->data[start - 1])
+            --start;
+        splice(file, start, end - start, word, strlen(word));
+        break;
+    }
+    case 6: { /* a piece once more, elsewhere */
+        unsigned char copy[64];
+        memcpy(copy, file->data + at, length);
+        splice(file, next_random(random) % n, 0, copy, length);
+        break;
+    }
+    default: /* an integer of four bytes, in either byte order */
+        if (n >= 4) {
+            const uint32_t value =
+                next_random(random) % 2 ? next_random(random) : 1u << next_random(random) % 32;
+            memcpy(file->data + next_random(random) % (n - 3), &value, 4);
+        }
+    }
+}
+
+START_TEST(mutations) {
+    const char *name = samples[_i], *asked = getenv("FUZZ_SECONDS");
+    const long rounds = asked ? 1000 * atol(asked) : 1000;
     const bytes file = read_file(FOLDER, name);
     ck_assert_ptr_nonnull(file.data);
-    uint32_t random = 12345;
-    for (int round = 0; round < 1000; ++round) {
+    uint64_t random = (uint64_t)_i;
+    long loaded = 0;
+    for (long round = 0; round < rounds; ++round) {
         bytes bent = {(unsigned char*)malloc(file.size), file.size};
         memcpy(bent.data, file.data, file.size);
-        const uint32_t changes = 1 + next_random(&random) % 4;
-        for (uint32_t c = 0; c < changes; ++c) {
-            const size_t at = next_random(&random) % file.size;
-            switch (next_random(&random) % 4) {
-            case 0:
-                bent.data[at] = (unsigned char)next_random(&random);
-                break;
-            case 1:
-                bent.data[at] ^= (unsigned char)(1u << next_random(&random) % 8);
-                break;
-            case 2:
-                bent.data[at] = (unsigned char)"0159-+.eE \n#$<>\"'"[next_random(&random) % 17];
-                break;
-            default: { /* move a piece over another */
-                const size_t from = next_random(&random) % file.size, last = at > from ? at : from;
-                memmove(bent.data + at, bent.data + from, (file.size - last) / 4);
-            }
-            }
-        }
-        attack(name, bent.data, bent.size);
+        for (uint32_t changes = 1 + next_random(&random) % 4; changes > 0; --changes) mutate(&bent, &random);
+        loaded += attack(name, bent.data, bent.size) == VOX_OK;
         free(bent.data);
     }
+    if (asked)
+        printf("%-32s %ld mutations, %ld meshes; at most %.3f s and %zu bytes of memory beyond 16 times the "
+               "file\n",
+               name, rounds, loaded, slowest, most_heap);
     free(file.data);
 }
 END_TEST
@@ -180,8 +273,8 @@ START_TEST(lying_words) {
                                             {0, 0, 0, 0, 0, 0, 0xf0, 0x7f},
                                             {0, 0, 0, 0, 0, 0, 0, 0}};
     const char* name = samples[_i];
-    if (!strstr(name, "binary") && !strstr(name, "little") && !strstr(name, "big") &&
-        strcmp(name, "box_appended.vtu") != 0)
+    if (!strstr(name, "binary") && !strstr(name, "little") && !strstr(name, "big") && !strstr(name, ".glb") &&
+        strcmp(name, "cube.stl") != 0 && strcmp(name, "box_appended.vtu") != 0)
         return; /* text */
     const bytes file = read_file(FOLDER, name);
     ck_assert_ptr_nonnull(file.data);
@@ -225,14 +318,189 @@ START_TEST(declared_sizes_are_checked_first) {
 }
 END_TEST
 
+/* ---- files that stand for far more than they hold ---- */
+
+static bytes text = {NULL, 0}; /* the file that is being written */
+static size_t text_room = 0;
+
+static void put(const void* data, size_t size) {
+    if (text.size + size > text_room) {
+        text_room = 2 * (text.size + size);
+        text.data = (unsigned char*)realloc(text.data, text_room);
+    }
+    memcpy(text.data + text.size, data, size);
+    text.size += size;
+}
+static void say(const char* words) { put(words, strlen(words)); }
+static void repeat(const char* words, size_t times) {
+    for (size_t i = 0; i < times; ++i) say(words);
+}
+
+/* Reads what was written, as a file of that name. */
+static void expect(const char* name, vox_result result, const char* words) {
+    const vox_result found = attack(name, text.data, text.size);
+    ck_assert_msg(found == result, "%s: %s (%s), expected %s", name, vox_result_string(found),
+                  vox_last_error(), vox_result_string(result));
+    if (result != VOX_OK) ck_assert_msg(strstr(vox_last_error(), words), "%s: %s", name, vox_last_error());
+    text.size = 0;
+}
+
+static const char ply_points[] = "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty char "
+                                 "x\nproperty char y\nproperty char z\n";
+
+START_TEST(polygons) {
+    say("v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
+    repeat(" 1 2 3", 500000);
+    expect("fan.obj", VOX_ERROR_LIMIT, "more triangles than the limit of 631076");
+
+    say(ply_points);
+    say("element face 10000\nproperty list uchar uchar vertex_index\nend_header\n");
+    put("\0\0\0\1\0\0\0\1\0\0\0\1", 12);
+    for (int i = 0; i < 10000; ++i) {
+        put("\xff", 1);
+        repeat("\1", 255);
+    }
+    expect("fans.ply", VOX_ERROR_LIMIT, "more triangles");
+
+    say(ply_points);
+    say("element tristrips 1\nproperty list int uchar vertex_index\nend_header\n");
+    put("\0\0\0\1\0\0\0\1\0\0\0\1\0\0\x10\0", 16);
+    repeat("\1", 1048576);
+    expect("strip.ply", VOX_ERROR_LIMIT, "more triangles");
+
+    /* A comb: every ear is looked for among many corners, until that takes too long; then the rest is cut
+     * anyhow. */
+    for (int tooth = 0; tooth < 30000; ++tooth) {
+        char line[64];
+        snprintf(line, sizeof line, "v %d 0 0\nv %d.5 %d 0\n", tooth, tooth, tooth % 2 ? 1 : 2);
+        say(line);
+    }
+    say("v 30000 0 0\nv 30000 -1 0\nv 0 -1 0\nf");
+    for (int corner = 60003; corner > 0; --corner) {
+        char word[16];
+        snprintf(word, sizeof word, " %d", corner);
+        say(word);
+    }
+    expect("comb.obj", VOX_OK, "");
+}
+END_TEST
+
+START_TEST(points) {
+    repeat("v 0 0 0\n", 500000);
+    expect("points.obj", VOX_ERROR_FORMAT, "expected triangles, found none");
+    say("ply\nformat ascii 1.0\nelement vertex 500000000\nproperty float x\nproperty float y\nproperty float "
+        "z\n"
+        "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n");
+    expect("claim.ply", VOX_ERROR_FORMAT,
+           "line 3: number of elements vertex: 500000000 are declared, but only 6 bytes");
+    say("ply\nformat ascii 1.0\nelement nothing 1000000000000000000\nend_header\n");
+    expect("nothing.ply", VOX_ERROR_FORMAT, "line 3: element nothing: expected properties");
+    say("ply\nformat ascii 1.0\n");
+    repeat("element a 0\n", 200000);
+    expect("elements.ply", VOX_ERROR_FORMAT, "end_header");
+    say("ply\nformat ascii 1.0\nelement a 0\n");
+    repeat("property char a\n", 200000);
+    expect("properties.ply", VOX_ERROR_FORMAT, "end_header");
+}
+END_TEST
+
+/* Positions made so that PositionTable gives them all one hash. */
+START_TEST(positions_of_one_hash) {
+    char line[128];
+    uint32_t found = 0;
+    for (uint64_t i = 1; found < 100002; ++i) {
+        double x = (double)i, y;
+        uint64_t bits, hash = 0x3ff0000000000000u;
+        memcpy(&bits, &x, 8);
+        bits *= 0x9e3779b97f4a7c15u;
+        bits ^= bits >> 32;
+        hash ^= bits;
+        memcpy(&y, &hash, 8);
+        if (!isfinite(y) || fabs(y) < 1e-300) continue;
+        snprintf(line, sizeof line, "v %.0f %.17g 0\n", x, y);
+        say(line);
+        ++found;
+    }
+    for (uint32_t i = 1; i <= found; i += 3) {
+        snprintf(line, sizeof line, "f %u %u %u\n", i, i + 1, i + 2);
+        say(line);
+    }
+    expect("one_hash.obj", VOX_OK, "");
+}
+END_TEST
+
+#define GLTF_MESH                                                                                            \
+    "\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"                              \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"               \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":"            \
+    "\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]"
+
+START_TEST(scenes) {
+    say("{" GLTF_MESH ",\"meshes\":[{\"primitives\":[");
+    repeat("{\"attributes\":{\"POSITION\":0}},", 999);
+    say("{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"children\":[");
+    for (int i = 1; i < 1000; ++i) {
+        char number[16];
+        snprintf(number, sizeof number, i < 999 ? "%d," : "%d", i);
+        say(number);
+    }
+    say("]}");
+    repeat(",{\"mesh\":0}", 999);
+    say("]}");
+    expect("copies.gltf", VOX_ERROR_LIMIT, "more primitives than the limit");
+
+    say("{" GLTF_MESH
+        ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0}");
+    repeat(",{}", 1000000);
+    say("]}");
+    expect("nodes.gltf", VOX_OK, "");
+
+    say("{" GLTF_MESH ",\"nodes\":[");
+    for (int i = 0; i < 100000; ++i) {
+        char node[64];
+        snprintf(node, sizeof node, "{\"scale\":[1,1,1],\"children\":[%d]},", i + 1);
+        say(node);
+    }
+    say("{}]}");
+    expect("deep.gltf", VOX_ERROR_LIMIT, "nested deeper than 1024");
+
+    say("{" GLTF_MESH ",\"meshes\":[{\"primitives\":[{\"attributes\":{}}");
+    repeat(",{\"attributes\":{}}", 50000);
+    say("]}],\"nodes\":[{\"children\":[1");
+    for (int i = 2; i < 50000; ++i) {
+        char number[16];
+        snprintf(number, sizeof number, ",%d", i);
+        say(number);
+    }
+    say("]}");
+    repeat(",{\"mesh\":0}", 50000);
+    say("]}");
+    expect("empty_copies.gltf", VOX_ERROR_LIMIT, "more primitives");
+
+    say("{" GLTF_MESH ",\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}");
+    expect("circle.gltf", VOX_ERROR_FORMAT, "node 0 is in the scene twice");
+
+    say("{\"extras\":");
+    repeat("[", 2000000);
+    expect("brackets.gltf", VOX_ERROR_FORMAT, "expected a value, found the end");
+
+    say("{" GLTF_MESH ",\"scenes\":[{}");
+    repeat(",{}", 500000);
+    say("],\"nodes\":[{}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":1}");
+    repeat(",{\"buffer\":0,\"byteLength\":1}", 100000);
+    say("]}");
+    expect("views.gltf", VOX_ERROR_FORMAT, "expected triangles, found none");
+}
+END_TEST
+
 int main(void) {
     Suite* suite = suite_create("io_hostile");
     TCase* tests = add_case(suite, "hostile");
     tcase_add_test(tests, whole);
     tcase_add_loop_test(tests, cut_at_every_byte, 0, sample_count);
-    tcase_add_loop_test(tests, bent_bytes, 0, sample_count);
+    tcase_add_loop_test(tests, mutations, 0, sample_count);
     tcase_add_loop_test(tests, lying_numbers, 0, sample_count);
     tcase_add_loop_test(tests, lying_words, 0, sample_count);
-    tcase_add_test(tests, declared_sizes_are_checked_first);
+    tcase_add_each(tests, declared_sizes_are_checked_first, polygons, points, positions_of_one_hash, scenes);
     return run_suite(suite);
 }

@@ -165,6 +165,22 @@ class CommandLine(unittest.TestCase):
         self.assertIsNone(surface["mean_volume"])
         self.assertAlmostEqual(surface["mean_edge"], (2 + 3 * 2 ** 0.5) / 5, 12)
 
+    def test_a_process_of_its_own_reads_what_only_assimp_reads(self):
+        triangle = ("AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\n"
+                    "kids 1\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
+                    "0 0 0\n1 0 0\n2 0 0\nkids 0\n")
+        unknown = r"neither known content nor a known extension"
+        self.refused(1, unknown + r"[^;]*$", "info", self.file("a.xyz", triangle[9:]))
+        if not int(os.environ["VOX_ASSIMP"]):
+            return self.refused(1, unknown, "info", self.file("a.ac", triangle))
+        found = run_json("info", self.file("a.ac", triangle))["meshes"][0]
+        self.assertEqual((found["format"], found["vertices"], found["surface_triangles"]), ("surface, by assimp", 3, 1))
+        # assimp 5.2.5 reads beyond its memory here; whatever another version does, the tool lives to say it.
+        damaged = ("*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*MESH {\n*MESH_NUMVERTEX 3\n"
+                   "*MESH_NUMFACES 1\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0 0 0\n*MESH_VERTEX 1 1 0 0\n*X 2 0 1 0\n}\n"
+                   "*MESH_FACE_LIST {\n*-1MESH_FACE 0: A: 0 B: 1 C: 2 AB: 1 BC: 1 CA: 1\n}\n}\n}\n")
+        self.refused(1, unknown + ".*; assimp, in a process of its own: ", "info", self.file("a.ase", damaged))
+
     def test_info_as_text(self):
         text = run("info", self.two).stdout.decode()
         self.assertRegex(text, r"vertices +5\n")

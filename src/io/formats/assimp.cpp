@@ -2,6 +2,7 @@
 // triangles, and the meshes of a scene joined unless a single one is requested.
 #include "io/determinant.hpp"
 #include "io/formats/readers.hpp"
+#include "io/formats/surface_builder.hpp"
 
 #include <assimp/Importer.hpp>
 #include <assimp/commonMetaData.h>
@@ -9,56 +10,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <bit>
 #include <cmath>
 
 namespace vox::io {
 namespace {
-
-// Merges vertices at exactly the same position. File formats and assimp repeat a vertex for every normal,
-// texture coordinate or material that it has, which would leave a closed surface open.
-class Joiner {
-public:
-    explicit Joiner(std::vector<double>& positions) : positions_(positions), table_(1024, empty) {}
-
-    std::uint32_t vertex(const double p[3]) {
-        const std::size_t count = positions_.size() / 3;
-        if (2 * (count + 1) > table_.size()) grow();
-        const std::size_t slot = find(p);
-        if (table_[slot] == empty) {
-            if (count >= max_count) throw Error(VOX_ERROR_LIMIT, "the surface has too many vertices");
-            table_[slot] = static_cast<std::uint32_t>(count);
-            positions_.insert(positions_.end(), p, p + 3);
-        }
-        return table_[slot];
-    }
-
-private:
-    static constexpr std::uint32_t empty = 0xffffffffu;
-
-    std::size_t find(const double p[3]) const {
-        std::uint64_t hash = 0;
-        for (int k = 0; k < 3; ++k) { // adding 0.0 turns -0 into 0
-            hash = (hash ^ std::bit_cast<std::uint64_t>(p[k] + 0.0)) * 0x9e3779b97f4a7c15u;
-            hash ^= hash >> 32;
-        }
-        const std::size_t mask = table_.size() - 1;
-        for (std::size_t slot = hash & mask;; slot = (slot + 1) & mask) {
-            if (table_[slot] == empty) return slot;
-            const double* q = &positions_[3 * static_cast<std::size_t>(table_[slot])];
-            if (p[0] == q[0] && p[1] == q[1] && p[2] == q[2]) return slot;
-        }
-    }
-
-    void grow() {
-        table_.assign(2 * table_.size(), empty);
-        for (std::size_t v = 0; v < positions_.size() / 3; ++v)
-            table_[find(&positions_[3 * v])] = static_cast<std::uint32_t>(v);
-    }
-
-    std::vector<double>& positions_;
-    std::vector<std::uint32_t> table_;
-};
 
 class Matrix { // 3 x 4, in double
 public:
@@ -87,18 +42,17 @@ private:
 class SceneReader {
 public:
     SceneReader(const aiScene& scene, const std::string& name, std::uint32_t mesh_index)
-        : scene_(scene), name_(name), mesh_index_(mesh_index), joiner_(data_.positions) {}
+        : scene_(scene), name_(name), mesh_index_(mesh_index), surface_(name, max_count, VOX_IO_ALL_MESHES) {}
 
     MeshData read() {
-        data_.format = VOX_IO_FORMAT_SURFACE;
         if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= scene_.mNumMeshes)
             refuse(format("%s: mesh %u was asked for, but the file holds %u", name_.c_str(), mesh_index_,
                           scene_.mNumMeshes));
         if (scene_.mRootNode) add_node(*scene_.mRootNode);
-        if (data_.triangles.empty())
-            throw Error(VOX_ERROR_FORMAT, format("%s: expected triangles, found none", name_.c_str()));
-        read_unit();
-        return std::move(data_);
+        MeshData data = surface_.finish();
+        data.format = VOX_IO_FORMAT_ASSIMP;
+        data.unit_in_metres = unit();
+        return data;
     }
 
 private:
@@ -129,7 +83,7 @@ private:
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices != 3) {
-                ++data_.skipped_elements; // points and lines
+                surface_.skip(1); // points and lines
                 continue;
             }
             std::uint32_t triangle[3];
@@ -145,36 +99,32 @@ private:
                         VOX_ERROR_FORMAT,
                         format("%s: face %u: expected a position, found a coordinate that is not finite",
                                name_.c_str(), f));
-                triangle[i] = joiner_.vertex(p);
+                triangle[i] = surface_.vertex(p);
             }
             if (mirrors) std::swap(triangle[1], triangle[2]);
-            if (data_.triangles.size() / 3 >= max_count)
-                throw Error(VOX_ERROR_LIMIT, format("%s: too many triangles", name_.c_str()));
-            data_.triangles.insert(data_.triangles.end(), triangle, triangle + 3);
+            surface_.triangle(triangle[0], triangle[1], triangle[2]);
         }
     }
 
     // FBX states its unit in centimetres; glTF is in metres by definition.
-    void read_unit() {
-        if (!scene_.mMetaData) return;
+    double unit() const {
+        if (!scene_.mMetaData) return 0;
         double centimetres = 0;
         float single = 0;
-        if (scene_.mMetaData->Get("UnitScaleFactor", centimetres))
-            data_.unit_in_metres = centimetres / 100;
-        else if (scene_.mMetaData->Get("UnitScaleFactor", single))
-            data_.unit_in_metres = static_cast<double>(single) / 100;
+        if (!scene_.mMetaData->Get("UnitScaleFactor", centimetres) &&
+            scene_.mMetaData->Get("UnitScaleFactor", single))
+            centimetres = static_cast<double>(single);
         aiString source;
         if (scene_.mMetaData->Get(AI_METADATA_SOURCE_FORMAT, source) &&
             std::string_view(source.C_Str()).starts_with("glTF"))
-            data_.unit_in_metres = 1;
-        if (!std::isfinite(data_.unit_in_metres) || data_.unit_in_metres < 0) data_.unit_in_metres = 0;
+            return 1;
+        return std::isfinite(centimetres) && centimetres > 0 ? centimetres / 100 : 0;
     }
 
     const aiScene& scene_;
     const std::string& name_;
     std::uint32_t mesh_index_;
-    MeshData data_;
-    Joiner joiner_;
+    SurfaceBuilder surface_;
 };
 
 constexpr unsigned steps = aiProcess_Triangulate;
@@ -186,6 +136,14 @@ void configure(Assimp::Importer& importer) {
 
 MeshData convert(Assimp::Importer& importer, const aiScene* scene, const std::string& name,
                  std::uint32_t mesh_index) {
+    const std::string extension = extension_of(name);
+    const bool known = !extension.empty() && extension.find_first_of("*;") == std::string::npos &&
+                       importer.IsExtensionSupported("." + extension);
+    if (!scene && !known)
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("%s: expected a surface that assimp reads, found neither known "
+                           "content nor a known extension",
+                           name.c_str()));
     if (!scene || !scene->mRootNode)
         throw Error(VOX_ERROR_FORMAT, format("%s: expected a surface, found this: %s", name.c_str(),
                                              printable(importer.GetErrorString(), 400).c_str()));
@@ -194,12 +152,7 @@ MeshData convert(Assimp::Importer& importer, const aiScene* scene, const std::st
 
 } // namespace
 
-bool is_surface_extension(const std::string& extension) {
-    if (extension.empty() || extension.find_first_of("/\\*;") != std::string::npos) return false;
-    return Assimp::Importer().IsExtensionSupported("." + extension);
-}
-
-MeshData read_surface(const File& file, const std::string& extension, std::uint32_t mesh_index) {
+MeshData read_by_assimp(const File& file, const std::string& extension, std::uint32_t mesh_index) {
     Assimp::Importer importer;
     configure(importer);
     const aiScene* scene =
@@ -207,7 +160,7 @@ MeshData read_surface(const File& file, const std::string& extension, std::uint3
     return convert(importer, scene, file.name, mesh_index);
 }
 
-MeshData read_surface_at(const std::string& path, std::uint32_t mesh_index) {
+MeshData read_by_assimp_at(const std::string& path, std::uint32_t mesh_index) {
     Assimp::Importer importer;
     configure(importer);
     const aiScene* scene = importer.ReadFile(path, steps);

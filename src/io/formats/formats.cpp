@@ -22,6 +22,49 @@ bool contains_early(std::string_view bytes, std::string_view text) {
 
 } // namespace
 
+namespace {
+
+using SurfaceReader = MeshData (*)(const File&, const std::optional<std::string>&, std::uint32_t);
+
+template <MeshData (*read)(const File&, std::uint32_t)>
+MeshData alone(const File& file, const std::optional<std::string>&, std::uint32_t mesh_index) {
+    return read(file, mesh_index);
+}
+
+// The reader for the surface that the first characters of `bytes` indicate; null for none.
+SurfaceReader surface_of_content(std::string_view bytes) {
+    const File file{"", first_text(bytes, '#')};
+    const std::string_view text = file.bytes, word = Scanner(file, '#').peek();
+    if (word.ends_with("OFF") && word.size() <= 7) return alone<read_off>;
+    if (word == "ply") return alone<read_ply>;
+    if (text.starts_with("glTF") || text.starts_with('{')) return read_gltf;
+    if (word == "solid" || is_binary_stl(bytes)) return alone<read_stl>;
+    return nullptr;
+}
+
+SurfaceReader surface_of_extension(const std::string& extension) {
+    if (extension == "obj") return alone<read_obj>;
+    if (extension == "off") return alone<read_off>;
+    if (extension == "ply") return alone<read_ply>;
+    if (extension == "stl") return alone<read_stl>;
+    if (extension == "gltf" || extension == "glb") return read_gltf;
+    return nullptr;
+}
+
+} // namespace
+
+MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index) {
+    SurfaceReader read = surface_of_content(file.bytes);
+    if (!read) read = surface_of_extension(extension_of(file.name));
+    if (!read)
+        throw Error(
+            VOX_ERROR_UNSUPPORTED,
+            format("%s: expected a surface, found neither known content nor a known extension (.obj .ply "
+                   ".stl .off .gltf .glb)",
+                   file.name.c_str()));
+    return read(file, folder, mesh_index);
+}
+
 vox_io_format format_of_content(std::string_view bytes) {
     const std::string_view text = first_text(bytes, 0);
     if (text.starts_with("# vtk DataFile")) return VOX_IO_FORMAT_VTK;
@@ -32,8 +75,8 @@ vox_io_format format_of_content(std::string_view bytes) {
     if (behind_comments.starts_with("MeshVersionFormatted")) return VOX_IO_FORMAT_MEDIT;
     for (const char* keyword : {"*VERTICES", "*ELEMENTS", "*MATERIAL", "*INCLUDE"})
         if (behind_comments.starts_with(keyword)) return VOX_IO_FORMAT_VEGA;
-    if (starts_as_off(behind_comments)) return VOX_IO_FORMAT_SURFACE;
-    if (contains_early(bytes, "[MeshSerializer")) return VOX_IO_FORMAT_SURFACE; // Ogre's .mesh
+    if (surface_of_content(bytes)) return VOX_IO_FORMAT_SURFACE;
+    if (contains_early(bytes, "[MeshSerializer")) return VOX_IO_FORMAT_ASSIMP; // Ogre's .mesh
     return VOX_IO_FORMAT_AUTO;
 }
 
@@ -44,7 +87,7 @@ vox_io_format format_of_extension(const std::string& extension) {
     if (extension == "veg") return VOX_IO_FORMAT_VEGA;
     if (extension == "vtk") return VOX_IO_FORMAT_VTK;
     if (extension == "vtu") return VOX_IO_FORMAT_VTU;
-    if (is_surface_extension(extension)) return VOX_IO_FORMAT_SURFACE;
+    if (surface_of_extension(extension)) return VOX_IO_FORMAT_SURFACE;
     return VOX_IO_FORMAT_AUTO;
 }
 

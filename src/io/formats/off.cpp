@@ -1,6 +1,7 @@
-// OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII. assimp 5.2.5
-// is not used for it because it expects each face on a line of its own and crashes otherwise.
+// OFF, the Object File Format of Geomview (http://www.geomview.org/docs/html/OFF.html), ASCII.
+#include "io/formats/indexed_points.hpp"
 #include "io/formats/readers.hpp"
+#include "io/formats/surface_builder.hpp"
 
 #include <algorithm>
 
@@ -18,22 +19,12 @@ std::string_view base_keyword(std::string_view word) {
 
 } // namespace
 
-bool starts_as_off(std::string_view bytes) {
-    const File file{"", bytes};
+MeshData read_off(const File& file, std::uint32_t mesh_index) {
+    SurfaceBuilder surface(file.name, most_triangles(file.bytes.size()), mesh_index);
+    IndexedPoints points;
     Scanner in(file, '#');
     in.skip_space();
-    const std::string_view keyword = in.peek();
-    return keyword.ends_with("OFF") && keyword.size() <= 7;
-}
-
-bool is_off(const File& file) { return extension_of(file.name) == "off" || starts_as_off(file.bytes); }
-
-MeshData read_off(const File& file) {
-    MeshData data;
-    data.format = VOX_IO_FORMAT_SURFACE;
-    Scanner in(file, '#');
-    in.skip_space();
-    if (!starts_as_off(in.rest())) in.expected("OFF");
+    if (!in.peek().ends_with("OFF")) in.expected("OFF");
     const std::string keyword(in.word("OFF"));
     if (base_keyword(keyword) != "OFF")
         in.fail(format("%s: only points of three dimensions are read (OFF, with ST, C or N before it)",
@@ -47,37 +38,36 @@ MeshData read_off(const File& file) {
     const auto faces = in.count("number of faces", 4, max_count);
     in.skip_line(); // the number of edges, which is often wrong
 
-    data.positions.reserve(3 * vertices);
+    points.reserve(vertices);
     for (std::uint64_t v = 0; v < vertices; ++v) {
-        for (int k = 0; k < 3; ++k) {
+        double p[3];
+        for (double& x : p) {
             in.skip_space();
-            data.positions.push_back(in.real("a coordinate"));
+            x = in.real("a coordinate");
         }
         in.skip_line(); // normal, colour, texture
+        points.add(p);
     }
+    const bool wanted = surface.begin_element();
+    std::vector<std::uint32_t> polygon;
     for (std::uint64_t f = 0; f < faces; ++f) {
         in.skip_space();
         const auto corners = in.count("number of corners", 2, max_count);
-        std::uint32_t first = 0, last = 0;
+        polygon.clear();
         for (std::uint64_t i = 0; i < corners; ++i) {
             in.skip_space();
             const auto vertex = in.integer<std::uint64_t>("a vertex number");
             if (vertex >= vertices)
                 in.fail(format("expected a vertex number from 0 to %llu, found %llu",
                                llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex)));
-            const auto corner = static_cast<std::uint32_t>(vertex);
-            if (i == 0) first = corner;
-            if (i >= 2) data.triangles.insert(data.triangles.end(), {first, last, corner}); // a fan
-            last = corner;
+            if (wanted) polygon.push_back(points.vertex(static_cast<std::uint32_t>(vertex), surface));
         }
-        if (corners < 3) ++data.skipped_elements; // points and lines
-        in.skip_line();                           // colour
+        if (wanted) surface.polygon(polygon);
+        in.skip_line(); // colour
     }
     in.skip_space();
     if (!in.done()) in.expected("the end of the file after the last face");
-    if (data.triangles.size() / 3 > max_count) in.fail("too many triangles", VOX_ERROR_LIMIT);
-    if (data.triangles.empty()) in.fail("expected triangles, found none");
-    return data;
+    return surface.finish();
 }
 
 } // namespace vox::io

@@ -6,6 +6,8 @@
 #include "io/formats/scan.hpp"
 #include "io/mesh_data.hpp"
 
+#include <optional>
+
 namespace vox::io {
 
 MeshData read_gmsh(const File& file);
@@ -15,16 +17,21 @@ MeshData read_vega(const File& file);
 MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
-// OFF surfaces; polygons are cut into fans.
-bool starts_as_off(std::string_view bytes);
-bool is_off(const File& file); // by content or name, so that assimp never gets a file it considers OFF
-MeshData read_off(const File& file);
+// Surfaces, as triangles. mesh_index is as in vox_io_load_desc. Files that a .gltf names are looked for in
+// `folder`; without one it must be complete.
+MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
+MeshData read_gltf(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
+MeshData read_obj(const File& file, std::uint32_t mesh_index);
+MeshData read_off(const File& file, std::uint32_t mesh_index);
+MeshData read_ply(const File& file, std::uint32_t mesh_index);
+MeshData read_stl(const File& file, std::uint32_t mesh_index);
+bool is_binary_stl(std::string_view bytes); // by the size that its number of triangles gives
 
-// Reads surfaces through assimp, from memory or from a path, beside which other files may be needed.
-// `extension` comes without its dot; mesh_index is as in vox_io_load_desc.
-MeshData read_surface(const File& file, const std::string& extension, std::uint32_t mesh_index);
-MeshData read_surface_at(const std::string& path, std::uint32_t mesh_index);
-bool is_surface_extension(const std::string& extension);
+// Surfaces of many more formats, by a library that is not made for damaged files: only where a caller asks
+// for it. From memory, with an extension without its dot, or from a path, beside which other files may be
+// needed.
+MeshData read_by_assimp(const File& file, const std::string& extension, std::uint32_t mesh_index);
+MeshData read_by_assimp_at(const std::string& path, std::uint32_t mesh_index);
 
 // The format that the first characters of `bytes` indicate, or AUTO.
 vox_io_format format_of_content(std::string_view bytes);

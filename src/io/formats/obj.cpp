@@ -1,0 +1,125 @@
+// Wavefront OBJ (Advanced Visualizer manual, appendix B1): vertices and polygons. Normals, texture
+// coordinates, materials, curves and surfaces are skipped.
+#include "io/formats/indexed_points.hpp"
+#include "io/formats/readers.hpp"
+#include "io/formats/surface_builder.hpp"
+
+namespace vox::io {
+namespace {
+
+class ObjReader {
+public:
+    ObjReader(const File& file, std::uint32_t mesh_index)
+        : in_(file, '#'), surface_(file.name, most_triangles(file.bytes.size()), mesh_index) {}
+
+    MeshData read() {
+        for (in_.skip_space(); !in_.done(); in_.skip_space()) {
+            const std::string_view keyword = in_.word("a keyword");
+            if (keyword == "v")
+                read_vertex();
+            else if (keyword == "f")
+                read_face();
+            else if (keyword == "o" || keyword == "g" || keyword == "usemtl")
+                name_mesh(keyword[0]);
+            else if (keyword == "l" || keyword == "p")
+                skip_element();
+            else if (!is_letter(keyword[0]))
+                refuse_keyword(keyword);
+            skip_line();
+        }
+        return surface_.finish();
+    }
+
+private:
+    static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+    [[noreturn]] void refuse_keyword(std::string_view keyword) {
+        in_.seek(in_.offset() - keyword.size());
+        in_.expected("a keyword");
+    }
+
+    // A backslash at the end of a line continues it.
+    bool continues() {
+        if (in_.peek() != "\\") return false;
+        in_.skip_line();
+        return true;
+    }
+    void skip_line() {
+        while (!in_.at_line_end())
+            if (!continues()) in_.word("a word");
+        in_.skip_line();
+    }
+
+    void read_vertex() {
+        double p[3];
+        for (double& x : p) x = in_.real("a coordinate");
+        // A fourth number alone is a weight, by which the position is divided; three more are a colour.
+        if (!in_.at_line_end()) {
+            const std::size_t at = in_.offset();
+            const double weight = in_.real("a weight or the end of the line");
+            if (weight != 1 && in_.at_line_end())
+                for (double& x : p) {
+                    x /= weight;
+                    if (!std::isfinite(x)) {
+                        in_.seek(at);
+                        in_.expected("a weight by which coordinates can be divided");
+                    }
+                }
+        }
+        if (points_.size() >= max_count) in_.fail("too many vertices", VOX_ERROR_LIMIT);
+        points_.add(p);
+    }
+
+    void read_face() {
+        const bool wanted = surface_.begin_element();
+        corners_.clear();
+        while (!in_.at_line_end()) {
+            if (continues()) continue;
+            const std::uint32_t point = read_corner();
+            if (wanted) corners_.push_back(points_.vertex(point, surface_));
+        }
+        if (wanted) surface_.polygon(corners_);
+    }
+
+    // A vertex number, and numbers of other things behind slashes. Negative numbers count from the last
+    // vertex.
+    std::uint32_t read_corner() {
+        const std::string_view word = in_.peek();
+        const char* const end = word.data() + word.size();
+        std::int64_t number = 0;
+        const auto [stop, error] = std::from_chars(word.data(), end, number);
+        if (error != std::errc{} || (stop != end && *stop != '/')) in_.expected("a vertex number");
+        const auto count = static_cast<std::int64_t>(points_.size());
+        if (number < 0) number += count + 1;
+        if (number < 1 || number > count)
+            in_.fail(format("expected a vertex number from 1 to %lld, of the vertices above, found %s",
+                            lld(count), printable(word).c_str()));
+        in_.word("a vertex number");
+        return static_cast<std::uint32_t>(number - 1);
+    }
+
+    // Objects, groups and materials each begin a mesh; the same name once more does not.
+    void name_mesh(char kind) {
+        std::string_view& name = kind == 'o' ? object_ : kind == 'g' ? group_ : material_;
+        std::string_view line = in_.rest();
+        line = line.substr(0, line.find_first_of("\r\n"));
+        if (line != name) surface_.begin_mesh();
+        name = line;
+    }
+
+    void skip_element() {
+        if (surface_.begin_element()) surface_.skip(1);
+    }
+
+    Scanner in_;
+    SurfaceBuilder surface_;
+    IndexedPoints points_;
+    std::vector<std::uint32_t> corners_;
+    std::string_view object_, group_, material_; // the names in force
+};
+
+} // namespace
+
+MeshData read_obj(const File& file, std::uint32_t mesh_index) { return ObjReader(file, mesh_index).read(); }
+
+} // namespace vox::io
