@@ -19,6 +19,10 @@
  *             it: a function that takes a const grid reads it, any other changes it. Different grids are
  *             independent. Functions without a grid run on any thread, at any time. vox_last_error() is
  *             per thread.
+ *   Floats    Whatever floating-point environment the calling thread has (rounding, denormals flushed to zero, as
+ *             -ffast-math does, traps), the library computes in the default one, gives the same bits, and leaves the
+ *             thread's own as it was, flags included. Callbacks run in that of the thread that made the call; those of
+ *             a grid inside a vox_sim or an experiment, in the default one.
  *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
  */
 #ifndef VOX_VOX_H

@@ -1,5 +1,6 @@
 // The C border of writing.
 #include "base/border.hpp"
+#include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "io/formats/readers.hpp"
@@ -128,6 +129,7 @@ vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* des
         if (settings.format == VOX_IO_WRITE_AUTO)
             refuse("vox_io_write_desc.format is AUTO, which needs a file name");
         write(*mesh, settings, [&](std::string_view bytes) {
+            const CallersFloats floats;
             if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
                 throw Error(VOX_ERROR_FILE, "the sink reports a failure");
         });
