@@ -779,7 +779,7 @@ typedef struct vox_reading {
     double position[3];         /* POSITION: the vertex as it collides, in double and transformed */
     double distance;            /* SURFACE (up to `triangle`): distance from the vertex to surface_position */
     double surface_position[3]; /* the closest point of `triangle` */
-    double barycentric[3];      /* its weights for the triangle's corners, in [0, 1] up to rounding, with the sum 1 */
+    double barycentric[3];      /* its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding */
     /* A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
      * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide. */
     double normal[3];
