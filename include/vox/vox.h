@@ -19,6 +19,10 @@
  *             it: a function that takes a const grid reads it, any other changes it. Different grids are
  *             independent. Functions without a grid run on any thread, at any time. vox_last_error() is
  *             per thread.
+ *   Floats    Whatever floating-point environment the calling thread has (rounding, denormals flushed to zero, as
+ *             -ffast-math does, traps), the library computes in the default one, gives the same bits, and leaves the
+ *             thread's own as it was, flags included. Callbacks run in that of the thread that made the call; those of
+ *             a grid inside a vox_sim or an experiment, in the default one.
  *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
  */
 #ifndef VOX_VOX_H
@@ -776,7 +780,7 @@ typedef struct vox_reading {
     double position[3];         /* POSITION: the vertex as it collides, in double and transformed */
     double distance;            /* SURFACE (up to `triangle`): distance from the vertex to surface_position */
     double surface_position[3]; /* the closest point of `triangle` */
-    double barycentric[3];      /* its weights for the triangle's corners, in [0, 1] up to rounding, with the sum 1 */
+    double barycentric[3];      /* its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding */
     /* A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
      * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide. */
     double normal[3];

@@ -78,13 +78,15 @@ VOX_API void vox_sim_destroy(vox_sim* sim);
 
 /* The grid inside, for reading the contacts and penetrations of the last detection, counters and profile, and for
  * setting the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not
- * destroy or clear it, and do not remove its meshes. Contacts with other meshes inserted into it are found, but the sim
- * does not respond to them. */
+ * destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
+ * mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it elsewhere:
+ * vox_sim_step fails once a contact does not fit the body. */
 VOX_API vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid);
 
 /* Moves everything forward by `time_step`, or by max_time_step if that is less.
  * Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies
- * as they were after the last completed substep. */
+ * as they were after the last completed substep; so does INVALID_STATE, for a body or the flags of the grid changed
+ * through vox_sim_grid, which names the two bodies of a contact. */
 VOX_API vox_result vox_sim_step(vox_sim* sim, double time_step);
 
 /* ---- bodies ----------------------------------------------------------------------------------- */

@@ -1,16 +1,25 @@
 // The C border. Every public function that can fail is `return border(...)`, which turns whatever is thrown
-// inside into a result code and the text of vox_last_error().
+// inside into a result code and the text of vox_last_error(), and computes in the default floating-point
+// environment.
 #pragma once
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 
 #include <exception>
 #include <new>
 
 namespace vox {
 
+#if defined(_MSC_VER)
+#define VOX_NOINLINE __declspec(noinline)
+#else
+#define VOX_NOINLINE __attribute__((noinline))
+#endif
+
+// Not inlined, so that none of its arithmetic leaves the environment of border().
 template <class Function>
-vox_result border(Function&& function) noexcept {
+VOX_NOINLINE vox_result result_of(Function& function) noexcept {
     try {
         function();
         return VOX_OK;
@@ -23,6 +32,12 @@ vox_result border(Function&& function) noexcept {
     } catch (...) {
         return vox_fail(VOX_ERROR_INTERNAL, "unknown exception");
     }
+}
+
+template <class Function>
+vox_result border(Function&& function) noexcept {
+    const DefaultFloats floats;
+    return result_of(function);
 }
 
 // For a function of an object, which must not be null; `name` is that of the parameter.

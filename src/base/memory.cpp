@@ -1,6 +1,7 @@
 #include "base/memory.hpp"
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 
 #include <algorithm>
 #include <new>
@@ -33,17 +34,22 @@ void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size
 } // namespace
 
 void* allocate(const vox_allocator& allocator, std::size_t size, std::size_t alignment) noexcept {
-    if (allocator.allocate) return allocator.allocate(size, alignment, allocator.user);
+    if (allocator.allocate) {
+        const CallersFloats floats;
+        return allocator.allocate(size, alignment, allocator.user);
+    }
     void* memory = ::operator new(size, std::align_val_t(alignment), std::nothrow);
     advise_huge_pages(memory, size);
     return memory;
 }
 
 void release(const vox_allocator& allocator, void* memory, std::size_t size, std::size_t alignment) noexcept {
-    if (allocator.release)
+    if (allocator.release) {
+        const CallersFloats floats;
         allocator.release(memory, size, alignment, allocator.user);
-    else
+    } else {
         ::operator delete(memory, std::align_val_t(alignment));
+    }
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "base/parallel.hpp"
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 
 namespace vox {
 
@@ -34,6 +35,7 @@ void Workers::set_count(std::uint32_t worker_count) {
 
 void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker,
                         void* context) noexcept {
+    const DefaultFloats floats; // of a thread that may have any
     Job& job = *static_cast<Job*>(context);
     std::exception_ptr failure;
     try {
@@ -53,6 +55,7 @@ void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t wo
 
 void Workers::run(Job& job, std::size_t items, std::size_t min_range) {
     if (tasks_.enqueue) {
+        const CallersFloats floats; // a thread that waits may do other work of the caller's
         void* handle = tasks_.enqueue(&run_range, items, min_range, &job, tasks_.user);
         if (handle) tasks_.finish(handle, tasks_.user);
     } else {

@@ -1,6 +1,7 @@
 #include "cell_size/suggest.hpp"
 
 #include "base/error.hpp"
+#include "base/structs.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/levels.hpp"
 #include "cell_size/paper_model.hpp"
@@ -22,15 +23,6 @@ namespace {
 // The most a zone may lose; keeps every number of the cost function in range.
 constexpr double max_zone_loss = 1e6;
 
-template <class Enum>
-void check_enum(const Enum& field, std::int32_t last, const char* name) {
-    std::int32_t value; // copied as a number: a value outside the enum must not be read as one
-    std::memcpy(&value, &field, sizeof value);
-    if (value < 0 || value > last)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("suggest %s is %" PRId32 ", expected 0 to %" PRId32, name, value, last));
-}
-
 void check_number(bool good, double value, const char* name, const char* expected) {
     if (!good || !std::isfinite(value))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -50,9 +42,9 @@ vox_suggest_desc suggest_defaults() {
 }
 
 void check_suggest_desc(const vox_suggest_desc& desc) {
-    check_enum(desc.model, VOX_COST_MODEL_FAST, "model");
-    check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "size_reading");
-    check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "area_reading");
+    check_enum(desc.model, VOX_COST_MODEL_FAST, "suggest model");
+    check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "suggest size_reading");
+    check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "suggest area_reading");
     check_number(desc.p_nc > 0 && desc.p_nc < 1, desc.p_nc, "p_nc",
                  "a number between 0 and 1, both excluded");
     check_number(desc.cost_ratio > 0, desc.cost_ratio, "cost_ratio", "a number above 0");
@@ -61,7 +53,7 @@ void check_suggest_desc(const vox_suggest_desc& desc) {
                  "a number from 0 to 1e6");
     check_number(desc.mean_edge_factor > 0, desc.mean_edge_factor, "mean_edge_factor", "a number above 0");
     check_number(desc.resolution >= 0, desc.resolution, "resolution", "0 or a length");
-    check_enum(desc.storage, VOX_STORAGE_DENSE, "storage");
+    check_enum(desc.storage, VOX_STORAGE_DENSE, "suggest storage");
     if (desc.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("suggest reserved is %" PRIu32 ", expected 0", desc.reserved));

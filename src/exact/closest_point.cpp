@@ -3,6 +3,7 @@
 #include "base/vectors.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vox {
 
@@ -15,27 +16,53 @@ double closest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) noexce
     return length > 0 ? std::clamp(dot(p - a, ab) / length, 0.0, 1.0) : 0;
 }
 
+double largest_coordinate(const Vec3d& v) noexcept {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// By how many powers of two to enlarge a triangle from a with these edges, and the way from a to p, so that
+// its area does not underflow, as far as p allows. 0 where that is not the reason for its having none.
+int enlargement(const Vec3d& ap, const Vec3d& ab, const Vec3d& ac) noexcept {
+    const double size = std::max(largest_coordinate(ab), largest_coordinate(ac)),
+                 reach = largest_coordinate(ap);
+    if (!(size > 0 && size < 0x1p-200)) return 0;
+    return std::max(0, std::min(-std::ilogb(size), reach > 0 ? 300 - std::ilogb(reach) : 2000));
+}
+
+Vec3d enlarged(const Vec3d& v, int powers) noexcept {
+    return {std::ldexp(v.x, powers), std::ldexp(v.y, powers), std::ldexp(v.z, powers)};
+}
+
 } // namespace
 
 ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
+    constexpr double small = 0x1p-900; // squares and products below it lose digits
     const auto squared = [](const Vec3d& d) { return dot(d, d); };
     const Vec3d corner[3] = {a, b, c};
     const Vec3d normal = cross(b - a, c - a);
     const double area = dot(normal, normal);
-    if (area > 0) {
+    if (area > small) {
         // Areas of the triangles that the projection of p makes with the edges, divided by the whole area.
+        // They add up to 1, unless the triangle is so thin that its normal is lost in rounding. Its height is
+        // less than 2^-24 of its length then, and the edges are close enough.
         double weight[3];
         for (int i = 0; i < 3; ++i) {
             const Vec3d &from = corner[(i + 1) % 3], &to = corner[(i + 2) % 3];
             weight[i] = dot(cross(to - from, p - from), normal) / area;
         }
-        if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0) {
+        if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0 &&
+            std::abs(weight[0] + weight[1] + weight[2] - 1) < 0x1p-26) {
+            const double length = squared(b - a) + squared(c - a);
             const double height = dot(p - a, normal);
-            const double squared = height * height;
-            constexpr double small = 0x1p-900; // below it, digits are lost
-            return {squared > small ? squared / area : height * (height / area),
-                    {weight[0], weight[1], weight[2]}};
+            if (area > 0x1p-90 * (length * length))
+                return {height * height > small ? height * height / area : height * (height / area),
+                        {weight[0], weight[1], weight[2]}};
         }
+    } else if (const int powers = enlargement(p - a, b - a, c - a); powers > 0) {
+        ClosestPoint found = closest_on_triangle(enlarged(p - a, powers), {0, 0, 0}, enlarged(b - a, powers),
+                                                 enlarged(c - a, powers));
+        found.squared_distance = std::ldexp(found.squared_distance, -2 * powers);
+        return found;
     }
     ClosestPoint best{};
     for (int i = 0; i < 3; ++i) {

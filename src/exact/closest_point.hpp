@@ -4,6 +4,8 @@
 
 #include "base/scene.hpp"
 
+#include <array>
+
 namespace vox {
 
 // A point of a triangle, by its weights on the corners, and the squared distance to it.
@@ -12,7 +14,8 @@ struct ClosestPoint {
     double weight[3];
 };
 
-// The point of the closed triangle abc that is closest to p. The triangle may be a segment or a point.
+// The point of the closed triangle abc that is closest to p. The triangle may be a segment or a point, and of
+// any size that doubles have. The weights are not negative, and add up to 1 within 2^-26.
 ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 
 // The same, computed relative to p, so that rounding errors are in proportion to the distance and not to the
@@ -22,5 +25,11 @@ struct SeenPoint {
     Vec3d way; // from p
 };
 SeenPoint closest_seen_from(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
+
+// Weights of a closest point as the caller gets them: in [0, 1], with the sum 1 up to rounding.
+inline std::array<double, 3> normalised(const double (&weight)[3]) noexcept {
+    const double sum = weight[0] + weight[1] + weight[2];
+    return {weight[0] / sum, weight[1] / sum, weight[2] / sum};
+}
 
 } // namespace vox

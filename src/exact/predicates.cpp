@@ -121,7 +121,7 @@ Integer in_units(double value, int unit) {
     Integer result;
     const Parts from = parts(value);
     if (from.mantissa == 0) return result;
-    result.negative = value < 0;
+    result.negative = std::signbit(value);
     const int words = (from.exponent - unit) / 32, bits = (from.exponent - unit) % 32;
     std::fill_n(result.word, words, 0u);
     const std::uint64_t low = from.mantissa << bits;
@@ -133,12 +133,13 @@ Integer in_units(double value, int unit) {
     return result;
 }
 
+// All is read from the bits of the coordinates, so that no floating-point environment makes a shift negative.
 template <std::size_t Count>
 std::array<IntegerPoint, Count> in_units(const std::array<Vec3d, Count>& points) {
     int unit = 1024;
     for (const Vec3d& p : points)
         for (const double value : {p.x, p.y, p.z})
-            if (value != 0) unit = std::min(unit, parts(value).exponent);
+            if (const Parts from = parts(value); from.mantissa != 0) unit = std::min(unit, from.exponent);
     std::array<IntegerPoint, Count> result;
     for (std::size_t i = 0; i < Count; ++i)
         result[i] = {in_units(points[i].x, unit), in_units(points[i].y, unit), in_units(points[i].z, unit)};

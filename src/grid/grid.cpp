@@ -3,6 +3,7 @@
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 #include "base/room.hpp"
 #include "base/structs.hpp"
 #include "cell_size/suggest.hpp"
@@ -489,7 +490,9 @@ void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {
-    if (log_.write) log_.write(level, text, log_.user);
+    if (!log_.write) return;
+    const CallersFloats floats;
+    log_.write(level, text, log_.user);
 }
 
 // ---- readings --------------------------------------------------------------------------------------

@@ -7,11 +7,13 @@
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "depth/points.hpp"
+#include "exact/closest_point.hpp"
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -50,9 +52,10 @@ void write_surface(const Solid& solid, const Vec3d& p, const Closest& closest, v
     if (inside > 0 || (inside == 0 && triangle.v[order[1]] > triangle.v[order[2]]))
         std::swap(order[1], order[2]);
 
+    const std::array<double, 3> weights = normalised(closest.at.weight);
     for (std::size_t i = 0; i < 3; ++i) {
         out.triangle[i] = triangle.v[order[i]];
-        out.barycentric[i] = closest.at.weight[order[i]];
+        out.barycentric[i] = weights[order[i]];
     }
     Vec3d normal = unit_normal(corner(1) - corner(0), corner(2) - corner(0));
     if (!(length(normal) > 0)) normal = normalised(scaled(closest.way));

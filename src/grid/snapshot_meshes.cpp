@@ -1,6 +1,7 @@
 // The parts of a snapshot that describe meshes.
 #include "grid/snapshot.hpp"
 
+#include "base/vectors.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
@@ -15,6 +16,8 @@ namespace {
 
 // Of a MESH chunk.
 constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, transform_bit = 4, known_bits = 7;
+// Of a FILT chunk.
+constexpr std::uint32_t no_rest = 0, rest_in_floats = 1, rest_in_doubles = 2;
 
 void save_point(const Vec3f& p, SnapshotWriter& out) {
     for (const float x : {p.x, p.y, p.z}) out.f32(x);
@@ -226,7 +229,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
-        const std::pmr::vector<Vec3f>& rest = mesh.self_filter_.rest;
+        const RestPose& rest = mesh.self_filter_.rest;
         const vox_filter filter = mesh.filter(), usual = filter_defaults();
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
             filter.mask == usual.mask && filter.self_rings == usual.self_rings &&
@@ -238,9 +241,13 @@ void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
         out.u64(filter.category);
         out.u64(filter.mask);
         out.u32(filter.self_rings);
-        out.u32(!rest.empty());
+        out.u32(rest.empty() ? no_rest : rest.in_doubles() ? rest_in_doubles : rest_in_floats);
         out.f64(filter.self_rest_distance);
-        for (const Vec3f& p : rest) save_point(p, out);
+        for (std::size_t v = 0; v < rest.size(); ++v)
+            if (rest.in_doubles())
+                save_point(rest[v], out);
+            else
+                save_point(nearest_floats(rest[v]), out);
         out.end_chunk();
     });
 }
@@ -258,14 +265,24 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     filter.category = in.u64();
     filter.mask = in.u64();
     filter.self_rings = in.u32();
-    const bool has_rest = in.flag("whether it has a rest pose");
+    const std::uint32_t rest = in.u32();
+    if (rest > rest_in_doubles)
+        in.refuse(
+            format("its rest pose is of kind %" PRIu32 ", expected 0 to %" PRIu32, rest, rest_in_doubles));
     filter.self_rest_distance = in.f64();
-    std::pmr::vector<Vec3f> rest(&to.grid.memory_);
-    if (has_rest) load_points(in, mesh.vertex_count(), rest);
+    std::pmr::vector<Vec3f> floats(&to.grid.memory_);
+    std::pmr::vector<Vec3d> doubles(&to.grid.memory_);
+    Positions given;
+    if (rest == rest_in_doubles) {
+        load_points(in, mesh.vertex_count(), doubles);
+        given = {reinterpret_cast<const std::byte*>(doubles.data()), sizeof(Vec3d), true};
+    } else if (rest == rest_in_floats) {
+        load_points(in, mesh.vertex_count(), floats);
+        given = {reinterpret_cast<const std::byte*>(floats.data()), sizeof(Vec3f)};
+    }
     in.end();
     or_refuse(in, id, [&] {
-        const Positions given{reinterpret_cast<const std::byte*>(rest.data()), sizeof(Vec3f)};
-        if (has_rest) mesh.self_filter_.rest = mesh.copy_finite(given, mesh.vertex_count());
+        if (rest != no_rest) mesh.self_filter_.rest = mesh.rest_pose(given, mesh.vertex_count());
         check_filter(filter);
         mesh.set_filter(filter);
     });

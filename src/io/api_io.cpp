@@ -21,8 +21,7 @@ vox_io_load_desc default_load_desc() {
 vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return default_load_desc();
     const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
-    if (desc.format < VOX_IO_FORMAT_AUTO || desc.format > VOX_IO_FORMAT_ASSIMP)
-        refuse(format("vox_io_load_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
+    check_enum(desc.format, VOX_IO_FORMAT_ASSIMP, "vox_io_load_desc.format");
     if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
     return desc;
 }
@@ -212,6 +211,6 @@ const char* vox_io_format_string(vox_io_format format) {
     static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",
                                             "Medit .mesh",  "Vega .veg", "VTK legacy .vtk",
                                             "VTK XML .vtu", "surface",   "surface, by assimp"};
-    const auto index = static_cast<std::uint32_t>(format);
+    const auto index = static_cast<std::uint32_t>(enum_value(format));
     return index < std::size(names) ? names[index] : "unknown format";
 }

@@ -58,8 +58,7 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
         require(out_mesh, "out_mesh");
         vox_io_tetrahedralize_desc wanted = default_tetrahedralize_desc();
         if (desc) wanted = read_struct(desc, wanted, "desc");
-        if (wanted.kind != VOX_IO_SOLID_STUFFED && wanted.kind != VOX_IO_SOLID_CUBES)
-            refuse(format("desc.kind is %d, expected a vox_io_solid_kind", static_cast<int>(wanted.kind)));
+        check_enum(wanted.kind, VOX_IO_SOLID_CUBES, "desc.kind");
         if (!std::isfinite(wanted.cell) || wanted.cell < 0)
             refuse(format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
         if (!std::isfinite(wanted.max_distance) || wanted.max_distance < 0)

@@ -1,5 +1,6 @@
 // The C border of writing.
 #include "base/border.hpp"
+#include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "io/formats/readers.hpp"
@@ -18,9 +19,7 @@ namespace {
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
     vox_io_write_desc desc{};
     if (in) desc = read_struct(in, desc, "vox_io_write_desc");
-    if (desc.format < VOX_IO_WRITE_AUTO || desc.format > VOX_IO_WRITE_VTU)
-        refuse(
-            format("vox_io_write_desc.format is %d, which is not a format", static_cast<int>(desc.format)));
+    check_enum(desc.format, VOX_IO_WRITE_VTU, "vox_io_write_desc.format");
     if (desc.binary > 1) refuse(format("vox_io_write_desc.binary is %u, neither 0 nor 1", desc.binary));
     if (desc.reserved != 0) refuse(format("vox_io_write_desc.reserved is %u, not 0", desc.reserved));
     if (desc.point_data_count > 0) require(desc.point_data, "vox_io_write_desc.point_data");
@@ -128,6 +127,7 @@ vox_result vox_io_write_to(const vox_io_mesh* mesh, const vox_io_write_desc* des
         if (settings.format == VOX_IO_WRITE_AUTO)
             refuse("vox_io_write_desc.format is AUTO, which needs a file name");
         write(*mesh, settings, [&](std::string_view bytes) {
+            const CallersFloats floats;
             if (!bytes.empty() && sink->write(bytes.data(), bytes.size(), sink->user) != 0)
                 throw Error(VOX_ERROR_FILE, "the sink reports a failure");
         });

@@ -178,16 +178,16 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     }
 
     // The rest pose grows, too.
-    std::pmr::vector<Vec3f> rest(memory());
+    RestPose rest(memory());
     const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
-        rest = copy_finite(
+        rest = rest_pose(
             {.data = static_cast<const std::byte*>(desc.rest_positions),
              .byte_stride = check_stride(desc.rest_position_byte_stride, position_format, added, "rest_"),
              .doubles = positions_.doubles},
             added);
     } else if (has_rest && desc.copies_of) {
-        for (std::uint32_t i = 0; i < added; ++i) rest.push_back(self_filter_.rest[desc.copies_of[i]]);
+        rest = self_filter_.rest.of({desc.copies_of, added});
     } else if (has_rest) {
         Positions poses = given;
         if (owns)
@@ -198,13 +198,13 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
         if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
-        rest = copy_finite(poses, added);
+        rest = rest_pose(poses, added);
     }
-    reserve_growing(self_filter_.rest, self_filter_.rest.size() + rest.size());
+    self_filter_.rest.reserve_for(rest);
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
     if (owns) reserve_growing(owned_, doubles);
 
-    self_filter_.rest.insert(self_filter_.rest.end(), rest.begin(), rest.end());
+    self_filter_.rest.append(rest);
     vertex_count_ = count;
     if (owns) {
         owned_.resize(doubles);

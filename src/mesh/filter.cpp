@@ -4,6 +4,7 @@
 #include "mesh/filter.hpp"
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/predicates.hpp"
@@ -120,6 +121,49 @@ void Rings::repair(std::span<const Tet> tets, const IndexLists& tets_of, std::sp
     }
 }
 
+RestPose::RestPose(const Positions& positions, std::uint32_t count, std::pmr::memory_resource* memory)
+    : RestPose(memory) {
+    const auto is_float = [&](std::uint32_t v) {
+        const Vec3d p = positions.exact(v), rounded = positions[v];
+        return p.x == rounded.x && p.y == rounded.y && p.z == rounded.z;
+    };
+    for (std::uint32_t v = 0; positions.rounded() && v < count && !in_doubles_; ++v)
+        in_doubles_ = !is_float(v);
+    if (in_doubles_)
+        doubles_.reserve(count);
+    else
+        floats_.reserve(count);
+    for (std::uint32_t v = 0; v < count; ++v) push(positions.exact(v));
+}
+
+void RestPose::push(const Vec3d& p) {
+    if (in_doubles_)
+        doubles_.push_back(p);
+    else
+        floats_.push_back(nearest_floats(p));
+}
+
+RestPose RestPose::of(std::span<const std::uint32_t> vertices) const {
+    RestPose some(floats_.get_allocator().resource());
+    some.in_doubles_ = in_doubles_;
+    for (const std::uint32_t v : vertices) some.push((*this)[v]);
+    return some;
+}
+
+void RestPose::reserve_for(const RestPose& more) {
+    const std::size_t count = size() + more.size();
+    if (!in_doubles_ && !more.in_doubles_) return reserve_growing(floats_, count);
+    reserve_growing(doubles_, count);
+    if (in_doubles_) return;
+    doubles_.assign(floats_.begin(), floats_.end());
+    floats_ = std::pmr::vector<Vec3f>(floats_.get_allocator());
+    in_doubles_ = true;
+}
+
+void RestPose::append(const RestPose& more) noexcept {
+    for (std::size_t v = 0; v < more.size(); ++v) push(more[v]);
+}
+
 bool SelfFilter::is_near(std::uint32_t vertex, const Tet& tet) const noexcept {
     const std::span<const std::uint32_t> near = rings.near[vertex];
     return std::any_of(tet.v, tet.v + 4, [=](std::uint32_t corner) {
@@ -128,11 +172,11 @@ bool SelfFilter::is_near(std::uint32_t vertex, const Tet& tet) const noexcept {
 }
 
 bool SelfFilter::rests_close(std::uint32_t vertex, const Tet& tet) const noexcept {
-    const Vec3f& p = rest[vertex];
-    const Vec3f corner[4] = {rest[tet.v[0]], rest[tet.v[1]], rest[tet.v[2]], rest[tet.v[3]]};
+    const Vec3d p = rest[vertex];
+    const Vec3d corner[4] = {rest[tet.v[0]], rest[tet.v[1]], rest[tet.v[2]], rest[tet.v[3]]};
     for (int i = 0; i < 4; ++i) {
-        const Vec3d a = vec(corner[(i + 1) % 4]), b = vec(corner[(i + 2) % 4]), c = vec(corner[(i + 3) % 4]);
-        if (std::sqrt(closest_on_triangle(vec(p), a, b, c).squared_distance) < rest_distance) return true;
+        const Vec3d &a = corner[(i + 1) % 4], &b = corner[(i + 2) % 4], &c = corner[(i + 3) % 4];
+        if (std::sqrt(closest_on_triangle(p, a, b, c).squared_distance) < rest_distance) return true;
     }
     std::uint64_t exact_tests = 0;
     return locate(p, corner[0], corner[1], corner[2], corner[3], exact_tests) == Containment::interior;

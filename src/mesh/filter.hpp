@@ -58,13 +58,41 @@ private:
     std::uint32_t searches = 0;
 };
 
+// Positions of a mesh at rest: in floats as long as these hold them exactly, otherwise in doubles.
+class RestPose {
+public:
+    explicit RestPose(std::pmr::memory_resource* memory) noexcept : floats_(memory), doubles_(memory) {}
+    // Of `count` finite positions. Throws what the memory throws.
+    RestPose(const Positions& positions, std::uint32_t count, std::pmr::memory_resource* memory);
+
+    bool empty() const noexcept { return size() == 0; }
+    std::size_t size() const noexcept { return in_doubles_ ? doubles_.size() : floats_.size(); }
+    bool in_doubles() const noexcept { return in_doubles_; }
+    Vec3d operator[](std::size_t vertex) const noexcept {
+        return in_doubles_ ? doubles_[vertex] : Vec3d(floats_[vertex]);
+    }
+
+    // The positions of some vertices.
+    RestPose of(std::span<const std::uint32_t> vertices) const;
+    // Afterwards append() of the same positions cannot fail.
+    void reserve_for(const RestPose& more);
+    void append(const RestPose& more) noexcept;
+
+private:
+    void push(const Vec3d& p);
+
+    bool in_doubles_ = false; // else in floats; the other list is empty
+    std::pmr::vector<Vec3f> floats_;
+    std::pmr::vector<Vec3d> doubles_;
+};
+
 // The filters of self-contact.
 struct SelfFilter {
     explicit SelfFilter(std::pmr::memory_resource* memory) noexcept : rings(memory), rest(memory) {}
 
-    Rings rings;                  // empty: no such filter
-    std::pmr::vector<Vec3f> rest; // positions in the rest pose, once they are known
-    double rest_distance = 0;     // 0: no such filter
+    Rings rings;              // empty: no such filter
+    RestPose rest;            // once it is known
+    double rest_distance = 0; // 0: no such filter
 
     // Whether the filters drop a contact of `vertex` with `tet`: a corner of the tet is within the rings, or
     // the closed tet is closer than rest_distance in the rest pose.

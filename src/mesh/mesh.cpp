@@ -20,11 +20,11 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
     if (desc.rest_positions)
         self_filter_.rest =
-            copy_finite({.data = static_cast<const std::byte*>(desc.rest_positions),
-                         .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
-                                                     vertex_count_, "rest_"),
-                         .doubles = desc.position_format == VOX_FORMAT_DOUBLE3},
-                        vertex_count_);
+            rest_pose({.data = static_cast<const std::byte*>(desc.rest_positions),
+                       .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
+                                                   vertex_count_, "rest_"),
+                       .doubles = desc.position_format == VOX_FORMAT_DOUBLE3},
+                      vertex_count_);
     set_filter(filter);
 }
 
@@ -117,13 +117,13 @@ Body Mesh::body(vox_mesh id) const noexcept {
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
-    std::pmr::vector<Vec3f> rest(self_filter_.rest.get_allocator());
+    RestPose rest(memory());
     if (filter.self_rest_distance > 0 && self_filter_.rest.empty() && vertex_count_ > 0) {
         if (!has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
-        rest = copy_finite(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
+        rest = rest_pose(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
     }
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
@@ -142,12 +142,9 @@ void Mesh::set_filter(const vox_filter& filter) {
     filter_ = filter;
 }
 
-std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions, std::uint32_t count) const {
+RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const {
     check_finite({.vertex_count = count, .positions = positions});
-    std::pmr::vector<Vec3f> copy(memory());
-    copy.reserve(count);
-    for (std::uint32_t v = 0; v < count; ++v) copy.push_back(positions[v]);
-    return copy;
+    return RestPose(positions, count, memory());
 }
 
 void Mesh::reserve_exception() {

@@ -118,7 +118,7 @@ private:
     friend class Snapshot;
 
     // For a rest pose. Throws Error(NON_FINITE or LIMIT).
-    std::pmr::vector<Vec3f> copy_finite(const Positions& positions, std::uint32_t count) const;
+    RestPose rest_pose(const Positions& positions, std::uint32_t count) const;
 
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }

@@ -49,7 +49,7 @@ struct Queries::ClosestFacet {
         hit.tet = std::get<1>(key);
         hit.facet = std::get<2>(key);
         hit.distance = std::sqrt(squared);
-        std::copy_n(seen.at.weight, 3, hit.barycentric);
+        std::ranges::copy(normalised(seen.at.weight), hit.barycentric);
         write(hit.position, p + seen.way);
     }
 };

@@ -1,6 +1,7 @@
 #include "sim/contacts.hpp"
 
 #include "base/error.hpp"
+#include "sim/library.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,36 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
     return (-bound / length) * slipped;
 }
 
+// The caller may have cut a body, or bound other positions to it, through vox_sim_grid. Its contacts are not
+// those of the particles that move here then. Throws INVALID_STATE where that shows: a contact names a vertex
+// or tet that the body does not have, or the weights do not give the vertex. (They are within 2^-20, see
+// vox_contact.)
+void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint32_t tet,
+                   const float weights[4]) {
+    const std::size_t vertices = a.positions.size(), tets = b.tets.size() / 4;
+    double size = 0, miss = 0;
+    if (vertex < vertices && tet < tets) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double side =
+                    static_cast<double>(b.grid_positions[3 * b.tets[4 * std::size_t{tet} + k] + axis]) -
+                    static_cast<double>(a.grid_positions[3 * std::size_t{vertex} + axis]);
+                sum += static_cast<double>(weights[k]) * side;
+                size = std::max(size, std::abs(side));
+            }
+            miss = std::max(miss, std::abs(sum));
+        }
+        if (miss <= size / 1000) return;
+    }
+    throw Error(
+        VOX_ERROR_INVALID_STATE,
+        format(
+            "body %u or %u was changed through vox_sim_grid: vertex %u (of %zu) is %g off its place in tet "
+            "%u (of %zu)",
+            a.mesh, b.mesh, vertex, vertices, miss, tet, tets));
+}
+
 } // namespace
 
 Body* find_body(std::span<const std::unique_ptr<Body>> bodies, vox_mesh mesh) {
@@ -66,9 +97,9 @@ void gather_contacts(const vox_grid* grid, std::span<const std::unique_ptr<Body>
                      const ContactSettings& settings, std::vector<Contact>& contacts) {
     vox_contact_view found{};
     vox_penetration_view penetrations{};
-    if (vox_grid_contacts(grid, &found) != VOX_OK || vox_grid_penetrations(grid, &penetrations) != VOX_OK)
-        throw Error(VOX_ERROR_INTERNAL, vox_last_error());
     contacts.clear();
+    check(vox_grid_contacts(grid, &found));
+    check(vox_grid_penetrations(grid, &penetrations));
     for (std::uint64_t i = 0; i < penetrations.count; ++i) {
         const vox_penetration& p = element(penetrations.data, penetrations.byte_stride, i);
         const vox_contact& in_tet = element(found.data, found.byte_stride, p.contact);
@@ -76,6 +107,7 @@ void gather_contacts(const vox_grid* grid, std::span<const std::unique_ptr<Body>
         c.a = find_body(bodies, p.mesh_a);
         c.b = find_body(bodies, p.mesh_b);
         if (!c.a || !c.b || (c.a->fixed && c.b->fixed)) continue;
+        check_contact(*c.a, p.vertex, *c.b, in_tet.tet, in_tet.barycentric);
         c.vertex = p.vertex;
         c.depth = static_cast<double>(p.depth);
         c.direction = Vec3(static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),

@@ -2,6 +2,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "sim/constraints.hpp"
 
@@ -167,7 +168,8 @@ Body& vox_sim::body(vox_mesh mesh) const {
 
 void vox_sim::remove(vox_mesh mesh) {
     const Body* removed = &body(mesh);
-    check(vox_mesh_remove(grid_.get(), mesh));
+    if (vox_mesh_is_valid(grid(), mesh))
+        check(vox_mesh_remove(grid(), mesh)); // else the caller did, in the grid
     contacts_.clear();
     std::erase_if(bodies_, [&](const auto& b) { return b.get() == removed; });
 }
@@ -219,5 +221,7 @@ vox_sim_counts vox_sim::counts() const {
 }
 
 void vox_sim::write_log(vox_log_level level, const std::string& text) const {
-    if (log_.write) log_.write(level, text.c_str(), log_.user);
+    if (!log_.write) return;
+    const CallersFloats floats;
+    log_.write(level, text.c_str(), log_.user);
 }

@@ -10,7 +10,8 @@
 
 START_TEST(version) {
     char text[64];
-    ck_assert_uint_eq(vox_version(), VOX_VERSION_MAJOR * 1000000 + VOX_VERSION_MINOR * 1000 + VOX_VERSION_PATCH);
+    ck_assert_uint_eq(vox_version(),
+                      VOX_VERSION_MAJOR * 1000000 + VOX_VERSION_MINOR * 1000 + VOX_VERSION_PATCH);
     snprintf(text, sizeof text, "%d.%d.%d", VOX_VERSION_MAJOR, VOX_VERSION_MINOR, VOX_VERSION_PATCH);
     ck_assert_str_eq(vox_version_string(), text);
     ck_assert_ptr_nonnull(strstr(vox_build_info(), text));
@@ -43,7 +44,8 @@ END_TEST
 /* ---- growable structs ---- */
 
 START_TEST(struct_sizes) {
-    /* A desc of an older program: fields beyond its size stay untouched, and keep their defaults when read. */
+    /* A desc of an older program: fields beyond its size stay untouched, and keep their defaults when read.
+     */
     unsigned char bytes[sizeof(vox_grid_desc) + 64];
     vox_grid_desc* desc = (vox_grid_desc*)(void*)bytes;
     const uint32_t old = offsetof(vox_grid_desc, world_min);
@@ -98,18 +100,20 @@ END_TEST
 START_TEST(grid_desc_fields) {
     vox_grid* const untouched = (vox_grid*)(uintptr_t)16;
     vox_grid* grid = untouched;
-#define REFUSED(change, words) \
-    do { \
-        vox_grid_desc desc = vox_default_grid_desc(); \
-        change; \
-        ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, words); \
-        ck_assert_ptr_eq(grid, untouched); \
+#define REFUSED(change, words)                                                                               \
+    do {                                                                                                     \
+        vox_grid_desc desc = vox_default_grid_desc();                                                        \
+        change;                                                                                              \
+        ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, words);                          \
+        ck_assert_ptr_eq(grid, untouched);                                                                   \
     } while (0)
     REFUSED(desc.struct_size = 0, "struct_size is 0");
     REFUSED(desc.engine = (vox_engine)9, "engine is 9");
     REFUSED(desc.engine = (vox_engine)-1, "engine is -1");
     REFUSED(desc.storage = (vox_storage)3, "storage is 3");
+    REFUSED(desc.storage = (vox_storage)-1, "storage is -1");
     REFUSED(desc.hash = (vox_hash)2, "hash is 2");
+    REFUSED(desc.hash = (vox_hash)-1, "hash is -1");
     REFUSED(desc.cell_size = -1, "cell_size is -1");
     REFUSED(desc.cell_size = NAN, "cell_size is");
     REFUSED(desc.cell_size = INFINITY, "cell_size is inf");
@@ -150,10 +154,12 @@ START_TEST(null_arguments) {
     ck_fails(vox_mesh_remove(NULL, mesh), bad, "grid is null");
     ck_fails(vox_mesh_user_data(NULL, mesh, &count), bad, "grid is null");
     ck_fails(vox_mesh_user_data(grid, mesh, NULL), bad, "out_user_data is null");
-    ck_fails(vox_mesh_bind_positions(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0), bad, "grid is null");
+    ck_fails(vox_mesh_bind_positions(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0), bad,
+             "grid is null");
     ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0), bad, "positions is null");
     ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, (vox_format)9, 0), bad, "format is 9");
-    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 11), bad, "stride is 11");
+    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 11), bad,
+             "stride is 11");
     ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, UINT64_MAX), bad,
              "stride is 18446744073709551615");
     ck_fails(vox_grid_step(NULL), bad, "grid is null");
@@ -172,8 +178,7 @@ START_TEST(null_arguments) {
     profile.struct_size = 1u << 20;
     ck_fails(vox_grid_profile(grid, &profile), bad, "struct_size is 1048576");
     const double sizes[] = {-1, NAN, INFINITY, -INFINITY};
-    for (int i = 0; i < 4; ++i)
-        ck_fails(vox_grid_set_cell_size(grid, sizes[i]), bad, "cell_size is");
+    for (int i = 0; i < 4; ++i) ck_fails(vox_grid_set_cell_size(grid, sizes[i]), bad, "cell_size is");
     ck_assert_uint_eq(vox_mesh_is_valid(NULL, mesh), 0);
     vox_grid_destroy(NULL);
 
@@ -196,12 +201,12 @@ START_TEST(mesh_desc_fields) {
     vox_grid* grid = grid_of(NULL);
     vox_mesh mesh = 77;
     uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
-#define REFUSED(change, code, words) \
-    do { \
-        vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1); \
-        change; \
-        ck_fails(vox_mesh_insert(grid, &desc, &mesh), code, words); \
-        ck_assert_uint_eq(mesh, 77); \
+#define REFUSED(change, code, words)                                                                         \
+    do {                                                                                                     \
+        vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);                                 \
+        change;                                                                                              \
+        ck_fails(vox_mesh_insert(grid, &desc, &mesh), code, words);                                          \
+        ck_assert_uint_eq(mesh, 77);                                                                         \
     } while (0)
     REFUSED(desc.struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
     REFUSED(desc.flags = 0x80, VOX_ERROR_INVALID_ARGUMENT, "0x80");

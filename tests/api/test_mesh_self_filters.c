@@ -313,6 +313,102 @@ START_TEST(rest_pose_in_double) {
 }
 END_TEST
 
+/* Two tets that are 1 apart at rest, and in one another now, far from the origin: floats would take them for
+ * close. */
+static void far_apart(double offset, double rest[24], double now[24]) {
+    static const double second[12] = {2, 0, 0, 3, 0, 0, 2, 1, 0, 2, 0, 1};
+    for (int i = 0; i < 24; ++i) {
+        rest[i] = offset + (i < 12 ? (double)unit_tet_positions[i] : second[i - 12]);
+        now[i] = rest[i] - (i < 12 ? 0 : i % 3 == 0 ? 1.9 : i < 18 ? -0.1 : 0);
+    }
+}
+static const uint32_t two_tets[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+static void check_far_apart(vox_grid* grid, uint64_t contacts) {
+    ck_assert_uint_eq(stepped(grid).count, contacts);
+    ck_assert_uint_eq(counters_of(grid).filtered, 0);
+}
+
+START_TEST(rest_pose_far_away) {
+    static const double offsets[] = {0, 1e7, 1e8, -1e9, 1e12};
+    uint64_t contacts = 0;
+    for (int i = 0; i < 5; ++i) {
+        double rest[24], now[24];
+        uint64_t size = 0;
+        far_apart(offsets[i], rest, now);
+        vox_grid *grid = new_grid(), *loaded;
+        vox_mesh_desc desc = array_desc(NULL, 8, two_tets, 2);
+        vox_filter filter = vox_default_filter();
+        filter.self_collision = 1;
+        filter.self_rest_distance = 0.5;
+        desc.positions = now;
+        desc.rest_positions = rest;
+        desc.position_format = VOX_FORMAT_DOUBLE3;
+        desc.filter = &filter;
+        insert(grid, &desc);
+        if (i == 0) contacts = stepped(grid).count;
+        ck_assert_uint_gt(contacts, 0);
+        check_far_apart(grid, contacts);
+
+        ck_ok(vox_grid_save(grid, NULL, 0, &size));
+        unsigned char* bytes = (unsigned char*)malloc((size_t)size);
+        ck_ok(vox_grid_save(grid, bytes, size, &size));
+        ck_ok(vox_grid_load(bytes, size, NULL, &loaded));
+        check_far_apart(loaded, contacts);
+        free(bytes);
+        vox_grid_destroy(loaded);
+        vox_grid_destroy(grid);
+    }
+}
+END_TEST
+
+/* A rest pose that floats hold until vertices are appended, given or copied, that they do not. */
+START_TEST(rest_pose_that_grows) {
+    double rest[24], now[24];
+    uint32_t first;
+    far_apart(1e8 + 3, rest, now);
+    for (int i = 0; i < 12; ++i) now[i] = rest[i] = (double)(float)rest[i]; /* all one point */
+    vox_grid* grid = new_grid();
+    vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = 1;
+    filter.self_rest_distance = 0.5;
+    desc.positions = now;
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.filter = &filter;
+    const vox_mesh mesh = insert(grid, &desc);
+
+    /* The first tet once more, and the second. */
+    double grown_rest[48], grown[48];
+    far_apart(1e8 + 3, rest, now);
+    for (int i = 0; i < 48; ++i)
+        grown[i] = i < 12 ? (double)(float)rest[i] : i < 36 ? now[i - 12] : now[i - 24];
+    memcpy(grown_rest, rest, sizeof rest);
+    vox_vertices_desc more = vox_default_vertices_desc();
+    more.count = 8;
+    more.positions = grown;
+    more.rest_positions = grown_rest;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &more, &first));
+    ck_assert_uint_eq(first, 4);
+    const uint32_t copied[4] = {8, 9, 10, 11};
+    more.count = 4;
+    more.rest_positions = NULL;
+    more.copies_of = copied;
+    ck_ok(vox_mesh_append_vertices(grid, mesh, &more, &first));
+    ck_assert_uint_eq(first, 12);
+    /* The second tet, of copies of its vertices. */
+    const uint32_t tets[8] = {4, 5, 6, 7, 12, 13, 14, 15};
+    ck_ok(vox_mesh_append_tets(grid, mesh, tets, 2, &first));
+    ck_assert_uint_gt(stepped(grid).count, 0);
+    const uint64_t filtered = counters_of(grid).filtered;
+    filter.self_rest_distance = 1.5; /* now they are close at rest */
+    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_assert_uint_eq(stepped(grid).count, 0);
+    ck_assert_uint_gt(counters_of(grid).filtered, filtered);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 /* ---- memory ----------------------------------------------------------------------------------- */
 
 static vox_grid* counted_grid(ledger* l) {
@@ -423,7 +519,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, lowest_tet_that_is_left, overlap_in_the_rest_pose, rest_pose_in_double,
-                   steps_with_filters_allocate_nothing, failing_filters_change_nothing);
+                   rest_pose_far_away, rest_pose_that_grows, steps_with_filters_allocate_nothing,
+                   failing_filters_change_nothing);
 }
 
 static void add_long_tests(TCase* tests) { tcase_add_test(tests, self_filters_by_definition); }

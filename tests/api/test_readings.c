@@ -274,9 +274,60 @@ START_TEST(many_bodies_and_workers) {
 }
 END_TEST
 
+/* A double of this kind: usual; of any size; a few units of the least denormal. */
+static double odd_double(uint64_t* random, int kind) {
+    const double mantissa = random_symmetric(random);
+    if (kind == 0) return mantissa;
+    if (kind == 1) return ldexp(mantissa, (int)(1100 * random_unit(random)) - 1000);
+    return ldexp(floor(16 * mantissa), -1074);
+}
+
+/* A vertex in a tetrahedron whose corners are as odd as doubles can be. */
+START_TEST(odd_bodies) {
+    uint64_t random = 11, surfaces = 0;
+    for (int scene = 0; scene < 6000; ++scene) {
+        double corners[12], inner[3] = {0, 0, 0};
+        for (int i = 0; i < 12; ++i) {
+            corners[i] = odd_double(&random, (scene + (scene % 2 ? i : 0)) % 3);
+            if (fabs(corners[i]) > 1e38) corners[i] = 1e38;
+        }
+        for (int i = 0; i < 12; ++i) inner[i % 3] += corners[i] / 4;
+        vox_grid* grid = new_grid(suite_engine, 0, 1);
+        vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
+        desc.positions = corners;
+        desc.position_format = VOX_FORMAT_DOUBLE3;
+        insert_mesh(grid, &desc);
+        desc.positions = inner;
+        desc.vertex_count = 1;
+        desc.tet_count = 0;
+        insert_mesh(grid, &desc);
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_prepare_readings(grid));
+        vox_reading_view readings;
+        ck_ok(vox_grid_readings(grid, &readings));
+        for (uint64_t i = 0; i < readings.count; ++i) {
+            const vox_reading* r = &readings.data[i];
+            double sum = 0;
+            if (!(r->known & VOX_READING_SURFACE)) continue;
+            for (int k = 0; k < 3; ++k) {
+                ck_assert_double_ge(r->barycentric[k], 0);
+                ck_assert_double_le(r->barycentric[k], 1);
+                sum += r->barycentric[k];
+                const double bound = r->distance + 1e-6 * fabs(r->position[k]) + 1e-150;
+                ck_assert_double_le(fabs(r->surface_position[k] - r->position[k]), bound);
+            }
+            ck_assert_double_eq_tol(sum, 1, 1e-15);
+            ++surfaces;
+        }
+        vox_grid_destroy(grid);
+    }
+    ck_assert_uint_gt(surfaces, 3000);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, by_definition, ties, self_contact, self_contact_of_one_piece, transform_and_scale,
-                   many_bodies_and_workers);
+    tcase_add_each(tests, odd_bodies, by_definition, ties, self_contact, self_contact_of_one_piece,
+                   transform_and_scale, many_bodies_and_workers);
 }
 
 int main(void) {

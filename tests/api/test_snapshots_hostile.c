@@ -113,6 +113,8 @@ static const defect defects[] = {
     {"FILT", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
     {"FILT", 0, 24, 4, 9, VOX_ERROR_LIMIT, "9"},
     {"FILT", 0, 32, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "self_rest_distance"},
+    {"FILT", 1, 28, 4, 2, VOX_ERROR_FORMAT, "positions of 24 bytes each"},
+    {"FILT", 1, 28, 4, 3, VOX_ERROR_FORMAT, "its rest pose is of kind 3, expected 0 to 2"},
     {"FILT", 1, 28, 4, 0, VOX_ERROR_FORMAT, "bytes, expected"},
     {"FILT", 1, 40, 4, 0x7f800000u, VOX_ERROR_FORMAT, "not finite"},
     {"PAIR", 0, 0, 4, 20481, VOX_ERROR_FORMAT, "pair (20481, 20481) is out of order"},

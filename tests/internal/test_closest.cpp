@@ -3,6 +3,7 @@
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/points.hpp"
+#include "exact/closest_point.hpp"
 #include "internal/prepared_mesh.hpp"
 #include "internal/scenes.hpp"
 #include "internal/stage_checks.hpp"
@@ -108,6 +109,42 @@ START_TEST(closest_with_double_positions) {
     }
     // The boxes tell triangles apart: a small part of them is computed.
     ck_assert_uint_lt(state.visited, 100 * p.topology.triangles.size() / 4);
+}
+END_TEST
+
+// ---- one triangle -------------------------------------------------------------------------------------
+
+// Thin and thick triangles of every size that doubles have, turned so that nothing is exact, and points above
+// them: the closest point is known by its construction.
+START_TEST(closest_on_odd_triangles) {
+    Random random{7};
+    const auto uniform = [&](double least, double most) {
+        return double{random.uniform(0, 1)} * (most - least) + least;
+    };
+    int inner = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const int scale = static_cast<int>(uniform(-1040, 127)); // down to 2^34 units of the least denormal
+        const bool denormal = scale < -950;
+        const auto at = [scale](const Vec3d& v) {
+            return Vec3d{std::ldexp(v.x, scale), std::ldexp(v.y, scale), std::ldexp(v.z, scale)};
+        };
+        const Vec3d x = normalised(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
+        const Vec3d y = normalised(cross(x, {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)})),
+                    z = cross(x, y);
+        const double flat = std::pow(10, uniform(denormal ? -1 : -20, 0)),
+                     above = std::pow(10, uniform(-5, 1));
+        const double b = uniform(0, 1), c = uniform(0, 1 - b), foot = uniform(0, 1);
+        const Vec3d corner[3] = {{0, 0, 0}, x, foot * x + flat * y};
+        const Vec3d expected = b * corner[1] + c * corner[2], p = expected + above * z;
+        const ClosestPoint found = closest_on_triangle(at(p), at(corner[0]), at(corner[1]), at(corner[2]));
+        const std::array<double, 3> w = normalised(found.weight);
+        for (const double weight : w) ck_assert(weight >= 0 && weight <= 1);
+        ck_assert_double_le(std::abs(w[0] + w[1] + w[2] - 1), 1e-15);
+        const Vec3d place = w[1] * corner[1] + w[2] * corner[2];
+        ck_assert_double_le(length(place - expected), 1e-6);
+        inner += w[0] > 0 && w[1] > 0 && w[2] > 0;
+    }
+    ck_assert_int_gt(inner, 10000);
 }
 END_TEST
 
@@ -347,7 +384,7 @@ int main() {
     tcase_add_loop_test(tests, closest_with_double_positions, 0, 8);
     tcase_add_loop_test(tests, folds_by_definition, 0, 8);
     tcase_add_loop_test(tests, folds_do_not_depend_on_the_past, 0, 3);
-    tcase_add_each(tests, the_same_with_any_instructions, closest_on_the_fold_that_is_entered,
-                   a_tree_follows_edits);
+    tcase_add_each(tests, closest_on_odd_triangles, the_same_with_any_instructions,
+                   closest_on_the_fold_that_is_entered, a_tree_follows_edits);
     return run_suite(suite);
 }

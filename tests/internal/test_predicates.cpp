@@ -2,6 +2,7 @@
 // kinds, floats and doubles.
 #include "exact/predicates.hpp"
 #include "internal/random.hpp"
+#include "support/float_modes.h"
 #include "support/oracle.h"
 #include "support/suite.h"
 
@@ -265,6 +266,20 @@ START_TEST(barycentric_of_corners_is_one) {
 }
 END_TEST
 
+// Integers decide, so that no environment of the caller's changes the sign, and denormals corrupt no memory.
+START_TEST(exact_sign_in_any_float_environment) {
+    constexpr double denormal = DBL_TRUE_MIN;
+    const Vec3d a{0, 0, denormal}, b{1, 0, 64 * denormal}, c{0, 1, 4 * denormal};
+    for (const float_mode& mode : float_modes)
+        for (const double z : {-DBL_MAX, -denormal, denormal, 0.0, DBL_MAX}) {
+            set_float_mode(&mode);
+            const int sign = exact_orientation(a, b, c, {0, 0, z});
+            set_float_mode(&float_modes[0]);
+            ck_assert_int_eq(sign, z == denormal ? 0 : z > denormal ? 1 : -1);
+        }
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -272,6 +287,6 @@ int main() {
     TCase* tests = add_case(suite, "exactness");
     tcase_add_each(tests, orientation_has_the_exact_sign, orientation_sign_follows_its_definition,
                    filter_decides_clear_cases_alone, locate_is_exact, barycentric_is_near_the_true_weights,
-                   barycentric_of_corners_is_one);
+                   barycentric_of_corners_is_one, exact_sign_in_any_float_environment);
     return run_suite(suite);
 }

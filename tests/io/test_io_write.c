@@ -250,11 +250,41 @@ START_TEST(bad_arguments) {
 }
 END_TEST
 
+/* Enums are 32 bits of the caller's, also those that a C++ compiler may take to be impossible. */
+START_TEST(enums_of_any_bits) {
+    static const int32_t values[] = {99, -1, INT32_MAX, INT32_MIN};
+    const vox_io_source source = {"a.mesh", "", 0};
+    vox_io_mesh *mesh = hard_mesh(), *made_of = NULL;
+    keeper k = {{NULL, 0}, -1};
+    const vox_io_sink sink = {keep, &k};
+    vox_io_load_desc load;
+    vox_io_write_desc desc = way_desc(0);
+    vox_io_tetrahedralize_desc solid;
+    ck_ok(vox_io_load_desc_init(&load, (uint32_t)sizeof load));
+    ck_ok(vox_io_tetrahedralize_desc_init(&solid, (uint32_t)sizeof solid));
+    for (int i = 0; i < 4; ++i) {
+        char expected[32];
+        vox_io_format format;
+        snprintf(expected, sizeof expected, " is %d,", (int)values[i]);
+        memcpy(&load.format, &values[i], sizeof values[i]);
+        memcpy(&desc.format, &values[i], sizeof values[i]);
+        memcpy(&solid.kind, &values[i], sizeof values[i]);
+        memcpy(&format, &values[i], sizeof values[i]);
+        ck_fails(vox_io_read(&source, 1, &load, &made_of), VOX_ERROR_INVALID_ARGUMENT, expected);
+        ck_fails(vox_io_write_to(mesh, &desc, &sink), VOX_ERROR_INVALID_ARGUMENT, expected);
+        ck_fails(vox_io_tetrahedralize(mesh, &solid, &made_of), VOX_ERROR_INVALID_ARGUMENT, expected);
+        ck_assert_str_eq(vox_io_format_string(format), "unknown format");
+    }
+    ck_assert_ptr_null(made_of);
+    vox_io_mesh_destroy(mesh);
+}
+END_TEST
+
 int main(void) {
     Suite* suite = suite_create("io_write");
     TCase* tests = add_case(suite, "write");
     tcase_add_loop_test(tests, round_trip, 0, way_count);
     tcase_add_loop_test(tests, point_data, 0, way_count);
-    tcase_add_each(tests, surface_alone, failing_sink, files, bad_arguments);
+    tcase_add_each(tests, surface_alone, failing_sink, files, bad_arguments, enums_of_any_bits);
     return run_suite(suite);
 }

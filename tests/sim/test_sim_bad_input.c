@@ -427,6 +427,101 @@ START_TEST(the_grid_is_within_reach) {
 }
 END_TEST
 
+/* ---- bodies changed in the grid, behind the back of the simulation ---- */
+
+/* A hundred vertices and tets within the two cubes of `changed_sim`. */
+static float crowd[300];
+static uint32_t crowd_tets[400];
+
+static void other_topology(vox_grid* grid, vox_mesh body) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = crowd;
+    desc.vertex_count = 100;
+    desc.tets = crowd_tets;
+    desc.tet_count = 100;
+    ck_ok(vox_mesh_set_topology(grid, body, &desc));
+}
+static void more_vertices(vox_grid* grid, vox_mesh body) {
+    vox_vertices_desc desc = vox_default_vertices_desc();
+    uint32_t first;
+    desc.count = 92;
+    desc.positions = crowd;
+    ck_ok(vox_mesh_append_vertices(grid, body, &desc, &first));
+}
+static void more_tets(vox_grid* grid, vox_mesh body) {
+    static const uint32_t all[5] = {0, 1, 2, 3, 4}, corners[4] = {0, 3, 5, 6};
+    uint32_t first;
+    ck_ok(vox_mesh_remove_tets(grid, body, all, 5));
+    ck_ok(vox_mesh_append_tets(grid, body, corners, 1, &first));
+}
+static void other_tets(vox_grid* grid, vox_mesh body) {
+    static const uint32_t tets[5] = {0, 1, 2, 3, 4},
+                          corners[20] = {0, 1, 2, 7, 0, 2, 4, 7, 0, 4, 1, 7, 1, 3, 2, 7, 4, 5, 1, 7};
+    ck_ok(vox_mesh_replace_tets(grid, body, tets, 5, corners));
+}
+static void other_positions(vox_grid* grid, vox_mesh body) {
+    ck_ok(vox_mesh_bind_positions(grid, body, crowd, VOX_FORMAT_FLOAT3, 0));
+}
+static void no_penetrations(vox_grid* grid, vox_mesh body) {
+    (void)body;
+    ck_ok(vox_grid_set_flags(grid, 0));
+}
+static void removed(vox_grid* grid, vox_mesh body) { ck_ok(vox_mesh_remove(grid, body)); }
+static void cleared(vox_grid* grid, vox_mesh body) {
+    (void)body;
+    ck_ok(vox_grid_clear(grid));
+}
+
+static const struct {
+    void (*change)(vox_grid* grid, vox_mesh body);
+    const char* error; /* null: the simulation goes on without the body's contacts */
+} changes[] = {{other_topology, "changed through vox_sim_grid"},
+               {more_vertices, "changed through vox_sim_grid"},
+               {more_tets, "changed through vox_sim_grid"},
+               {other_tets, "changed through vox_sim_grid"},
+               {other_positions, "changed through vox_sim_grid"},
+               {no_penetrations, "VOX_GRID_PENETRATIONS"},
+               {removed, NULL},
+               {cleared, NULL}};
+enum { change_count = sizeof changes / sizeof *changes };
+
+/* It says so instead of reading what is not there, and the bodies can still be read and removed. */
+START_TEST(changes_in_its_grid) {
+    const vox_sim_desc settings = weightless();
+    static const uint32_t cube[20] = {1, 2, 4, 7, 0, 1, 2, 4, 3, 1, 2, 7, 5, 1, 4, 7, 6, 2, 4, 7};
+    vox_sim* sim = open_sim(&settings);
+    vox_mesh bodies[2];
+    vox_grid* grid;
+    for (int i = 0; i < 300; ++i) crowd[i] = (float)(i * 5 % 7) * 0.2f + 0.1f;
+    for (uint32_t i = 0; i < 400; ++i) crowd_tets[i] = i * 37 % 100;
+    for (int b = 0; b < 2; ++b) {
+        double positions[24];
+        for (int i = 0; i < 24; ++i) positions[i] = (i / 3 >> i % 3 & 1) + 0.3 * b;
+        vox_sim_body_desc desc = vox_default_sim_body_desc();
+        desc.positions = positions;
+        desc.vertex_count = 8;
+        desc.tets = cube;
+        desc.tet_count = 5;
+        ck_ok(vox_sim_body_insert(sim, &desc, &bodies[b]));
+    }
+    ck_ok(vox_sim_step(sim, 1e-4));
+    ck_assert_uint_gt(counts(sim).penetrations, 0);
+    ck_ok(vox_sim_grid(sim, &grid));
+    changes[_i].change(grid, bodies[0]);
+    if (changes[_i].error) {
+        const double before = view_of(sim, bodies[1]).positions[5];
+        ck_fails(vox_sim_step(sim, 1e-4), VOX_ERROR_INVALID_STATE, changes[_i].error);
+        ck_assert(view_of(sim, bodies[1]).positions[5] == before);
+    } else {
+        ck_ok(vox_sim_step(sim, 1e-4));
+        ck_assert_uint_eq(counts(sim).penetrations, 0);
+    }
+    ck_ok(vox_sim_body_remove(sim, bodies[0]));
+    if (changes[_i].change != no_penetrations) ck_ok(vox_sim_step(sim, 1e-4));
+    vox_sim_destroy(sim);
+}
+END_TEST
+
 int main(void) {
     Suite* suite = suite_create("sim_bad_input");
     TCase* tests = add_case(suite, "bad input");
@@ -434,5 +529,6 @@ int main(void) {
                    squashed_and_inverted, flat_and_inverted_tets_are_counted, too_large_a_step_is_cut_down,
                    absurd_stiffness_is_cut_down, the_same_bits_every_time, refuses_bad_settings,
                    refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, the_grid_is_within_reach);
+    tcase_add_loop_test(tests, changes_in_its_grid, 0, change_count);
     return run_suite(suite);
 }

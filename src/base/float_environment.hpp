@@ -1,0 +1,111 @@
+// The floating-point environment: how results are rounded, whether denormals count as zero, what traps.
+// Whatever the program around the library has set (-ffast-math does, games and audio do), the library
+// computes in the default environment, and leaves the program's own as it found it, flags included.
+//
+// A compiler may move arithmetic across a change of the environment. So what computes is called, not inlined,
+// where a DefaultFloats lives (border.hpp, parallel.cpp).
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#if !(defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)))
+#include <cfenv>
+#endif
+
+namespace vox {
+
+#if defined(__GNUC__) && defined(__x86_64__)
+
+// MXCSR, and the control word of the x87, which C libraries ask for the direction of rounding.
+struct FloatEnvironment {
+    std::uint32_t mxcsr = 0x1f80; // the defaults: to nearest, with denormals, no traps, no flags
+    std::uint16_t x87 = 0x037f;
+
+    static FloatEnvironment of_thread() noexcept {
+        FloatEnvironment e;
+        asm volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(e.mxcsr), "=m"(e.x87) : : "memory");
+        return e;
+    }
+    void set() const noexcept { // ten times as fast as reading
+        asm volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(mxcsr), "m"(x87) : "memory");
+    }
+    static void set_default() noexcept { FloatEnvironment{}.set(); }
+};
+
+#elif defined(__GNUC__) && defined(__aarch64__)
+
+// FPCR, and FPSR with the flags.
+struct FloatEnvironment {
+    std::uint64_t control = 0, status = 0;
+
+    static FloatEnvironment of_thread() noexcept {
+        FloatEnvironment e;
+        asm volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(e.control), "=r"(e.status) : : "memory");
+        return e;
+    }
+    void set() const noexcept { // where it differs, as writing takes longer than reading
+        const FloatEnvironment now = of_thread();
+        if (now.control != control) asm volatile("msr fpcr, %0" : : "r"(control) : "memory");
+        if (now.status != status) asm volatile("msr fpsr, %0" : : "r"(status) : "memory");
+    }
+    static void set_default() noexcept { FloatEnvironment{0, of_thread().status}.set(); }
+};
+
+#else
+
+struct FloatEnvironment {
+    std::fenv_t value;
+
+    static FloatEnvironment of_thread() noexcept {
+        FloatEnvironment e;
+        (void)std::fegetenv(&e.value);
+        return e;
+    }
+    void set() const noexcept { (void)std::fesetenv(&value); }
+    static void set_default() noexcept { (void)std::fesetenv(FE_DFL_ENV); }
+};
+
+#endif
+
+// The caller's environment, on a thread that is in a call of the library; null elsewhere.
+inline constinit thread_local const FloatEnvironment* callers_floats = nullptr;
+
+// The default environment, as long as it lives; then the one before, flags included.
+class DefaultFloats {
+public:
+    DefaultFloats() noexcept
+        : callers_(FloatEnvironment::of_thread()), outer_(std::exchange(callers_floats, &callers_)) {
+        FloatEnvironment::set_default();
+    }
+    ~DefaultFloats() {
+        callers_floats = outer_;
+        callers_.set();
+    }
+    DefaultFloats(const DefaultFloats&) = delete;
+    DefaultFloats& operator=(const DefaultFloats&) = delete;
+
+private:
+    const FloatEnvironment callers_;
+    const FloatEnvironment* const outer_;
+};
+
+// The caller's environment again, as long as it lives: around calls of the caller's functions.
+class CallersFloats {
+public:
+    CallersFloats() noexcept : callers_(std::exchange(callers_floats, nullptr)) {
+        if (callers_) callers_->set();
+    }
+    ~CallersFloats() {
+        if (!callers_) return;
+        callers_floats = callers_;
+        FloatEnvironment::set_default();
+    }
+    CallersFloats(const CallersFloats&) = delete;
+    CallersFloats& operator=(const CallersFloats&) = delete;
+
+private:
+    const FloatEnvironment* const callers_;
+};
+
+} // namespace vox
