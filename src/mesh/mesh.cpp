@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,14 +18,15 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
       self_filter_(memory), exceptions_(memory) {
     borrowed_ = view.tets;
     if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
-    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
+        check_format_once(VOX_NULL_MESH);
+        map_positions();
+    }
     if (desc.rest_positions)
-        self_filter_.rest =
-            copy_finite({.data = static_cast<const std::byte*>(desc.rest_positions),
-                         .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
-                                                     vertex_count_, "rest_"),
-                         .doubles = desc.position_format == VOX_FORMAT_DOUBLE3},
-                        vertex_count_);
+        self_filter_.rest = copy_finite(
+            check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
+                            desc.rest_position_component_byte_stride, vertex_count_, "rest_"),
+            vertex_count_);
     set_filter(filter);
 }
 
@@ -73,7 +75,14 @@ void Mesh::make_rings() {
 void Mesh::bind(const Positions& positions) noexcept {
     positions_ = positions;
     owns_positions_ = false;
+    format_checked_ = false;
     owned_ = std::pmr::vector<double>(owned_.get_allocator());
+}
+
+void Mesh::check_format_once(vox_mesh id) {
+    if (format_checked_) return;
+    check_not_doubles(body(id));
+    format_checked_ = true;
 }
 
 void* Mesh::map_positions() {
@@ -83,11 +92,9 @@ void* Mesh::map_positions() {
                                        owned_.get_allocator());
         auto* to = reinterpret_cast<std::byte*>(owned.data());
         if (positions_.data)
-            for (std::size_t v = 0; v < vertex_count_; ++v)
-                std::memcpy(to + v * size, positions_.data + v * positions_.byte_stride, size);
+            for (std::size_t v = 0; v < vertex_count_; ++v) positions_.copy(v, to + v * size);
         owned_ = std::move(owned);
-        positions_.data = to;
-        positions_.byte_stride = size;
+        positions_ = {.data = to, .byte_stride = size, .doubles = positions_.doubles};
     }
     owns_positions_ = true;
     return owned_.data();
@@ -102,7 +109,9 @@ Body Mesh::body(vox_mesh id) const noexcept {
     Positions positions = positions_;
     if (has_transform_) positions.transform = transform_.data();
     return {.mesh_id = id,
+            .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
             .vertex_count = vertex_count_,
+            .user_data = user_data_,
             .positions = positions,
             .tets = tets(),
             .self_collision = filter_.self_collision != 0,
@@ -143,7 +152,7 @@ void Mesh::set_filter(const vox_filter& filter) {
 }
 
 std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions, std::uint32_t count) const {
-    check_finite({.vertex_count = count, .positions = positions});
+    check_finite({.vertex_count = count, .user_data = user_data_, .positions = positions});
     std::pmr::vector<Vec3f> copy(memory());
     copy.reserve(count);
     for (std::uint32_t v = 0; v < count; ++v) copy.push_back(positions[v]);
