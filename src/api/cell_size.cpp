@@ -55,7 +55,6 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vec
         Body body = check_mesh(desc, format("mesh %u (user data %llu): ", i, user_data).c_str(),
                                NullPositions::rejected);
         body.mesh_id = i;
-        body.slot = Body::in_array;
         check_not_doubles(body);
         bodies.push_back(body);
     }

@@ -98,12 +98,12 @@ struct PairFilter {
 // One mesh as the stages see it. mesh_id ascends from body to body, so that the order of body indices is the
 // canonical order of mesh ids.
 struct Body {
-    static constexpr std::uint32_t no_slot = ~0u, in_array = ~1u;
+    static constexpr std::uint32_t in_array = ~0u, no_slot = ~1u;
 
     std::uint32_t mesh_id = 0;
-    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an array
-    // of the caller's, where mesh_id is its index.
-    std::uint32_t slot = no_slot;
+    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an
+    // array, of which mesh_id is the index.
+    std::uint32_t slot = in_array;
     std::uint32_t vertex_count = 0;
     std::uint64_t user_data = 0;
     Positions positions{};

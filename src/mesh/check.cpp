@@ -179,7 +179,8 @@ void check_not_doubles(const Body& body) {
             return;
         }
     }
-    if (tiny < numbers / 16 || huge < numbers / 16) return;
+    const std::size_t enough = numbers / 64 + 1; // one low word in 32
+    if (tiny < enough || huge < enough) return;
     throw MeshError(
         VOX_ERROR_INVALID_ARGUMENT, body,
         format(": its positions are doubles, but position_format is VOX_FORMAT_FLOAT3 (of %zu numbers, "

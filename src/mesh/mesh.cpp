@@ -152,7 +152,7 @@ void Mesh::set_filter(const vox_filter& filter) {
 }
 
 std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions, std::uint32_t count) const {
-    check_finite({.vertex_count = count, .user_data = user_data_, .positions = positions});
+    check_finite({.slot = Body::no_slot, .vertex_count = count, .user_data = user_data_, .positions = positions});
     std::pmr::vector<Vec3f> copy(memory());
     copy.reserve(count);
     for (std::uint32_t v = 0; v < count; ++v) copy.push_back(positions[v]);

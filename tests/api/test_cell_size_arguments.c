@@ -104,25 +104,25 @@ START_TEST(bad_mesh) {
         fails(NULL, meshes, 2, code, words);                                                                 \
     } while (0)
 
-    BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: flags is 0x8");
-    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: reserved is 7");
-    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: positions is null, vertex_count is 4");
-    BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: tets is null, tet_count is 1");
+    BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): flags is 0x8");
+    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): reserved is 7");
+    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): positions is null, vertex_count is 4");
+    BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): tets is null, tet_count is 1");
     BAD(tets = (const uint32_t*)((const char*)unit_tet + 1), VOX_ERROR_INVALID_ARGUMENT,
-        "mesh 1: tets is not aligned");
-    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_byte_stride is 11");
+        "mesh 1 (user data 0): tets is not aligned");
+    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): position_byte_stride is 11");
     BAD(position_byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 vertices");
-    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_format is 77");
-    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1: tet 0 names vertex 3 of 3");
-    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: vertex_count is 1099511627776");
-    BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: tet_count is 1099511627776");
+    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): position_format is 77");
+    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 0 names vertex 3 of 3");
+    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): vertex_count is 1099511627776");
+    BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): tet_count is 1099511627776");
     BAD(struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "meshes[1].struct_size is 0");
     BAD(struct_size = sizeof(vox_mesh_desc) + 8, VOX_ERROR_INVALID_ARGUMENT, "that of meshes[0] is");
 #undef BAD
 
     static const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 900, 3};
     *bad = array_desc(regular_positions, 4, tets, 2);
-    fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1: tet 1 names vertex 900 of 4");
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 1 names vertex 900 of 4");
 
     *bad = good_mesh();
     meshes[0].struct_size = 3;
@@ -147,7 +147,7 @@ START_TEST(non_finite_positions) {
             char words[40];
             const float good = positions[c];
             positions[c] = values[v];
-            snprintf(words, sizeof words, "mesh 1, vertex %d:", c / 3);
+            snprintf(words, sizeof words, "mesh 1 (user data 0), vertex %d:", c / 3);
             fails(NULL, meshes, 2, VOX_ERROR_NON_FINITE, words);
             positions[c] = good;
         }
