@@ -1,6 +1,7 @@
 // The C border of vox.h's cell-size section.
 
 #include "base/border.hpp"
+#include "base/caller_memory.hpp"
 #include "base/scratch.hpp"
 #include "base/structs.hpp"
 #include "cell_size/paper_model.hpp"
@@ -24,6 +25,7 @@ vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
     vox_suggest_desc settings =
         desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
     check_suggest_desc(settings);
+    check_allocator(settings.allocator, "desc.allocator");
     return settings;
 }
 
@@ -80,7 +82,8 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     return border([&] {
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
-        CellSizeScene scene(std::pmr::get_default_resource());
+        CallerMemory memory(settings.allocator);
+        CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, scene.bodies);
         write_struct(out, suggest(settings, scene, weights_in_use()), "out");
     });
@@ -92,7 +95,8 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         check_out_struct(out, "out");
         vox_suggest_desc settings = read_suggest_desc(desc);
         grid->describe(settings, desc != nullptr);
-        Scratch<std::size_t{1} << 16> memory; // enough for a small scene
+        CallerMemory caller(settings.allocator);
+        Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
         grid->describe(scene);
         write_struct(out, suggest(settings, scene, weights_in_use()), "out");
@@ -105,7 +109,8 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
         check_cells(cell_size, "cell_size");
-        CellSizeScene scene(std::pmr::get_default_resource());
+        CallerMemory memory(settings.allocator);
+        CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, scene.bodies);
         write_struct(out, predict(settings, scene, weights_in_use(), cell_size), "out");
     });

@@ -43,7 +43,7 @@ static double* doubles_of(const body* b, double scale) {
 
 START_TEST(doubles_under_floats_are_refused) {
     body box = make_box(4, 0.3f, 0.1f, 0.2f, 0.3f), other = make_box(4, 0.3f, 0.5f, 0.4f, 0.3f);
-    const double scales[] = {1, 0.1, 1e-3, 1e6, 3.7};
+    const double scales[] = {1, 0.1, 1e-3, 3e5 / 7, 3.7};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; ++i) {
         double* positions = doubles_of(&box, scales[i]);
         vox_mesh_desc desc = vox_mesh_desc_doubles(positions, box.vertex_count, box.tets, box.tet_count);
