@@ -345,10 +345,10 @@ static inline vox_filter vox_default_filter(void) {
     return filter;
 }
 
-/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still collide
- * with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body without a
- * contact. The first such mesh of a grid is written to its log as a warning; vox_counters.meshes_without_tets counts
- * them.
+/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
+ * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
+ * without a contact. The first such mesh of a grid is written to its log as a warning;
+ * vox_counters.meshes_without_tets counts them.
  * Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v * position_byte_stride +
  * c * position_component_byte_stride. Two layouts are possible: positions one after the other (x y z, x y z, ...), and
  * columns (all x, all y, all z), as matrices of n rows and 3 columns are kept in Eigen, Julia, Fortran and Matlab. */
@@ -618,9 +618,9 @@ typedef struct vox_failure {
 #define VOX_NO_VERTEX 0xffffffffu /* vox_failure.vertex where a failure is not about a vertex */
 
 /* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
- * index-th of them, in the order of ids. From the last one on, and after steps that failed for another reason, mesh is
- * VOX_NULL_MESH. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have been removed
- * since. Valid until the next step or clear. */
+ * index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last one, after steps that failed for another
+ * reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have
+ * been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size). */
 VOX_API vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
 
 /* Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it.

@@ -1,5 +1,6 @@
 /* The cell size: every bad argument gives its code, a text with the numbers in it, and leaves the result
  * alone; structs may be smaller or larger than this library's. */
+#include "support/ledger.h"
 #include "support/suggest_scenes.h"
 
 #include <limits.h>
@@ -271,6 +272,53 @@ START_TEST(larger_structs) {
 }
 END_TEST
 
+/* All models, in the memory of the caller: the same answer, nothing left behind, and every call may fail. */
+START_TEST(memory_of_the_caller) {
+    body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 1, 0.4f, 0.3f);
+    vox_mesh_desc meshes[2] = {body_desc(&box), body_desc(&other)};
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_suggestion* out = (vox_suggestion*)calloc(2, sizeof *out);
+    ledger memory = {0, 0, 0, 0, 0};
+    meshes[0].flags = VOX_MESH_SELF_COLLISION;
+    desc.model = (vox_cost_model)_i;
+    out[0].struct_size = out[1].struct_size = sizeof *out;
+    ck_ok(vox_suggest_cell_size(&desc, meshes, 2, &out[0]));
+    desc.allocator = ledger_allocator(&memory);
+    ck_ok(vox_suggest_cell_size(&desc, meshes, 2, &out[1]));
+    ck_assert_mem_eq(&out[0], &out[1], sizeof *out);
+    ck_assert_uint_gt(memory.peak, 30 * (uint64_t)box.tet_count);
+    ck_assert_uint_eq(memory.bytes, 0);
+    const uint64_t calls = memory.calls;
+    for (uint64_t n = 1; n <= calls; n += 1 + n / 16) {
+        memory.calls = 0;
+        memory.fail_at = n;
+        ck_fails(vox_suggest_cell_size(&desc, meshes, 2, &out[1]), VOX_ERROR_OUT_OF_MEMORY, "memory");
+        ck_assert_mem_eq(&out[0], &out[1], sizeof *out);
+        ck_assert_uint_eq(memory.bytes, 0);
+    }
+    memory.fail_at = 0;
+    memory.calls = 0;
+    vox_cost_prediction prediction;
+    prediction.struct_size = sizeof prediction;
+    ck_ok(vox_cost_predict(&desc, meshes, 2, 0.3, &prediction));
+    ck_assert_uint_gt(memory.calls, 0);
+    ck_assert_uint_eq(memory.bytes, 0);
+
+    /* Of a grid, too: what does not fit on the stack. */
+    vox_grid* grid = grid_of(NULL);
+    for (int b = 0; b < 2; ++b) (void)insert_mesh(grid, &meshes[b]);
+    ck_ok(vox_grid_suggest_cell_size(grid, &desc, &out[1]));
+    ck_assert_uint_eq(memory.bytes, 0);
+    vox_grid_destroy(grid);
+    desc.allocator.release = NULL;
+    ck_fails(vox_suggest_cell_size(&desc, meshes, 2, &out[1]), VOX_ERROR_INVALID_ARGUMENT,
+             "desc.allocator has one of allocate and release");
+    free(out);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
 START_TEST(bad_zone_distance) {
     const double bad[] = {0, -1, NAN, INFINITY};
     double epsilon = 42;
@@ -290,6 +338,7 @@ END_TEST
 void add_argument_tests(Suite* suite) {
     TCase* tests = add_case(suite, "arguments");
     tcase_add_test(tests, defaults);
+    tcase_add_loop_test(tests, memory_of_the_caller, 0, 3);
     tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
     tcase_add_each(tests, bad_enum, bad_mesh, non_finite_positions, nothing_to_measure, bad_struct_sizes,
                    smaller_structs, larger_structs, bad_zone_distance);
