@@ -618,7 +618,7 @@ typedef struct vox_failure {
 #define VOX_NO_VERTEX 0xffffffffu /* vox_failure.vertex where a failure is not about a vertex */
 
 /* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
- * index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last one, after steps that failed for another
+ * index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for another
  * reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have
  * been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size). */
 VOX_API vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
