@@ -418,8 +418,8 @@ static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint6
 
 /* Adds a mesh, which takes part from the next step on.
  * Packed positions in VOX_FORMAT_FLOAT3 that can only be doubles are refused: from 16 vertices on, every other number
- * would be of ordinary size, while those between are too large and too small by turns (most bit patterns are, as
- * floats). They are looked at once, here if they are copied, else in the first step that reads them or in a suggestion.
+ * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
+ * are looked at once for each format, here if they are copied, else when a step or suggestion reads them first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh);
 

@@ -379,7 +379,7 @@ void vox_grid::step() {
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size() - body.off_count;
-        counters.meshes_without_tets += body.tets.empty();
+        counters.meshes_without_tets += body.tets.empty() && body.vertex_count > 0;
     }
     counters.skipped_meshes = left_out_.size();
     counters.contacts = contacts_.size();

@@ -73,9 +73,10 @@ void Mesh::make_rings() {
 }
 
 void Mesh::bind(const Positions& positions) noexcept {
+    // A program that binds in every frame pays for the check once.
+    format_checked_ = format_checked_ && positions.doubles == positions_.doubles;
     positions_ = positions;
     owns_positions_ = false;
-    format_checked_ = false;
     owned_ = std::pmr::vector<double>(owned_.get_allocator());
 }
 
