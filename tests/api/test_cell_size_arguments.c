@@ -107,13 +107,16 @@ START_TEST(bad_mesh) {
 
     BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): flags is 0x8");
     BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): reserved is 7");
-    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): positions is null, vertex_count is 4");
+    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): positions is null, vertex_count is 4");
     BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): tets is null, tet_count is 1");
     BAD(tets = (const uint32_t*)((const char*)unit_tet + 1), VOX_ERROR_INVALID_ARGUMENT,
         "mesh 1 (user data 0): tets is not aligned");
-    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): position_byte_stride is 11");
+    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): position_byte_stride is 11");
     BAD(position_byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 vertices");
-    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): position_format is 77");
+    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): position_format is 77");
     BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 0 names vertex 3 of 3");
     BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): vertex_count is 1099511627776");
     BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): tet_count is 1099511627776");
@@ -289,13 +292,18 @@ START_TEST(memory_of_the_caller) {
     ck_assert_uint_gt(memory.peak, 30 * (uint64_t)box.tet_count);
     ck_assert_uint_eq(memory.bytes, 0);
     const uint64_t calls = memory.calls;
-    for (uint64_t n = 1; n <= calls; n += 1 + n / 16) {
+    uint64_t failed = 0, tried = 0;
+    for (uint64_t n = 1; n <= calls;
+         n += 1 + n / 16, ++tried) { /* a list that cannot be made shorter stays longer */
         memory.calls = 0;
         memory.fail_at = n;
-        ck_fails(vox_suggest_cell_size(&desc, meshes, 2, &out[1]), VOX_ERROR_OUT_OF_MEMORY, "memory");
+        const vox_result result = vox_suggest_cell_size(&desc, meshes, 2, &out[1]);
+        ck_assert(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY);
+        failed += result != VOX_OK;
         ck_assert_mem_eq(&out[0], &out[1], sizeof *out);
         ck_assert_uint_eq(memory.bytes, 0);
     }
+    ck_assert_uint_gt(failed, tried / 2);
     memory.fail_at = 0;
     memory.calls = 0;
     vox_cost_prediction prediction;
