@@ -152,6 +152,33 @@ void check_finite(const Body& body, std::uint32_t vertex) {
                     vertex);
 }
 
+namespace {
+
+// Packed numbers that are read as floats, as words of doubles.
+struct WordCounts {
+    std::uint32_t tiny = 0, huge = 0; // low words below 2^-40, beyond 2^40
+    bool ordinary = true;             // all high words are 0, or from 2^-30 to 2^31
+};
+
+// Of the numbers [first, last), where `first` is even.
+void count_words(const std::byte* data, std::size_t first, std::size_t last, WordCounts& counts) noexcept {
+    constexpr std::size_t high_word = std::endian::native == std::endian::little ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) {
+        std::uint32_t bits;
+        std::memcpy(&bits, data + i * sizeof bits, sizeof bits);
+        const std::uint32_t magnitude = bits & 0x7fffffffu;
+        const int exponent = static_cast<int>(magnitude >> 23) - 127;
+        if (i % 2 == high_word) {
+            counts.ordinary &= magnitude == 0 || (exponent >= -30 && exponent <= 30);
+        } else {
+            counts.tiny += magnitude != 0 && exponent < -40;
+            counts.huge += exponent > 40;
+        }
+    }
+}
+
+} // namespace
+
 // Doubles of ordinary size, 2^-240 to 2^240, are pairs of a low word and a high one. As a float, the high
 // word is 0 or from 2^-30 to 2^31, for the float's exponent has the upper bits of the double's. The low word
 // is the end of the mantissa: where it is not 0, most of its patterns are floats beyond 2^40 or below 2^-40.
@@ -164,29 +191,24 @@ void check_not_doubles(const Body& body) {
     if (given.doubles || body.vertex_count < least_vertices || given.byte_stride != sizeof(Vec3f) ||
         given.component_gap != 0)
         return;
-    std::uint32_t tiny = 0, huge = 0; // among the low words
+    // A look at some of them clears almost every mesh of floats.
+    WordCounts some, all;
+    constexpr std::size_t run = 3 * std::size_t{least_vertices};
+    const std::size_t end = 3 * std::size_t{body.vertex_count};
+    for (const std::size_t at : {std::size_t{0}, (end - run) / 2, end - run})
+        count_words(given.data, at & ~std::size_t{1}, (at & ~std::size_t{1}) + run, some);
+    if (!some.ordinary || some.tiny + some.huge == 0) return;
+
     const std::size_t numbers = 3 * std::size_t{std::min(body.vertex_count, most_vertices)} & ~std::size_t{1};
-    constexpr std::size_t high_word = std::endian::native == std::endian::little ? 1 : 0;
-    for (std::size_t i = 0; i < numbers; ++i) {
-        std::uint32_t bits;
-        std::memcpy(&bits, given.data + i * sizeof bits, sizeof bits);
-        const std::uint32_t magnitude = bits & 0x7fffffffu;
-        const int exponent = static_cast<int>(magnitude >> 23) - 127;
-        if (i % 2 != high_word) {
-            tiny += magnitude != 0 && exponent < -40;
-            huge += exponent > 40;
-        } else if (magnitude != 0 && (exponent < -30 || exponent > 30)) {
-            return;
-        }
-    }
+    count_words(given.data, 0, numbers, all);
     const std::size_t enough = numbers / 64 + 1; // one low word in 32
-    if (tiny < enough || huge < enough) return;
+    if (!all.ordinary || all.tiny < enough || all.huge < enough) return;
     throw MeshError(
         VOX_ERROR_INVALID_ARGUMENT, body,
         format(": its positions are doubles, but position_format is VOX_FORMAT_FLOAT3 (of %zu numbers, "
                "every other is of ordinary size; of those between, %" PRIu32 " are beyond 2^40 and %" PRIu32
                " below 2^-40)",
-               numbers, huge, tiny));
+               numbers, all.huge, all.tiny));
 }
 
 } // namespace vox
