@@ -316,7 +316,7 @@ typedef struct vox_filter {
     int32_t group;
     /* With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the mesh
      * would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask 0, no
-     * positive group) is allowed, and written to the log as a warning. */
+     * positive group) is allowed, and the first in a grid is written to the log as a warning. */
     uint64_t category;
     uint64_t mask;
     uint32_t self_collision; /* 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */

@@ -101,11 +101,7 @@ struct Body {
     static constexpr std::uint32_t in_array = ~0u, no_slot = ~1u;
 
     std::uint32_t mesh_id = 0;
-    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an
-    // array, of which mesh_id is the index.
-    std::uint32_t slot = in_array;
     std::uint32_t vertex_count = 0;
-    std::uint64_t user_data = 0;
     Positions positions{};
     std::span<const Tet> tets{};
     bool self_collision = false;
@@ -121,6 +117,10 @@ struct Body {
     std::span<const std::uint64_t> removed_vertices{}; // vertices that are in no tetrahedron, as bits
     // Set once contacts are found: those with others that are carried, too, are those of the last step.
     bool carried = false;
+    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an
+    // array, of which mesh_id is the index.
+    std::uint32_t slot = in_array;
+    std::uint64_t user_data = 0;
 };
 
 // Barycentric coordinates of a point in a tetrahedron.

@@ -117,7 +117,7 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
     return id;
 }
 
-// What is allowed, but collides with less than one may think.
+// What is allowed, but collides with less than one may think: each once, as a program may mean it.
 void vox_grid::warn_of_traps(const Mesh& mesh, vox_mesh id) {
     if (!log_.write) return;
     const auto warn = [&](const char* text) noexcept { // cannot fail, as all is done
@@ -127,9 +127,12 @@ void vox_grid::warn_of_traps(const Mesh& mesh, vox_mesh id) {
         write_log(VOX_LOG_WARNING, line);
     };
     const vox_filter& filter = mesh.filter();
-    if (filter.group <= 0 && (filter.category == 0 || filter.mask == 0))
-        warn(filter.mask == 0 ? "collides with no other mesh: the mask of its filter is 0"
-                              : "collides with no other mesh: the category of its filter is 0");
+    if (!warned_of_filter_ && filter.group <= 0 && (filter.category == 0 || filter.mask == 0)) {
+        warned_of_filter_ = true;
+        warn(filter.mask == 0
+                 ? "collides with no other mesh: the mask of its filter is 0 (said once for a grid)"
+                 : "collides with no other mesh: the category of its filter is 0 (said once for a grid)");
+    }
     if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
     warn("has no tetrahedra: its vertices collide with those of other meshes, its edges and faces with "

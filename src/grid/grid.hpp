@@ -173,5 +173,6 @@ private:
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;
-    bool warned_of_edges_ = false; // of a mesh without tetrahedra
+    bool warned_of_edges_ = false;  // of a mesh without tetrahedra
+    bool warned_of_filter_ = false; // of one that collides with no other
 };

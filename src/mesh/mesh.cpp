@@ -110,9 +110,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
     Positions positions = positions_;
     if (has_transform_) positions.transform = transform_.data();
     return {.mesh_id = id,
-            .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
             .vertex_count = vertex_count_,
-            .user_data = user_data_,
             .positions = positions,
             .tets = tets(),
             .self_collision = filter_.self_collision != 0,
@@ -123,7 +121,9 @@ Body Mesh::body(vox_mesh id) const noexcept {
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,
             .off = off_.words(),
             .off_count = off_.count(),
-            .removed_vertices = removed_vertices_.words()};
+            .removed_vertices = removed_vertices_.words(),
+            .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
+            .user_data = user_data_};
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
@@ -153,7 +153,8 @@ void Mesh::set_filter(const vox_filter& filter) {
 }
 
 std::pmr::vector<Vec3f> Mesh::copy_finite(const Positions& positions, std::uint32_t count) const {
-    check_finite({.slot = Body::no_slot, .vertex_count = count, .user_data = user_data_, .positions = positions});
+    check_finite(
+        {.vertex_count = count, .positions = positions, .slot = Body::no_slot, .user_data = user_data_});
     std::pmr::vector<Vec3f> copy(memory());
     copy.reserve(count);
     for (std::uint32_t v = 0; v < count; ++v) copy.push_back(positions[v]);
