@@ -1,11 +1,13 @@
-/* vox: exact collision detection for deformable tetrahedral meshes on a voxel grid.
+/* vox: exact collision detection for deformable tetrahedral meshes on a voxel grid. Vertices collide with tetrahedra;
+ * the edges and faces of triangle meshes and point sets, which have no tetrahedra, collide with nothing.
  *
  * This header is the whole interface of the core library: plain C99 with fixed-width types. No struct is
  * passed by value. The version is written here and nowhere else.
  *
  * Conventions that hold for every function unless its comment says otherwise
  *   Errors    A function that can fail returns vox_result. On failure the out-parameters are left
- *             untouched, nothing has changed, and vox_last_error() gives the reason with numbers in it.
+ *             untouched, nothing has changed, and vox_last_error() gives the reason with numbers in it. It names a
+ *             mesh by its id, its slot, which counts from 0, and its user data.
  *             No function prints, exits, throws or asserts on user input, in any build.
  *             Every function may return INVALID_ARGUMENT for a null pointer that its comment does not allow,
  *             and INVALID_HANDLE for an id that names no mesh of the grid.
@@ -181,12 +183,20 @@ typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
                                   than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
+    VOX_GRID_SKIP_BAD_MESHES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too
+                                     large) takes no part in a step, in vox_grid_prepare_queries and in
+                                     vox_grid_take_query_view, as if it were disabled; without this flag they fail.
+                                     Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the
+                                     mesh is well again */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
 
 /* An open grid: a set of meshes and the settings they collide under. */
 typedef struct vox_grid vox_grid;
 
+/* Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
+ * penetrations, no byte budget and a thread per core. vox_grid_create writes a warning to the log then, unless
+ * there is none. */
 typedef struct vox_grid_desc {
     uint32_t struct_size;
     vox_engine engine;
@@ -309,6 +319,9 @@ typedef struct vox_filter {
      * collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1,
      * all bits of the mask. For a mesh with itself, see self_collision. */
     int32_t group;
+    /* With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the mesh
+     * would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask 0, no
+     * positive group) is allowed, and the first in a grid is written to the log as a warning. */
     uint64_t category;
     uint64_t mask;
     uint32_t self_collision; /* 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */
@@ -337,15 +350,20 @@ static inline vox_filter vox_default_filter(void) {
     return filter;
 }
 
-/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its
- * vertices still collide with the tetrahedra of other meshes. */
+/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
+ * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
+ * without a contact. The first such mesh of a grid is written to its log as a warning;
+ * vox_counters.meshes_without_tets counts them.
+ * Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v * position_byte_stride +
+ * c * position_component_byte_stride. Two layouts are possible: positions one after the other (x y z, x y z, ...), and
+ * columns (all x, all y, all z), as matrices of n rows and 3 columns are kept in Eigen, Julia, Fortran and Matlab. */
 typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
     /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
      * other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged. */
     const void* positions;
-    uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed */
+    uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed (columns: one number) */
     /* tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted.
      * With that flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is
      * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
@@ -361,6 +379,11 @@ typedef struct vox_mesh_desc {
     /* vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance. */
     const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
+    /* From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
+     * between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
+     * them n times the size of a number. Errors: INVALID_ARGUMENT (positions that would overlap). */
+    uint64_t position_component_byte_stride;
+    uint64_t rest_position_component_byte_stride; /* the same for rest_positions */
 } vox_mesh_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -372,7 +395,36 @@ static inline vox_mesh_desc vox_default_mesh_desc(void) {
     return desc;
 }
 
+/* The description of a mesh with tightly packed positions x y z, as floats; the other fields have their defaults. The
+ * arrays are borrowed and copied as vox_mesh_desc says. These two take a typed pointer, where `positions` is a void*:
+ * doubles under VOX_FORMAT_FLOAT3 would be read as other numbers. */
+static inline vox_mesh_desc vox_mesh_desc_floats(const float* positions, uint64_t vertex_count, const uint32_t* tets,
+                                                 uint64_t tet_count) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = positions;
+    desc.position_format = VOX_FORMAT_FLOAT3;
+    desc.vertex_count = vertex_count;
+    desc.tets = tets;
+    desc.tet_count = tet_count;
+    return desc;
+}
+
+/* The same for doubles. */
+static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint64_t vertex_count, const uint32_t* tets,
+                                                  uint64_t tet_count) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = positions;
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.vertex_count = vertex_count;
+    desc.tets = tets;
+    desc.tet_count = tet_count;
+    return desc;
+}
+
 /* Adds a mesh, which takes part from the next step on.
+ * Packed positions in VOX_FORMAT_FLOAT3 that can only be doubles are refused: from 16 vertices on, every other number
+ * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
+ * are looked at once for each format, here if they are copied, else when a step or suggestion reads them first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh);
 
@@ -390,6 +442,21 @@ VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint6
  * between steps need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
                                            vox_format format, uint64_t byte_stride);
+
+/* The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns. */
+VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+                                                   vox_format format, uint64_t byte_stride,
+                                                   uint64_t component_byte_stride);
+
+/* vox_mesh_bind_positions for tightly packed floats, with a typed pointer. Errors: as there. */
+static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_mesh mesh, const float* positions) {
+    return vox_mesh_bind_positions(grid, mesh, positions, VOX_FORMAT_FLOAT3, 0);
+}
+
+/* vox_mesh_bind_positions for tightly packed doubles, with a typed pointer. Errors: as there. */
+static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_mesh mesh, const double* positions) {
+    return vox_mesh_bind_positions(grid, mesh, positions, VOX_FORMAT_DOUBLE3, 0);
+}
 
 /* Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it; it
  * serves to measure steps over positions that stay the same. */
@@ -499,6 +566,9 @@ typedef struct vox_vertices_desc {
      * copies_of or, if that is null too, the present positions of the new vertices. */
     const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
+    /* As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number. */
+    uint64_t position_component_byte_stride;
+    uint64_t rest_position_component_byte_stride; /* the same for rest_positions */
 } vox_vertices_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers: all 0. */
@@ -533,9 +603,30 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const
  * In the steady state (same meshes, no more work than before) it allocates nothing, with any number of workers. The
  * memory of the built-in scheduler belongs to oneTBB and is not counted.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
- * allow; both name mesh and vertex), LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
- * OUT_OF_MEMORY. */
+ * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does
+ * vox_grid_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
+
+/* A mesh that made a step fail, or that a step left out. */
+typedef struct vox_failure {
+    uint32_t struct_size;
+    vox_result result;  /* NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
+                           positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none */
+    vox_mesh mesh;      /* VOX_NULL_MESH if there is none */
+    uint32_t slot;      /* of the mesh, from 0 */
+    uint64_t user_data; /* of the mesh, as given at insertion */
+    uint32_t vertex;    /* the first with such a coordinate; VOX_NO_VERTEX if the failure is about none */
+    uint32_t reserved;
+    double position[3]; /* of that vertex, as it would collide: in double and transformed; else 0 */
+} vox_failure;
+
+#define VOX_NO_VERTEX 0xffffffffu /* vox_failure.vertex where a failure is not about a vertex */
+
+/* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
+ * index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for another
+ * reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have
+ * been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size). */
+VOX_API vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
 
 /* Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it.
  * This is decided exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every
@@ -562,6 +653,20 @@ typedef struct vox_contact_view {
 
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
 VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
+
+/* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
+ * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
+ * with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh, keeps the
+ * rule with this flag. Not part of vox_grid_hash. The data lives as long as that of the contacts' view. */
+typedef struct vox_interior_view {
+    const uint8_t* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_interior_view;
+
+/* Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a clear. */
+VOX_API vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* out_view);
 
 /* Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while its
  * epoch equals it. */
@@ -962,6 +1067,7 @@ typedef struct vox_closest_desc {
     double max_distance;  /* >= 0, in the caller's unit; default infinity */
     vox_mesh excluded;    /* default VOX_NULL_MESH: none */
     uint32_t reserved;    /* 0 */
+    uint64_t component_byte_stride; /* as vox_mesh_desc.position_component_byte_stride; default 0 */
 } vox_closest_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -1151,6 +1257,8 @@ typedef struct vox_counters {
     uint64_t cell_size_changes;  /* how often the reference engine chose another cell size (see vox_grid_desc) */
     uint64_t unknown_penetrations; /* part of `penetrations` for which closest_budget left no search */
     uint64_t carried_penetrations; /* part of `penetrations` carried over with their contacts */
+    uint64_t skipped_meshes;     /* left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes` */
+    uint64_t meshes_without_tets; /* part of `meshes`: their vertices collide, their edges and faces do not */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -1222,6 +1330,8 @@ typedef struct vox_suggest_desc {
                                   limit */
     vox_storage storage;       /* REFERENCE: as in vox_grid_desc, but AUTO means HASHED */
     uint32_t reserved;         /* 0 */
+    /* Where the memory of the call comes from, which it has released at its end; default: the C++ runtime's heap. */
+    vox_allocator allocator;
 } vox_suggest_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -1314,8 +1424,8 @@ typedef struct vox_suggestion {
  * desc null: defaults. Set out->struct_size first; the fields it covers are written.
  * `meshes` is an array whose elements are meshes[0].struct_size bytes apart, a multiple of 8, and all have that
  * struct_size. Of their flags, only VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its
- * index in the array. Time and memory (from the C++ runtime's heap, released at the end of the call) are proportional
- * to vertices and tets.
+ * index in the array and its user data. Time and memory (from desc->allocator, released at the end of the call) are
+ * proportional to vertices and tets.
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,

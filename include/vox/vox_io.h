@@ -5,6 +5,8 @@
  * surface are merged if their positions are equal, and numbered in order of first use. The caller owns every mesh that
  * a function here creates and releases it with vox_io_mesh_destroy.
  *
+ * CMake: find_package(vox COMPONENTS io), then link vox::io, which brings vox::vox with it. pkg-config: vox_io.
+ *
  * A tet file must contain a tet. Anything else that is odd about it is listed in the report and never stops a load.
  *
  * Threads: no function keeps state between calls. Different meshes are independent, and one mesh may be
@@ -43,6 +45,9 @@ typedef struct vox_io_load_desc {
     /* Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join them. */
     uint32_t mesh_index;
     uint32_t reserved; /* 0 */
+    /* Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
+     * reading needs besides is taken from that heap and released at the end of the call. */
+    vox_allocator allocator;
 } vox_io_load_desc;
 
 #define VOX_IO_ALL_MESHES 0xffffffffu /* for vox_io_load_desc.mesh_index: joins all meshes of the scene */
@@ -86,8 +91,16 @@ typedef struct vox_io_mesh_view {
 /* The mesh's arrays. */
 VOX_API vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
 
-/* Makes a mesh from arrays (copied). Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, LIMIT (more than
- * VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
+/* Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and strides,
+ * vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
+ * vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
+ * VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
+ * vox_mesh_bind_positions or vox_mesh_set_transform. Triangles are not described. docs/files.md has a whole program.
+ * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format). */
+VOX_API vox_result vox_io_mesh_desc(const vox_io_mesh* mesh, vox_mesh_desc* desc);
+
+/* Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
+ * LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
 VOX_API vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_mesh);
 
 /* ---- diagnosis -------------------------------------------------------------------------------- */
@@ -158,6 +171,7 @@ typedef struct vox_io_tetrahedralize_desc {
      * other than 0 cancels. May be null. */
     int32_t (*progress)(double fraction, void* user);
     void* progress_user;
+    vox_allocator allocator; /* as vox_io_load_desc.allocator */
 } vox_io_tetrahedralize_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */

@@ -58,6 +58,9 @@ typedef struct vox_sim_desc {
                             * default is -1): a hundredth of the mean rest edge of the two bodies */
     const vox_grid_desc* grid; /* settings of the grid inside, read during create; null: defaults */
     vox_log log;               /* log of the simulation; the grid has one of its own in its desc */
+    /* Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
+     * from functions of the simulation and its grid, one call at a time. Default: the C++ runtime's heap. */
+    vox_allocator allocator;
 } vox_sim_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */

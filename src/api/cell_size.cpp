@@ -1,6 +1,7 @@
 // The C border of vox.h's cell-size section.
 
 #include "base/border.hpp"
+#include "base/caller_memory.hpp"
 #include "base/scratch.hpp"
 #include "base/structs.hpp"
 #include "cell_size/paper_model.hpp"
@@ -24,6 +25,7 @@ vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
     vox_suggest_desc settings =
         desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
     check_suggest_desc(settings);
+    check_allocator(settings.allocator, "desc.allocator");
     return settings;
 }
 
@@ -51,8 +53,11 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vec
                         format("meshes[%u].struct_size is %u, that of meshes[0] is %u", i,
                                element->struct_size, stride));
         const vox_mesh_desc desc = read_struct(element, defaults, "mesh");
-        Body body = check_mesh(desc, format("mesh %u: ", i).c_str(), NullPositions::rejected);
+        const auto user_data = static_cast<unsigned long long>(desc.user_data);
+        Body body = check_mesh(desc, format("mesh %u (user data %llu): ", i, user_data).c_str(),
+                               NullPositions::rejected);
         body.mesh_id = i;
+        check_not_doubles(body);
         bodies.push_back(body);
     }
 }
@@ -77,7 +82,8 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     return border([&] {
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
-        CellSizeScene scene(std::pmr::get_default_resource());
+        CallerMemory memory(settings.allocator);
+        CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, scene.bodies);
         write_struct(out, suggest(settings, scene, weights_in_use()), "out");
     });
@@ -89,7 +95,8 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         check_out_struct(out, "out");
         vox_suggest_desc settings = read_suggest_desc(desc);
         grid->describe(settings, desc != nullptr);
-        Scratch<std::size_t{1} << 16> memory; // enough for a small scene
+        CallerMemory caller(settings.allocator);
+        Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
         grid->describe(scene);
         write_struct(out, suggest(settings, scene, weights_in_use()), "out");
@@ -102,7 +109,8 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         check_out_struct(out, "out");
         const vox_suggest_desc settings = read_suggest_desc(desc);
         check_cells(cell_size, "cell_size");
-        CellSizeScene scene(std::pmr::get_default_resource());
+        CallerMemory memory(settings.allocator);
+        CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, scene.bodies);
         write_struct(out, predict(settings, scene, weights_in_use(), cell_size), "out");
     });

@@ -13,6 +13,14 @@ vox_filter vox::read_filter(const vox_filter* given) {
     return filter;
 }
 
+void vox::refuse_zeroed(const vox_filter& filter) {
+    if (filter.group != 0 || filter.category != 0 || filter.mask != 0 || filter.self_collision != 0) return;
+    throw Error(
+        VOX_ERROR_INVALID_ARGUMENT,
+        "filter has group, category, mask and self_collision 0, so that its mesh would collide with nothing: "
+        "fill it with vox_filter_init or vox_default_filter; vox_mesh_set_enabled takes a mesh out");
+}
+
 bool vox::read_enabled(std::uint32_t enabled) {
     if (enabled > 1)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("enabled is %u, expected 0 or 1", enabled));
@@ -28,7 +36,9 @@ vox_result vox_filter_init(vox_filter* filter, uint32_t struct_size) {
 vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter) {
     return border(grid, "grid", [&] {
         require(filter, "filter");
-        grid->set_filter(mesh, read_filter(filter));
+        const vox_filter read = read_filter(filter);
+        refuse_zeroed(read);
+        grid->set_filter(mesh, read);
     });
 }
 

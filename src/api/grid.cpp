@@ -144,6 +144,7 @@ vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* 
         const Body view = check_mesh(settings, "", NullPositions::allowed);
         vox_filter filter = read_filter(settings.filter);
         if (view.self_collision) filter.self_collision = 1;
+        refuse_zeroed(filter);
         *out_mesh = grid->insert(settings, view, filter);
     });
 }
@@ -162,13 +163,18 @@ vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out
 
 vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions, vox_format format,
                                    uint64_t byte_stride) {
+    return vox_mesh_bind_strided_positions(grid, mesh, positions, format, byte_stride, 0);
+}
+
+vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+                                           vox_format format, uint64_t byte_stride,
+                                           uint64_t component_byte_stride) {
     return border(grid, "grid", [&] {
         Mesh& target = grid->mesh(mesh);
         require(positions, "positions");
         check_format(format, "");
-        target.bind({static_cast<const std::byte*>(positions),
-                     check_stride(byte_stride, format, target.vertex_count(), ""),
-                     format == VOX_FORMAT_DOUBLE3});
+        target.bind(check_positions(positions, format, byte_stride, component_byte_stride,
+                                    target.vertex_count(), ""));
     });
 }
 
@@ -206,6 +212,14 @@ vox_result vox_grid_step(vox_grid* grid) {
 
 vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->contacts(); });
+}
+
+vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->interiors(); });
+}
+
+vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure) {
+    return border(grid, "grid", [&] { write_struct(out_failure, grid->failure(index), "out_failure"); });
 }
 
 vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view) {

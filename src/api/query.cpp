@@ -55,15 +55,15 @@ vox_closest_desc closest_defaults() {
 }
 
 std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_format,
-                                    std::uint64_t byte_stride, std::uint64_t count) {
+                                    std::uint64_t byte_stride, std::uint64_t component_byte_stride,
+                                    std::uint64_t count) {
     if (count > 0) require(points, "points");
     check_format(point_format, "point ");
     if (count > UINT32_MAX)
         throw Error(VOX_ERROR_LIMIT, format("point_count is %llu, the limit is 2^32 - 1",
                                             static_cast<unsigned long long>(count)));
-    const Positions positions{.data = static_cast<const std::byte*>(points),
-                              .byte_stride = check_stride(byte_stride, point_format, count, "point "),
-                              .doubles = point_format == VOX_FORMAT_DOUBLE3};
+    const Positions positions =
+        check_positions(points, point_format, byte_stride, component_byte_stride, count, "point ");
     std::pmr::vector<Vec3d> read(std::pmr::new_delete_resource());
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -86,7 +86,7 @@ void ask_point(const Queries& queries, const double* point, QueryMeshes which, v
 void ask_points(const Queries& queries, const void* points, const vox_format& point_format,
                 std::uint64_t byte_stride, std::uint64_t point_count, QueryMeshes which, vox_point_hit* hits,
                 std::uint64_t capacity, std::uint64_t* out_count) {
-    const std::pmr::vector<Vec3d> asked = read_points(points, point_format, byte_stride, point_count);
+    const std::pmr::vector<Vec3d> asked = read_points(points, point_format, byte_stride, 0, point_count);
     answer(hits, capacity, out_count,
            [&](std::pmr::vector<vox_point_hit>& found) { queries.points(asked, which, found); });
 }
@@ -122,8 +122,8 @@ void ask_closest_points(const Queries& queries, const vox_closest_desc* desc, vo
                     format("max_distance is %g, expected a number >= 0", asked.max_distance));
     if (asked.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc reserved is %u, expected 0", asked.reserved));
-    const std::pmr::vector<Vec3d> points =
-        read_points(asked.points, asked.format, asked.byte_stride, asked.point_count);
+    const std::pmr::vector<Vec3d> points = read_points(asked.points, asked.format, asked.byte_stride,
+                                                       asked.component_byte_stride, asked.point_count);
     Scratch<4096> memory;
     queries.closest_points(points, asked.max_distance, {asked.mask, asked.excluded}, &memory, out_hits);
 }

@@ -28,25 +28,34 @@ struct Box3f {
 };
 
 // The caller's positions, strided and borrowed, valid during the step only. They are floats or doubles, with
-// or without a transform. Every contact is decided by exact(). Candidates are found with the nearest floats,
-// operator[], and none is missed: rounding keeps the order of numbers, so a point in a box is, once rounded,
-// in the rounded box.
+// or without a transform, one after the other or in columns. Every contact is decided by exact(). Candidates
+// are found with the nearest floats, operator[], and none is missed: rounding keeps the order of numbers, so
+// a point in a box is, once rounded, in the rounded box.
 struct Positions {
     const std::byte* data = nullptr;
     std::size_t byte_stride = 0;
     bool doubles = false;              // else floats
     const double* transform = nullptr; // three rows of four (vox_mesh_set_transform), or null
+    std::size_t component_gap = 0; // bytes between the numbers of a position; 0 unless they are in columns
 
     // Whether operator[] may differ from exact().
     bool rounded() const noexcept { return doubles || transform; }
 
     Vec3d exact(std::size_t vertex) const noexcept {
-        const Vec3d p = doubles ? read<Vec3d>(vertex) : Vec3d(read<Vec3f>(vertex));
+        const Vec3d p = doubles ? read<Vec3d, double>(vertex) : Vec3d(read<Vec3f, float>(vertex));
         return transform ? transformed(transform, p) : p;
     }
 
     // Only for positions that are not rounded().
-    Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f>(vertex); }
+    Vec3f floats(std::size_t vertex) const noexcept { return read<Vec3f, float>(vertex); }
+
+    // Writes the three numbers of a position as they are, without the transform, one after the other.
+    void copy(std::size_t vertex, std::byte* to) const noexcept {
+        const std::size_t size = doubles ? sizeof(double) : sizeof(float);
+        const std::byte* from = data + vertex * byte_stride;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            std::memcpy(to + axis * size, from + axis * (size + component_gap), size);
+    }
 
     // Infinite where a coordinate is 2^128 - 2^103 or more in magnitude.
     Vec3f operator[](std::size_t vertex) const noexcept {
@@ -63,11 +72,16 @@ struct Positions {
     }
 
 private:
-    template <class Point>
+    // Number by number: copied as a whole, a point would go through memory.
+    template <class Point, class Number>
     Point read(std::size_t vertex) const noexcept {
-        Point p;
-        std::memcpy(&p, data + vertex * byte_stride, sizeof p);
-        return p;
+        const std::byte* from = data + vertex * byte_stride;
+        const std::size_t to_next = sizeof(Number) + component_gap;
+        Number x, y, z;
+        std::memcpy(&x, from, sizeof x);
+        std::memcpy(&y, from + to_next, sizeof y);
+        std::memcpy(&z, from + 2 * to_next, sizeof z);
+        return {x, y, z};
     }
 };
 
@@ -84,6 +98,8 @@ struct PairFilter {
 // One mesh as the stages see it. mesh_id ascends from body to body, so that the order of body indices is the
 // canonical order of mesh ids.
 struct Body {
+    static constexpr std::uint32_t in_array = ~0u, no_slot = ~1u;
+
     std::uint32_t mesh_id = 0;
     std::uint32_t vertex_count = 0;
     Positions positions{};
@@ -101,6 +117,10 @@ struct Body {
     std::span<const std::uint64_t> removed_vertices{}; // vertices that are in no tetrahedron, as bits
     // Set once contacts are found: those with others that are carried, too, are those of the last step.
     bool carried = false;
+    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an
+    // array, of which mesh_id is the index.
+    std::uint32_t slot = in_array;
+    std::uint64_t user_data = 0;
 };
 
 // Barycentric coordinates of a point in a tetrahedron.

@@ -1,5 +1,6 @@
-// Memory for one call. It comes from a buffer in the object, and from the heap when that is full. Space in
-// the buffer can be used again only when the last allocation in it is released first.
+// Memory for one call. It comes from a buffer in the object and, when that is full, from `beyond`, the heap
+// unless another is given. Space in the buffer can be used again only when the last allocation in it is
+// released first.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,9 @@ namespace vox {
 template <std::size_t bytes>
 class Scratch final : public std::pmr::memory_resource {
 public:
-    Scratch() noexcept = default; // leaves the buffer uninitialised
+    // Leaves the buffer uninitialised.
+    explicit Scratch(std::pmr::memory_resource* beyond = std::pmr::new_delete_resource()) noexcept
+        : beyond_(beyond) {}
 
 private:
     bool is_in_buffer(const void* memory) const noexcept {
@@ -22,14 +25,14 @@ private:
     void* do_allocate(std::size_t size, std::size_t alignment) override {
         const std::size_t first = (used_ + alignment - 1) / alignment * alignment;
         if (alignment > alignof(std::max_align_t) || first > bytes || size > bytes - first)
-            return std::pmr::new_delete_resource()->allocate(size, alignment);
+            return beyond_->allocate(size, alignment);
         used_ = first + size;
         return buffer_ + first;
     }
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
         auto* place = static_cast<std::byte*>(memory);
         if (!is_in_buffer(memory))
-            std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+            beyond_->deallocate(memory, size, alignment);
         else if (place + size == buffer_ + used_)
             used_ -= size;
     }
@@ -37,6 +40,7 @@ private:
 
     alignas(std::max_align_t) std::byte buffer_[bytes];
     std::size_t used_ = 0;
+    std::pmr::memory_resource* beyond_;
 };
 
 } // namespace vox

@@ -46,8 +46,7 @@ void CellSizeScene::make_missing_tiles() {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         if (tiles[b]) continue;
         const Body& body = bodies[b];
-        make_tiles(body.tets, body.vertex_count, body.positions,
-                   made_tiles_.emplace_back(std::pmr::get_default_resource()), body.off);
+        make_tiles(body.tets, body.vertex_count, body.positions, made_tiles_.emplace_back(memory), body.off);
         tiles[b] = &made_tiles_.back();
     }
 }

@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    Vec3d position(std::uint32_t vertex) const { return exact_position(pair_.positions_a, vertex); }
+    Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
     LinkRange neighbours(const Point& point) const {
         return pair_.topology_a->neighbours_of(point.vertex);
     }

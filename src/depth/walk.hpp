@@ -5,22 +5,9 @@
 #include "mesh/topology.hpp"
 
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 namespace vox::depth {
-
-// What Positions::exact() returns. Floats are read one by one: copied as a whole, they would go through
-// memory.
-inline Vec3d exact_position(const Positions& positions, std::uint32_t vertex) noexcept {
-    if (positions.rounded()) return positions.exact(vertex);
-    const std::byte* from = positions.data + vertex * positions.byte_stride;
-    float x, y, z;
-    std::memcpy(&x, from, sizeof x);
-    std::memcpy(&y, from + sizeof x, sizeof y);
-    std::memcpy(&z, from + 2 * sizeof x, sizeof z);
-    return {double{x}, double{y}, double{z}};
-}
 
 // A mesh that others penetrate.
 struct Solid {
@@ -28,7 +15,7 @@ struct Solid {
     std::span<const Tet> tets;
     Positions positions;
 
-    Vec3d at(std::uint32_t vertex) const noexcept { return exact_position(positions, vertex); }
+    Vec3d at(std::uint32_t vertex) const noexcept { return positions.exact(vertex); }
 };
 
 // A point of a triangle of a surface.

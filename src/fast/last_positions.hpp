@@ -31,7 +31,7 @@ struct LastPositions {
 
 // Whether the caller's positions are an array of packed, aligned floats.
 inline bool is_packed(const Positions& positions) noexcept {
-    return !positions.rounded() && positions.byte_stride == sizeof(Vec3f) &&
+    return !positions.rounded() && positions.byte_stride == sizeof(Vec3f) && positions.component_gap == 0 &&
            reinterpret_cast<std::uintptr_t>(positions.data) % alignof(float) == 0;
 }
 

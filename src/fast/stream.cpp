@@ -188,6 +188,7 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
     const double o[3] = {origin.x, origin.y, origin.z};
     out += std::size_t{first} * 3;
     if (positions.doubles && !positions.transform && positions.byte_stride == sizeof(Vec3d) &&
+        positions.component_gap == 0 &&
         reinterpret_cast<std::uintptr_t>(positions.data) % alignof(double) == 0) {
         const auto* from = reinterpret_cast<const double*>(positions.data) + std::size_t{first} * 3;
         round(from, o, std::size_t{last - first} * 3, out);

@@ -241,11 +241,12 @@ Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<
     return keep_all(hits.size(), at, hits.data(), hits.data());
 }
 
-// The contacts of the block of hits from `first` on.
+// The contacts of the block of hits from `first` on, and which of them are interior unless that is null.
 void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits, std::size_t first,
-                 vox_contact* out) {
+                 vox_contact* out, std::uint8_t* interior) {
     const std::size_t count = std::min(barycentric_block, hits.size() - first);
     const std::span<const Hit> block = hits.subspan(first, count);
+    for (std::size_t i = 0; interior && i < count; ++i) interior[first + i] = block[i].interior;
     bool complete = true;
     for (std::size_t i = 0; i < count; ++i) {
         const Hit& hit = block[i];
@@ -266,18 +267,20 @@ void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit
 }
 
 // With room for a few more, so that a few more contacts in a later step allocate nothing.
-void resize(std::pmr::vector<vox_contact>& contacts, std::size_t count) {
-    if (contacts.capacity() < count) {
-        contacts.clear();
-        contacts.reserve(count + count / 8);
+template <class Item>
+void resize(std::pmr::vector<Item>& items, std::size_t count) {
+    if (items.capacity() < count) {
+        items.clear();
+        items.reserve(count + count / 8);
     }
-    contacts.resize(count);
+    items.resize(count);
 }
 
 } // namespace
 
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
-                   std::pmr::vector<vox_contact>& contacts, Workers* workers) {
+                   std::pmr::vector<vox_contact>& contacts, Workers* workers,
+                   std::pmr::vector<std::uint8_t>* interiors) {
     if (workers && workers->count() == 1) workers = nullptr;
     resize(contacts, hits.size());
     Hit* kept;
@@ -290,13 +293,15 @@ void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
     }
     hits.resize(static_cast<std::size_t>(kept - hits.data()));
     contacts.resize(hits.size());
+    if (interiors) resize(*interiors, hits.size());
 
     const bool rounded =
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
     const std::size_t blocks = (hits.size() + barycentric_block - 1) / barycentric_block;
     const auto write = [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t b = begin; b < end; ++b)
-            write_block(bodies, rounded, hits, b * barycentric_block, contacts.data());
+            write_block(bodies, rounded, hits, b * barycentric_block, contacts.data(),
+                        interiors ? interiors->data() : nullptr);
     };
     constexpr std::size_t least_blocks = 16; // worth a task
     if (workers && blocks > least_blocks)

@@ -6,6 +6,7 @@
 
 #include <vox/vox.h>
 
+#include <cstdint>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -16,9 +17,11 @@ class Workers;
 
 // Sorts `hits` (any order in, duplicates not allowed) and writes the contacts they amount to; `hits` is left
 // with the ones that became contacts. `workers` share the work, as at most four tasks of the step; null: the
-// calling thread does it.
+// calling thread does it. `interiors`, if not null, receives for each contact whether it is interior (0 or
+// 1).
 void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
-                   std::pmr::vector<vox_contact>& contacts, Workers* workers = nullptr);
+                   std::pmr::vector<vox_contact>& contacts, Workers* workers = nullptr,
+                   std::pmr::vector<std::uint8_t>* interiors = nullptr);
 
 // vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
 // order and padding do not matter. Each contact is taken as the four 64-bit words

@@ -9,10 +9,12 @@
 #include "cell_size/suggest.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 namespace vox {
@@ -43,12 +45,29 @@ void check_grid_desc(const vox_grid_desc& desc) {
 }
 
 void check_flags(std::uint32_t flags) {
-    constexpr std::uint32_t known_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
+    constexpr std::uint32_t known_flags =
+        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_MESHES;
     if (flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
 }
 
+namespace {
+
+// Whether nothing was set in the desc of a grid but what the caller hands in.
+bool is_zeroed(const vox_grid_desc& desc) noexcept {
+    const vox_grid_desc zero{};
+    vox_grid_desc bare = desc;
+    bare.struct_size = 0;
+    bare.allocator = {};
+    bare.log = {};
+    bare.tasks = {};
+    return std::memcmp(&bare, &zero, sizeof zero) == 0;
+}
+
+bool is_bad(const Body& body) noexcept { return first_bad_vertex(body) != VOX_NO_VERTEX; }
+
+} // namespace
 } // namespace vox
 
 using namespace vox;
@@ -63,13 +82,18 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      closest_budget_(desc.closest_budget), requested_cell_size_(desc.cell_size),
-      used_cell_size_(desc.cell_size), meshes_(&memory_), bodies_(&memory_), prepared_(&memory_),
-      fast_engine_(&memory_), reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
-      contacts_(&memory_), penetrations_(&memory_),
+      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
+      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
+      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
+      topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_), interiors_(&memory_),
+      left_out_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
       query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
+    if (is_zeroed(desc))
+        write_log(VOX_LOG_WARNING,
+                  "vox_grid_desc is all 0: no penetrations, no byte budget and a thread per core; "
+                  "vox_default_grid_desc and vox_grid_desc_init fill in the defaults");
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -90,7 +114,30 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
     prepare(mesh, state);
     const vox_mesh id = meshes_.insert(std::move(mesh), std::move(state));
     scene_changed();
+    warn_of_traps(meshes_[id].mesh, id);
     return id;
+}
+
+// What is allowed, but collides with less than one may think: each once, as a program may mean it.
+void vox_grid::warn_of_traps(const Mesh& mesh, vox_mesh id) {
+    if (!log_.write) return;
+    const auto warn = [&](const char* text) noexcept { // cannot fail, as all is done
+        char line[400];
+        std::snprintf(line, sizeof line, "mesh %u (slot %u, user data %llu) %s", id, slot_of(id),
+                      static_cast<unsigned long long>(mesh.user_data()), text);
+        write_log(VOX_LOG_WARNING, line);
+    };
+    const vox_filter& filter = mesh.filter();
+    if (!warned_of_filter_ && filter.group <= 0 && (filter.category == 0 || filter.mask == 0)) {
+        warned_of_filter_ = true;
+        warn(filter.mask == 0
+                 ? "collides with no other mesh: the mask of its filter is 0 (said once for a grid)"
+                 : "collides with no other mesh: the category of its filter is 0 (said once for a grid)");
+    }
+    if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
+    warned_of_edges_ = true;
+    warn("has no tetrahedra: its vertices collide with those of other meshes, its edges and faces with "
+         "nothing (said once for a grid; vox_counters.meshes_without_tets counts such meshes)");
 }
 
 // The last step of the fast engine does not describe the meshes any more.
@@ -110,7 +157,10 @@ void vox_grid::clear() {
     trees_.forget_all();
     scene_changed();
     contacts_.clear();
+    interiors_.clear();
     penetrations_.clear();
+    failure_ = {};
+    left_out_.clear();
     contacts_hold_ = false;
     events_.hide_pairs();
     readings_.invalidate();
@@ -140,6 +190,7 @@ void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
         trees_.forget(id);
     }
     mark_moved(id);
+    warn_of_traps(filtered, id);
 }
 
 void vox_grid::set_enabled(vox_mesh id, bool enabled) {
@@ -211,6 +262,7 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     reserve_exactly(prepared_, mesh_count);
     reserve_exactly(hits_, contact_count);
     reserve_exactly(contacts_, contact_count);
+    reserve_exactly(interiors_, contact_count);
     if (finds_penetrations()) penetrations_.reserve(contact_count);
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
@@ -233,7 +285,8 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
 
 std::uint32_t vox_grid::flags() const noexcept {
     return (finds_penetrations() ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u) |
-           (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u);
+           (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u) |
+           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_MESHES} : 0u);
 }
 
 void vox_grid::set_flags(std::uint32_t flags) {
@@ -243,6 +296,7 @@ void vox_grid::set_flags(std::uint32_t flags) {
     if (find && !finds_penetrations()) find_penetrations();
     if (!find && finds_penetrations()) stop_finding_penetrations();
     events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
+    skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_MESHES) != 0;
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
     ++epoch_;
 }
@@ -276,22 +330,20 @@ void vox_grid::stop_finding_penetrations() noexcept {
 
 void vox_grid::step() {
     const std::uint64_t start = nanoseconds();
-    const bool carry = contacts_hold_;
+    bool carry = contacts_hold_;
     contacts_hold_ = meshes_hold_ = false;
     hits_.clear();
     events_.hide_pairs();
     events_.hide_events();
     readings_.invalidate();
+    failure_ = {};
+    left_out_.clear();
     ++epoch_;
 
     vox_counters counters{};
     vox_profile profile{};
     try {
-        gather_bodies(counters);
-        if (fast_)
-            detect_fast(carry, counters, profile);
-        else
-            detect_reference(counters, profile);
+        detect(carry, counters, profile);
         drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
@@ -299,7 +351,7 @@ void vox_grid::step() {
         // If every old contact was carried and no new one found, contacts, depth and events are unchanged.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
-        if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_);
+        if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
 
@@ -318,9 +370,12 @@ void vox_grid::step() {
             events_.update(contacts_, meshes_.slot_count(),
                            [this](vox_mesh id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
+    } catch (const MeshError& error) {
+        forget_contacts();
+        failure_ = failure_of(error.result(), error.mesh, error.vertex);
+        throw;
     } catch (...) {
-        contacts_.clear();
-        penetrations_.clear();
+        forget_contacts();
         throw;
     }
 
@@ -328,7 +383,9 @@ void vox_grid::step() {
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size() - body.off_count;
+        counters.meshes_without_tets += body.tets.empty() && body.vertex_count > 0;
     }
+    counters.skipped_meshes = left_out_.size();
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.all().size();
     if (chooses_cell_size() && !fast_) {
@@ -341,7 +398,8 @@ void vox_grid::step() {
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
-    contacts_hold_ = meshes_hold_ = fast_;
+    contacts_hold_ = fast_;
+    meshes_hold_ = fast_ && left_out_.empty();
     if (counters.unknown_penetrations > 0 && log_.write) { // without memory, as the step has succeeded
         char text[160];
         std::snprintf(text, sizeof text,
@@ -353,7 +411,71 @@ void vox_grid::step() {
     }
 }
 
+void vox_grid::forget_contacts() noexcept {
+    contacts_.clear();
+    interiors_.clear();
+    penetrations_.clear();
+    left_out_.clear();
+}
+
+// Finds the hits. If a coordinate of a mesh makes that fail, it starts again without all such meshes, where
+// the flags ask for that. Then nothing is carried over, as the engine may have taken in the positions of
+// others already.
+void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
+    const auto detect_once = [&] {
+        gather_bodies(counters);
+        if (fast_)
+            detect_fast(carry, counters, profile);
+        else
+            detect_reference(counters, profile);
+    };
+    try {
+        return detect_once();
+    } catch (const MeshError& error) {
+        if (!skips_bad_meshes_ || error.vertex == VOX_NO_VERTEX) throw;
+    }
+    leave_out_bad_meshes();
+    carry = false;
+    hits_.clear();
+    detect_once();
+}
+
+// Marks those that gather_bodies() leaves out, from now until they are well again.
+void vox_grid::leave_out_bad_meshes() {
+    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+        if (slot.body == MeshSlot::none || !is_bad(slot.mesh.body(id))) return;
+        slot.left_out = true;
+        slot.state.invalidate_positions(); // a later step must not take it for one at rest
+        if (!log_.write) return;
+        try {
+            check_finite(slot.mesh.body(id));
+        } catch (const MeshError& error) {
+            write_log(VOX_LOG_WARNING, format("left out of the step: %s", error.what()).c_str());
+        }
+    });
+}
+
+bool vox_grid::is_left_out(const Body& body) const noexcept { return skips_bad_meshes_ && is_bad(body); }
+
+vox_failure vox_grid::failure_of(vox_result result, vox_mesh id, std::uint32_t vertex) const noexcept {
+    vox_failure failure{};
+    failure.result = result;
+    failure.mesh = id;
+    failure.slot = slot_of(id);
+    failure.vertex = vertex;
+    if (const MeshSlot* slot = meshes_.find(id)) {
+        failure.user_data = slot->mesh.user_data();
+        if (vertex < slot->mesh.vertex_count()) {
+            const Vec3d p = slot->mesh.body(id).positions.exact(vertex);
+            failure.position[0] = p.x, failure.position[1] = p.y, failure.position[2] = p.z;
+        }
+    }
+    return failure;
+}
+
 void vox_grid::gather_bodies(vox_counters& counters) {
+    counters.disabled_meshes = 0;
+    left_out_.clear();
     bodies_.clear();
     topologies_.clear();
     prepared_.clear();
@@ -365,8 +487,17 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             return;
         }
         if (!mesh.has_positions())
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("mesh %u has no positions: bind some before the step", id));
+            throw MeshError(VOX_ERROR_INVALID_STATE, mesh.body(id),
+                            " has no positions: bind some before the step");
+        mesh.check_format_once(id);
+        if (slot.left_out) { // looked at before the engine does, as others may be at rest
+            const std::uint32_t vertex = first_bad_vertex(mesh.body(id));
+            slot.left_out = skips_bad_meshes_ && vertex != VOX_NO_VERTEX;
+            if (slot.left_out) {
+                left_out_.push_back(failure_of(bad_position(mesh.body(id), vertex), id, vertex));
+                return;
+            }
+        }
         slot.body = static_cast<std::uint32_t>(bodies_.size());
         // What edits invalidated, and what meshes inserted without positions lack.
         mesh.make_rings();
@@ -399,8 +530,7 @@ void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& prof
 }
 
 // Appends the contacts of the last step between meshes that have not moved as hits, and returns how many.
-// Either all hits of a vertex with a mesh are carried or none, so that marking them as interior makes the
-// same contacts again.
+// Either all contacts of a vertex with a mesh are carried or none, so they become the same contacts again.
 std::uint64_t vox_grid::carry_contacts() {
     const std::size_t found = hits_.size();
     for (std::uint32_t b = 0; b < bodies_.size(); ++b) bodies_[b].carried = !fast_engine_.moved(b);
@@ -416,7 +546,7 @@ std::uint64_t vox_grid::carry_contacts() {
         if (hit.body_a == MeshSlot::none || hit.body_b == MeshSlot::none) continue;
         hit.vertex = contact.vertex;
         hit.tet = contact.tet & 0x7fffffffu;
-        hit.interior = 1;
+        hit.interior = interiors_[static_cast<std::size_t>(&contact - contacts_.data())] != 0;
         std::copy(contact.barycentric, contact.barycentric + 4, hit.weights.of);
         hits_.push_back(hit);
     }
@@ -467,9 +597,12 @@ void vox_grid::describe(CellSizeScene& scene) const {
     meshes_.for_each([&](vox_mesh id, const MeshSlot& slot) {
         const Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled()) return;
+        const Body body = mesh.body(id);
         if (!mesh.has_positions())
-            throw Error(VOX_ERROR_INVALID_STATE, format("mesh %u has no positions: bind some before", id));
-        scene.bodies.push_back(mesh.body(id));
+            throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");
+        if (!mesh.is_format_checked()) check_not_doubles(body);
+        if (is_left_out(body)) return;
+        scene.bodies.push_back(body);
         scene.tiles.push_back(mesh.tiles_if_made());
         scene.meshes.push_back(&mesh);
         scene.at_rest.push_back(!fast_engine_.moved(slot.body));
@@ -541,10 +674,11 @@ void vox_grid::list_query_bodies() {
     meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
-        if (!mesh.has_positions())
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("mesh %u has no positions: bind some before the queries", id));
         const Body body = mesh.body(id);
+        if (!mesh.has_positions())
+            throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before the queries");
+        mesh.check_format_once(id);
+        if (is_left_out(body)) return;
         check_finite(body);
         if (!slot.query_tets) {
             mesh.make_topology();
@@ -574,6 +708,18 @@ vox_contact_view vox_grid::contacts() const noexcept {
     return {contacts_.data(), sizeof(vox_contact), contacts_.size(), epoch_};
 }
 
+vox_interior_view vox_grid::interiors() const noexcept {
+    return {interiors_.data(), sizeof(std::uint8_t), interiors_.size(), epoch_};
+}
+
+vox_failure vox_grid::failure(std::uint32_t index) const noexcept {
+    if (failure_.result != VOX_OK && index == 0) return failure_;
+    if (failure_.result == VOX_OK && index < left_out_.size()) return left_out_[index];
+    vox_failure none{};
+    none.vertex = VOX_NO_VERTEX;
+    return none;
+}
+
 vox_penetration_view vox_grid::penetrations() const {
     require_penetrations();
     const std::span<const vox_penetration> all = penetrations_.all();
@@ -588,7 +734,8 @@ vox_depth_view vox_grid::depths() const {
 
 void vox_grid::require_penetrations() const {
     if (!finds_penetrations())
-        throw Error(VOX_ERROR_INVALID_STATE, "the flags of the grid lack VOX_GRID_PENETRATIONS");
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    "the flags of the grid lack VOX_GRID_PENETRATIONS, which vox_default_grid_desc sets");
 }
 
 std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }

@@ -87,6 +87,8 @@ public:
     vox_query_view* take_query_view();
 
     vox_contact_view contacts() const noexcept;
+    vox_interior_view interiors() const noexcept;
+    vox_failure failure(std::uint32_t index) const noexcept;
     vox_penetration_view penetrations() const;
     vox_depth_view depths() const;
     std::uint64_t epoch() const noexcept { return epoch_; }
@@ -110,6 +112,12 @@ private:
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
     void gather_bodies(vox_counters& counters);
+    void detect(bool& carry, vox_counters& counters, vox_profile& profile);
+    void leave_out_bad_meshes();
+    void forget_contacts() noexcept;
+    bool is_left_out(const vox::Body& body) const noexcept;
+    vox_failure failure_of(vox_result result, vox_mesh mesh, std::uint32_t vertex) const noexcept;
+    void warn_of_traps(const vox::Mesh& mesh, vox_mesh id);
     void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
     std::uint64_t carry_contacts();
@@ -128,6 +136,7 @@ private:
     // settings
     bool fast_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
+    bool skips_bad_meshes_;
     std::uint64_t closest_budget_;
     double requested_cell_size_;     // 0: the library chooses it; the fast engine itself, for each window
     double used_cell_size_;          // in the last step; before the first one the requested one
@@ -147,6 +156,9 @@ private:
 
     // results
     std::pmr::vector<vox_contact> contacts_;
+    std::pmr::vector<std::uint8_t> interiors_; // whether each contact is interior
+    vox_failure failure_{};                    // of a mesh that made the last step fail
+    std::pmr::vector<vox_failure> left_out_;   // the meshes that the last step left out
     // Whether another step would find the same contacts between meshes that were in the last one and have not
     // moved since. False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
@@ -161,4 +173,6 @@ private:
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;
+    bool warned_of_edges_ = false;  // of a mesh without tetrahedra
+    bool warned_of_filter_ = false; // of one that collides with no other
 };

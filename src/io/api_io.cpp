@@ -6,6 +6,7 @@
 #include "io/formats/readers.hpp"
 #include "io/mesh.hpp"
 
+#include <cstddef>
 #include <memory>
 
 namespace vox::io {
@@ -22,6 +23,7 @@ vox_io_load_desc checked(const vox_io_load_desc* in) {
     if (!in) return default_load_desc();
     const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
     check_enum(desc.format, VOX_IO_FORMAT_ASSIMP, "vox_io_load_desc.format");
+    check_allocator(desc.allocator, "vox_io_load_desc.allocator");
     if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
     return desc;
 }
@@ -168,7 +170,8 @@ vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_me
     return border([&] {
         require(path, "path");
         require(out_mesh, "out_mesh");
-        *out_mesh = make_mesh(load(path, checked(desc)));
+        const vox_io_load_desc wanted = checked(desc);
+        *out_mesh = make_mesh(load(path, wanted), wanted.allocator);
     });
 }
 
@@ -176,17 +179,41 @@ vox_result vox_io_read(const vox_io_source* sources, size_t source_count, const 
                        vox_io_mesh** out_mesh) {
     return border([&] {
         require(out_mesh, "out_mesh");
-        *out_mesh = make_mesh(read(sources, source_count, checked(desc)));
+        const vox_io_load_desc wanted = checked(desc);
+        *out_mesh = make_mesh(read(sources, source_count, wanted), wanted.allocator);
     });
 }
 
-void vox_io_mesh_destroy(vox_io_mesh* mesh) { delete mesh; }
+void vox_io_mesh_destroy(vox_io_mesh* mesh) {
+    if (mesh) DestroyMesh()(mesh);
+}
 
 vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) {
     return border([&] {
         require(mesh, "mesh");
         require(out_view, "out_view");
-        *out_view = view_of(mesh->data);
+        *out_view = view_of(mesh->arrays);
+    });
+}
+
+vox_result vox_io_mesh_desc(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
+    return border([&] {
+        require(mesh, "mesh");
+        vox_mesh_desc described = read_struct(desc, vox_default_mesh_desc(), "desc");
+        constexpr std::size_t least = offsetof(vox_mesh_desc, position_format) + sizeof(vox_format);
+        if (described.struct_size < least)
+            refuse(format(
+                "desc.struct_size is %u, which does not reach to position_format; expected at least %zu",
+                described.struct_size, least));
+        const vox_io_mesh_view view = view_of(mesh->arrays);
+        described.positions = view.positions;
+        described.position_format = VOX_FORMAT_DOUBLE3;
+        described.position_byte_stride = 0;
+        described.position_component_byte_stride = 0;
+        described.vertex_count = view.vertex_count;
+        described.tets = view.tets;
+        described.tet_count = view.tet_count;
+        write_struct(desc, described, "desc");
     });
 }
 

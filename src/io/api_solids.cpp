@@ -66,12 +66,13 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
                           wanted.max_distance));
         if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
             refuse(format("desc.max_tets is %llu, expected 1 to %u", llu(wanted.max_tets), VOX_MAX_TETS));
+        check_allocator(wanted.allocator, "desc.allocator");
         if (wanted.reserved != 0) refuse(format("desc.reserved is %u, expected 0", wanted.reserved));
-        const vox_io_mesh_view view = view_of(surface->data);
+        const vox_io_mesh_view view = view_of(surface->arrays);
         if (view.triangle_count == 0)
             refuse(format("the surface has no triangles (%llu vertices, %llu tets)", llu(view.vertex_count),
                           llu(view.tet_count)));
-        *out_mesh = make_mesh(tetrahedralize(view, wanted));
+        *out_mesh = make_mesh(tetrahedralize(view, wanted), wanted.allocator);
     });
 }
 
@@ -80,8 +81,8 @@ vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* su
     return border([&] {
         require(mesh, "mesh");
         check_out_struct(out_quality, "out_quality");
-        const vox_io_mesh_view surface_view = surface ? view_of(surface->data) : vox_io_mesh_view{};
-        write_struct(out_quality, measure_quality(view_of(mesh->data), surface ? &surface_view : nullptr),
+        const vox_io_mesh_view surface_view = surface ? view_of(surface->arrays) : vox_io_mesh_view{};
+        write_struct(out_quality, measure_quality(view_of(mesh->arrays), surface ? &surface_view : nullptr),
                      "out_quality");
     });
 }

@@ -52,9 +52,9 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
     const PointData point_data(desc.point_data, desc.point_data_count);
     const bool binary = desc.binary != 0;
     if (desc.format == VOX_IO_WRITE_VTU)
-        write_vtu(mesh.data, point_data, binary, out);
+        write_vtu(mesh.arrays, point_data, binary, out);
     else
-        write_msh(mesh.data, desc.format, point_data, binary, out);
+        write_msh(mesh.arrays, desc.format, point_data, binary, out);
     out.flush();
 }
 

@@ -1,21 +1,42 @@
 #include "io/mesh.hpp"
 
-#include <memory>
 #include <utility>
 
 namespace vox::io {
 
-vox_io_mesh_view view_of(const MeshData& data) {
-    return {data.positions.data(), data.positions.size() / 3, data.tets.data(),
-            data.tets.size() / 4,  data.triangles.data(),     data.triangles.size() / 3};
+namespace {
+
+// Moves an array to another memory.
+template <class Number>
+std::pmr::vector<Number> moved(std::vector<Number>& from, std::pmr::memory_resource* memory) {
+    std::pmr::vector<Number> to(from.begin(), from.end(), memory);
+    from = {};
+    return to;
 }
 
-vox_io_mesh* make_mesh(MeshData data) {
-    auto mesh = std::make_unique<vox_io_mesh>();
+} // namespace
+
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator) {
+    check_allocator(allocator, "desc.allocator");
+    CallerMemory memory(allocator);
+    MeshHandle mesh(std::pmr::polymorphic_allocator<>(&memory).new_object<vox_io_mesh>(memory));
+    mesh->report = diagnose(data);
+    mesh->warnings = warnings_of(data, mesh->report);
     mesh->data = std::move(data);
-    mesh->report = diagnose(mesh->data);
-    mesh->warnings = warnings_of(mesh->data, mesh->report);
+    MeshData& own = mesh->data;
+    mesh->arrays = arrays_of(own);
+    if (allocator.allocate) {
+        mesh->positions = moved(own.positions, &mesh->memory);
+        mesh->tets = moved(own.tets, &mesh->memory);
+        mesh->triangles = moved(own.triangles, &mesh->memory);
+        mesh->arrays = {mesh->positions, mesh->tets, mesh->triangles};
+    }
     return mesh.release();
+}
+
+void DestroyMesh::operator()(vox_io_mesh* mesh) const noexcept {
+    CallerMemory memory = mesh->memory;
+    std::pmr::polymorphic_allocator<>(&memory).delete_object(mesh);
 }
 
 } // namespace vox::io

@@ -1,17 +1,33 @@
-// The public mesh object: the data with its report and warnings.
+// The public mesh object: the arrays with their report and warnings.
 #pragma once
 
+#include "base/caller_memory.hpp"
 #include "io/mesh_data.hpp"
 
+#include <memory>
+#include <memory_resource>
 #include <string>
+#include <vector>
 
 struct vox_io_mesh {
-    vox::io::MeshData data;
+    explicit vox_io_mesh(const vox::CallerMemory& caller)
+        : memory(caller), positions(&memory), tets(&memory), triangles(&memory) {}
+
+    vox::CallerMemory memory; // first, as the arrays are released to it
+    vox::io::MeshData data;   // its arrays are empty if those below are in use
+    std::pmr::vector<double> positions;
+    std::pmr::vector<std::uint32_t> tets, triangles;
+    vox::io::MeshArrays arrays;
     vox_io_report report{};
     std::string warnings; // one line each
 };
 
 namespace vox::io {
+
+struct DestroyMesh {
+    void operator()(vox_io_mesh* mesh) const noexcept;
+};
+using MeshHandle = std::unique_ptr<vox_io_mesh, DestroyMesh>;
 
 // Finds what is odd about a mesh, as numbers and as text (diagnosis.cpp).
 vox_io_report diagnose(const MeshData& data);

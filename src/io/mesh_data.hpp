@@ -4,6 +4,7 @@
 #include <vox/vox_io.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,22 @@ struct MeshData {
     std::vector<std::string> notes; // lines for the warnings, from the reader
 };
 
-vox_io_mesh_view view_of(const MeshData& data); // borrows the arrays of `data`
+// The arrays, wherever they are.
+struct MeshArrays {
+    std::span<const double> positions;
+    std::span<const std::uint32_t> tets, triangles;
+};
+
+inline MeshArrays arrays_of(const MeshData& data) { return {data.positions, data.tets, data.triangles}; }
+
+inline vox_io_mesh_view view_of(const MeshArrays& arrays) {
+    return {arrays.positions.data(), arrays.positions.size() / 3, arrays.tets.data(),
+            arrays.tets.size() / 4,  arrays.triangles.data(),     arrays.triangles.size() / 3};
+}
 
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices
-// are below the number of vertices. This is the only way to make a vox_io_mesh.
-vox_io_mesh* make_mesh(MeshData data);
+// are below the number of vertices. This is the only way to make a vox_io_mesh. Its arrays are those of
+// `data`, or copies in the memory of an allocator that has functions.
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator = {});
 
 } // namespace vox::io

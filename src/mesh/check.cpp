@@ -1,12 +1,14 @@
 #include "mesh/check.hpp"
 
-#include "base/error.hpp"
 #include "base/structs.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace vox {
@@ -14,21 +16,42 @@ namespace vox {
 static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == alignof(std::uint32_t),
               "tets are viewed in the caller's index array");
 
-std::size_t check_stride(std::uint64_t byte_stride, vox_format position_format, std::uint64_t vertex_count,
-                         const char* where) {
-    const std::size_t size = position_format == VOX_FORMAT_DOUBLE3 ? sizeof(Vec3d) : sizeof(Vec3f);
-    if (byte_stride == 0) return size;
-    if (byte_stride < size)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %zu", where,
-                           byte_stride, size));
+Positions check_positions(const void* data, vox_format position_format, std::uint64_t byte_stride,
+                          std::uint64_t component_byte_stride, std::uint64_t vertex_count,
+                          const char* where) {
+    const std::uint64_t number = position_format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
+    const std::uint64_t component = component_byte_stride == 0 ? number : component_byte_stride;
+    const bool together = component == number;
+    const std::uint64_t stride = byte_stride != 0 ? byte_stride : together ? 3 * number : number;
     // No array is larger than this; a stride that would make it so is a mistake, not a huge mesh.
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
-    if (vertex_count > 0 && byte_stride > most_bytes / vertex_count)
+    if (vertex_count > 0 && stride > most_bytes / vertex_count)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_byte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", where,
-                           byte_stride, vertex_count));
-    return static_cast<std::size_t>(byte_stride);
+                           stride, vertex_count));
+    if (component > most_bytes / 4 ||
+        (vertex_count > 0 && stride > (most_bytes - 2 * component) / vertex_count))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_component_byte_stride is %" PRIu64 ", too large for %" PRIu64
+                           " vertices %" PRIu64 " bytes apart",
+                           where, component, vertex_count, stride));
+    if (together && stride < 3 * number)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, where,
+                           stride, 3 * number));
+    const bool rows = stride >= 2 * component + number;
+    const bool columns =
+        vertex_count <= 1 || (stride >= number && component >= (vertex_count - 1) * stride + number);
+    if (component < number || (!rows && !columns))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%sposition_component_byte_stride is %" PRIu64
+                           ": with a position_byte_stride of %" PRIu64 ", %" PRIu64
+                           " positions would overlap; columns need at least %" PRIu64,
+                           where, component, stride, vertex_count, vertex_count * std::max(stride, number)));
+    return {.data = static_cast<const std::byte*>(data),
+            .byte_stride = static_cast<std::size_t>(stride),
+            .doubles = position_format == VOX_FORMAT_DOUBLE3,
+            .component_gap = static_cast<std::size_t>(component - number)};
 }
 
 void check_format(const vox_format& position_format, const char* where) {
@@ -55,8 +78,9 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
         throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.tet_count, VOX_MAX_TETS));
     check_format(desc.position_format, where);
-    const std::size_t stride =
-        check_stride(desc.position_byte_stride, desc.position_format, desc.vertex_count, where);
+    const Positions positions =
+        check_positions(desc.positions, desc.position_format, desc.position_byte_stride,
+                        desc.position_component_byte_stride, desc.vertex_count, where);
     if (!desc.positions && desc.vertex_count > 0 && null_positions == NullPositions::rejected)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%spositions is null, vertex_count is %" PRIu64, where, desc.vertex_count));
@@ -69,8 +93,8 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
 
     Body body;
     body.vertex_count = static_cast<std::uint32_t>(desc.vertex_count);
-    body.positions = {static_cast<const std::byte*>(desc.positions), stride,
-                      desc.position_format == VOX_FORMAT_DOUBLE3};
+    body.user_data = desc.user_data;
+    body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
     for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
@@ -81,22 +105,110 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     return body;
 }
 
+std::string name_of(const Body& body) {
+    if (body.slot == Body::no_slot) return format("the mesh (user data %" PRIu64 ")", body.user_data);
+    if (body.slot == Body::in_array)
+        return format("mesh %" PRIu32 " (user data %" PRIu64 ")", body.mesh_id, body.user_data);
+    return format("mesh %" PRIu32 " (slot %" PRIu32 ", user data %" PRIu64 ")", body.mesh_id, body.slot,
+                  body.user_data);
+}
+
+namespace {
+
+bool all_finite(const Vec3f& p) noexcept {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+} // namespace
+
+bool is_finite(const Body& body, std::uint32_t vertex) noexcept { return all_finite(body.positions[vertex]); }
+
+std::uint32_t first_bad_vertex(const Body& body) noexcept {
+    for (std::uint32_t v = 0; v < body.vertex_count; ++v)
+        if (!is_finite(body, v)) return v;
+    return VOX_NO_VERTEX;
+}
+
+vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept {
+    const Vec3d p = body.positions.exact(vertex);
+    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    return finite ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE;
+}
+
 void check_finite(const Body& body) {
-    for (std::uint32_t v = 0; v < body.vertex_count; ++v) check_finite(body, v);
+    if (const std::uint32_t vertex = first_bad_vertex(body); vertex != VOX_NO_VERTEX)
+        check_finite(body, vertex);
 }
 
 void check_finite(const Body& body, std::uint32_t vertex) {
-    const auto all_finite = [](const auto& p) {
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    };
-    if (all_finite(body.positions[vertex])) return;
+    if (is_finite(body, vertex)) return;
     const Vec3d p = body.positions.exact(vertex);
-    const auto refuse = [&](vox_result result, const char* why) {
-        throw Error(result, format("mesh %" PRIu32 ", vertex %" PRIu32 ": position (%g, %g, %g) is %s",
-                                   body.mesh_id, vertex, p.x, p.y, p.z, why));
-    };
-    if (!all_finite(p)) refuse(VOX_ERROR_NON_FINITE, "not finite");
-    refuse(VOX_ERROR_LIMIT, "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38");
+    const vox_result result = bad_position(body, vertex);
+    throw MeshError(result, body,
+                    format(", vertex %" PRIu32 ": position (%g, %g, %g) is %s", vertex, p.x, p.y, p.z,
+                           result == VOX_ERROR_LIMIT
+                               ? "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38"
+                               : "not finite"),
+                    vertex);
+}
+
+namespace {
+
+// Packed numbers that are read as floats, as words of doubles.
+struct WordCounts {
+    std::uint32_t tiny = 0, huge = 0; // low words below 2^-40, beyond 2^40
+    bool ordinary = true;             // all high words are 0, or from 2^-30 to 2^31
+};
+
+// Of the numbers [first, last), where `first` is even.
+void count_words(const std::byte* data, std::size_t first, std::size_t last, WordCounts& counts) noexcept {
+    constexpr std::size_t high_word = std::endian::native == std::endian::little ? 1 : 0;
+    for (std::size_t i = first; i < last; ++i) {
+        std::uint32_t bits;
+        std::memcpy(&bits, data + i * sizeof bits, sizeof bits);
+        const std::uint32_t magnitude = bits & 0x7fffffffu;
+        const int exponent = static_cast<int>(magnitude >> 23) - 127;
+        if (i % 2 == high_word) {
+            counts.ordinary &= magnitude == 0 || (exponent >= -30 && exponent <= 30);
+        } else {
+            counts.tiny += magnitude != 0 && exponent < -40;
+            counts.huge += exponent > 40;
+        }
+    }
+}
+
+} // namespace
+
+// Doubles of ordinary size, 2^-240 to 2^240, are pairs of a low word and a high one. As a float, the high
+// word is 0 or from 2^-30 to 2^31, for the float's exponent has the upper bits of the double's. The low word
+// is the end of the mantissa: where it is not 0, most of its patterns are floats beyond 2^40 or below 2^-40.
+// Three numbers make a position, so x, y and z would change with the parity of the vertex; no mesh of floats
+// does that. Doubles with short mantissas, e.g. whole numbers, have low words of 0 and are not told apart
+// here.
+void check_not_doubles(const Body& body) {
+    constexpr std::uint32_t least_vertices = 16, most_vertices = 4096;
+    const Positions& given = body.positions;
+    if (given.doubles || body.vertex_count < least_vertices || given.byte_stride != sizeof(Vec3f) ||
+        given.component_gap != 0)
+        return;
+    // A look at some of them clears almost every mesh of floats.
+    WordCounts some, all;
+    constexpr std::size_t run = 3 * std::size_t{least_vertices};
+    const std::size_t end = 3 * std::size_t{body.vertex_count};
+    for (const std::size_t at : {std::size_t{0}, (end - run) / 2, end - run})
+        count_words(given.data, at & ~std::size_t{1}, (at & ~std::size_t{1}) + run, some);
+    if (!some.ordinary || some.tiny + some.huge == 0) return;
+
+    const std::size_t numbers = 3 * std::size_t{std::min(body.vertex_count, most_vertices)} & ~std::size_t{1};
+    count_words(given.data, 0, numbers, all);
+    const std::size_t enough = numbers / 64 + 1; // one low word in 32
+    if (!all.ordinary || all.tiny < enough || all.huge < enough) return;
+    throw MeshError(
+        VOX_ERROR_INVALID_ARGUMENT, body,
+        format(": its positions are doubles, but position_format is VOX_FORMAT_FLOAT3 (of %zu numbers, "
+               "every other is of ordinary size; of those between, %" PRIu32 " are beyond 2^40 and %" PRIu32
+               " below 2^-40)",
+               numbers, all.huge, all.tiny));
 }
 
 } // namespace vox

@@ -2,9 +2,13 @@
 // vox_suggest_cell_size.
 #pragma once
 
+#include "base/error.hpp"
 #include "base/scene.hpp"
 
 #include <vox/vox.h>
+
+#include <cstdint>
+#include <string>
 
 namespace vox {
 
@@ -15,18 +19,44 @@ enum class NullPositions : bool { rejected, allowed };
 // LIMIT. The positions are not looked at: whether they are finite is known only when they are used.
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
 
-// Checks a byte stride of the caller, where 0 means tightly packed, and returns it as a number of bytes.
-std::size_t check_stride(std::uint64_t byte_stride, vox_format format, std::uint64_t vertex_count,
-                         const char* where);
+// Checks the caller's strides, where 0 means tightly packed (see vox_mesh_desc), and views the positions.
+// Throws Error(INVALID_ARGUMENT).
+Positions check_positions(const void* data, vox_format format, std::uint64_t byte_stride,
+                          std::uint64_t component_byte_stride, std::uint64_t vertex_count, const char* where);
 
 // Throws INVALID_ARGUMENT for a format that this version does not know.
 void check_format(const vox_format& format, const char* where);
 
-// Throws NON_FINITE naming the mesh and the first vertex whose position is not finite, LIMIT when it is
+// How errors and the log call a mesh: by its id, slot and user data, as far as it has these.
+std::string name_of(const Body& body);
+
+// A failure that is about one mesh.
+class MeshError : public Error {
+public:
+    MeshError(vox_result result, const Body& body, const std::string& text,
+              std::uint32_t vertex = VOX_NO_VERTEX)
+        : Error(result, name_of(body) + text), mesh(body.mesh_id), vertex(vertex) {}
+
+    std::uint32_t mesh, vertex;
+};
+
+// Whether a coordinate is finite, and rounds to a finite float.
+bool is_finite(const Body& body, std::uint32_t vertex) noexcept;
+
+// The first vertex of which that is not so; VOX_NO_VERTEX if there is none.
+std::uint32_t first_bad_vertex(const Body& body) noexcept;
+
+// Why: NON_FINITE, or LIMIT where the coordinates are finite.
+vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept;
+
+// Throws MeshError with NON_FINITE for the first vertex whose position is not finite, with LIMIT when it is
 // finite but rounds to no finite float.
 void check_finite(const Body& body);
 
 // The same for one vertex.
 void check_finite(const Body& body, std::uint32_t vertex);
+
+// Throws MeshError with INVALID_ARGUMENT for positions that are read as floats, but can only be doubles.
+void check_not_doubles(const Body& body);
 
 } // namespace vox

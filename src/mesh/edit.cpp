@@ -144,8 +144,8 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const bool owns = owns_positions_;
     const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     const std::size_t size = position_size();
-    const std::size_t stride =
-        check_stride(desc.position_byte_stride, position_format, owns ? added : count, "");
+    const Positions given = check_positions(desc.positions, position_format, desc.position_byte_stride,
+                                            desc.position_component_byte_stride, owns ? added : count, "");
     for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
         if (desc.copies_of[i] >= before)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -164,36 +164,31 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
                    added));
 
     // Positions: all of them where they are borrowed, else those of the new vertices.
-    Positions given{.data = static_cast<const std::byte*>(desc.positions),
-                    .byte_stride = stride,
-                    .doubles = positions_.doubles};
     std::pmr::vector<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
     if (owns) {
         news.resize(added * size);
         for (std::size_t i = 0; i < added; ++i)
-            std::memcpy(news.data() + i * size,
-                        given.data ? given.data + i * stride
-                                   : positions_.data + desc.copies_of[i] * positions_.byte_stride,
-                        size);
+            if (given.data)
+                given.copy(i, news.data() + i * size);
+            else
+                positions_.copy(desc.copies_of[i], news.data() + i * size);
     }
 
     // The rest pose grows, too.
     RestPose rest(memory());
     const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
-        rest = rest_pose(
-            {.data = static_cast<const std::byte*>(desc.rest_positions),
-             .byte_stride = check_stride(desc.rest_position_byte_stride, position_format, added, "rest_"),
-             .doubles = positions_.doubles},
-            added);
+        rest = rest_pose(check_positions(desc.rest_positions, position_format, desc.rest_position_byte_stride,
+                                         desc.rest_position_component_byte_stride, added, "rest_"),
+                         added);
     } else if (has_rest && desc.copies_of) {
         rest = self_filter_.rest.of({desc.copies_of, added});
     } else if (has_rest) {
         Positions poses = given;
         if (owns)
-            poses.data = news.data(), poses.byte_stride = size;
+            poses = {.data = news.data(), .byte_stride = size, .doubles = positions_.doubles};
         else if (given.data)
-            poses.data += before * stride;
+            poses.data += before * given.byte_stride;
         else
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,14 +18,15 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
       self_filter_(memory), exceptions_(memory) {
     borrowed_ = view.tets;
     if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
-    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) map_positions();
+    if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
+        check_format_once(VOX_NULL_MESH);
+        map_positions();
+    }
     if (desc.rest_positions)
-        self_filter_.rest =
-            rest_pose({.data = static_cast<const std::byte*>(desc.rest_positions),
-                       .byte_stride = check_stride(desc.rest_position_byte_stride, desc.position_format,
-                                                   vertex_count_, "rest_"),
-                       .doubles = desc.position_format == VOX_FORMAT_DOUBLE3},
-                      vertex_count_);
+        self_filter_.rest = rest_pose(
+            check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
+                            desc.rest_position_component_byte_stride, vertex_count_, "rest_"),
+            vertex_count_);
     set_filter(filter);
 }
 
@@ -71,9 +73,17 @@ void Mesh::make_rings() {
 }
 
 void Mesh::bind(const Positions& positions) noexcept {
+    // A program that binds in every frame pays for the check once.
+    format_checked_ = format_checked_ && positions.doubles == positions_.doubles;
     positions_ = positions;
     owns_positions_ = false;
     owned_ = std::pmr::vector<double>(owned_.get_allocator());
+}
+
+void Mesh::check_format_once(vox_mesh id) {
+    if (format_checked_) return;
+    check_not_doubles(body(id));
+    format_checked_ = true;
 }
 
 void* Mesh::map_positions() {
@@ -83,11 +93,9 @@ void* Mesh::map_positions() {
                                        owned_.get_allocator());
         auto* to = reinterpret_cast<std::byte*>(owned.data());
         if (positions_.data)
-            for (std::size_t v = 0; v < vertex_count_; ++v)
-                std::memcpy(to + v * size, positions_.data + v * positions_.byte_stride, size);
+            for (std::size_t v = 0; v < vertex_count_; ++v) positions_.copy(v, to + v * size);
         owned_ = std::move(owned);
-        positions_.data = to;
-        positions_.byte_stride = size;
+        positions_ = {.data = to, .byte_stride = size, .doubles = positions_.doubles};
     }
     owns_positions_ = true;
     return owned_.data();
@@ -113,7 +121,9 @@ Body Mesh::body(vox_mesh id) const noexcept {
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,
             .off = off_.words(),
             .off_count = off_.count(),
-            .removed_vertices = removed_vertices_.words()};
+            .removed_vertices = removed_vertices_.words(),
+            .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
+            .user_data = user_data_};
 }
 
 void Mesh::set_filter(const vox_filter& filter) {
@@ -143,7 +153,8 @@ void Mesh::set_filter(const vox_filter& filter) {
 }
 
 RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const {
-    check_finite({.vertex_count = count, .positions = positions});
+    check_finite(
+        {.vertex_count = count, .positions = positions, .slot = Body::no_slot, .user_data = user_data_});
     return RestPose(positions, count, memory());
 }
 

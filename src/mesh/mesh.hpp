@@ -87,6 +87,11 @@ public:
     // The mesh's own positions, for the caller to write to: at first a copy of the borrowed ones in their
     // format, or zeros where there are none.
     void* map_positions();
+
+    // Throws MeshError(INVALID_ARGUMENT) where the positions are not of their format, which is looked at once
+    // until another format is bound.
+    void check_format_once(vox_mesh id);
+    bool is_format_checked() const noexcept { return format_checked_; }
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
 
     // Three rows of four finite numbers; null: no transform.
@@ -154,6 +159,7 @@ private:
     bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
+    bool format_checked_ = false; // that the positions are of their format
     bool enabled_ = true;
     vox_filter filter_;
     SelfFilter self_filter_;

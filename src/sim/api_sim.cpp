@@ -42,11 +42,18 @@ vox_result vox_sim_desc_init(vox_sim_desc* desc, uint32_t struct_size) {
 vox_result vox_sim_create(const vox_sim_desc* desc, vox_sim** out_sim) {
     return border([&] {
         require(out_sim, "out_sim");
-        *out_sim = new vox_sim(desc ? read_struct(desc, sim_defaults(), "desc") : sim_defaults());
+        const vox_sim_desc settings = desc ? read_struct(desc, sim_defaults(), "desc") : sim_defaults();
+        check_allocator(settings.allocator, "sim allocator");
+        CallerMemory memory(settings.allocator);
+        *out_sim = std::pmr::polymorphic_allocator<>(&memory).new_object<vox_sim>(settings);
     });
 }
 
-void vox_sim_destroy(vox_sim* sim) { delete sim; }
+void vox_sim_destroy(vox_sim* sim) {
+    if (!sim) return;
+    CallerMemory memory = sim->memory();
+    std::pmr::polymorphic_allocator<>(&memory).delete_object(sim);
+}
 
 vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid) {
     return border([&] {

@@ -9,7 +9,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <tuple>
 
 namespace vox::sim {
 
@@ -67,7 +69,7 @@ Vec3 vector_at(const double* values, std::size_t i) {
 // so none gets less than a hundredth of the mean. Particles of no tet get the mean.
 void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     const std::size_t count = body.positions.size();
-    std::vector<bool> used(count, false);
+    std::pmr::vector<bool> used(count, false, body.masses.get_allocator());
     body.masses.assign(count, 0);
     double total = 0;
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
@@ -100,9 +102,10 @@ void lump_masses(Body& body, std::span<const double> volumes6, double density) {
 void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> volumes6, double modulus) {
     struct Side {
         std::uint32_t a, b;
+        std::uint64_t place; // among the sides of all tets
         double volume;
     };
-    std::vector<Side> sides;
+    std::pmr::vector<Side> sides(body.edges.get_allocator());
     sides.reserve(6 * volumes6.size());
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
         const std::uint32_t* corners = &body.tets[4 * t];
@@ -110,11 +113,13 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
             for (std::size_t j = i + 1; j < 4; ++j)
                 if (corners[i] != corners[j])
                     sides.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j]),
-                                     std::abs(volumes6[t]) / 36});
+                                     sides.size(), std::abs(volumes6[t]) / 36});
     }
-    // The sort is stable so that the order of the sums below is always the same.
-    std::stable_sort(sides.begin(), sides.end(),
-                     [](const Side& s, const Side& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
+    // The place makes the order of the sums below always the same. A stable sort would take memory of its
+    // own.
+    std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+        return std::tie(s.a, s.b, s.place) < std::tie(t.a, t.b, t.place);
+    });
     std::size_t count = 0;
     double total_length = 0, total_volume = 0;
     for (const Side& side : sides) {
@@ -165,20 +170,28 @@ void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double
 // wait for one before it begins the next. Constraints that find none of 64 colours come last. `particles`
 // returns a constraint's particles.
 template <class Constraint, class Particles>
-void sort_by_color(std::vector<Constraint>& constraints, std::size_t particle_count, Particles particles) {
+void sort_by_color(std::pmr::vector<Constraint>& constraints, std::size_t particle_count,
+                   Particles particles) {
     constexpr std::size_t color_count = 64;
-    std::vector<std::uint64_t> taken(particle_count, 0); // the colours used at each particle, one bit each
-    std::array<std::vector<Constraint>, color_count + 1> classes;
+    std::pmr::memory_resource* memory = constraints.get_allocator().resource();
+    std::pmr::vector<std::uint64_t> taken(particle_count, 0,
+                                          memory); // the colours used at each particle, one bit each
+    std::pmr::vector<std::uint8_t> color_of(memory);
+    color_of.reserve(constraints.size());
+    std::array<std::size_t, color_count + 2> first{}; // constraint of each colour, once sorted
     for (const Constraint& constraint : constraints) {
         std::uint64_t around = 0;
         for (const std::uint32_t p : particles(constraint)) around |= taken[p];
         const auto color = static_cast<std::size_t>(std::countr_one(around));
         if (color < color_count)
             for (const std::uint32_t p : particles(constraint)) taken[p] |= std::uint64_t{1} << color;
-        classes[color].push_back(constraint);
+        color_of.push_back(static_cast<std::uint8_t>(color));
+        ++first[color + 1];
     }
-    constraints.clear();
-    for (const auto& same : classes) constraints.insert(constraints.end(), same.begin(), same.end());
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::pmr::vector<Constraint> sorted(constraints.size(), memory);
+    for (std::size_t c = 0; c < constraints.size(); ++c) sorted[first[color_of[c]]++] = constraints[c];
+    constraints.swap(sorted);
 }
 
 } // namespace
@@ -187,9 +200,14 @@ double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
     return (p1 - p0).cross(p2 - p0).dot(p3 - p0);
 }
 
-Body make_body(const vox_sim_body_desc& desc) {
+void DestroyBody::operator()(Body* body) const noexcept {
+    std::pmr::polymorphic_allocator<>(body->positions.get_allocator()).delete_object(body);
+}
+
+BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory) {
     check_desc(desc);
-    Body body;
+    BodyHandle made(std::pmr::polymorphic_allocator<>(memory).new_object<Body>(memory));
+    Body& body = *made;
     body.fixed = (desc.flags & VOX_SIM_BODY_FIXED) != 0;
     body.damping = desc.damping;
     body.tets.assign(desc.tets, desc.tets + 4 * desc.tet_count);
@@ -200,10 +218,10 @@ Body make_body(const vox_sim_body_desc& desc) {
     body.grid_positions.resize(3 * count);
     set_state(body, desc.positions, desc.velocities);
 
-    std::vector<Vec3> rest(count);
+    std::pmr::vector<Vec3> rest(count, memory);
     const double* rest_positions = desc.rest_positions ? desc.rest_positions : desc.positions;
     for (std::size_t v = 0; v < count; ++v) rest[v] = vector_at(rest_positions, v);
-    std::vector<double> volumes6(static_cast<std::size_t>(desc.tet_count));
+    std::pmr::vector<double> volumes6(static_cast<std::size_t>(desc.tet_count), memory);
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
         const std::uint32_t* c = &body.tets[4 * t];
         volumes6[t] = volume6(rest[c[0]], rest[c[1]], rest[c[2]], rest[c[3]]);
@@ -221,7 +239,7 @@ Body make_body(const vox_sim_body_desc& desc) {
     sort_by_color(body.edges, count, [](const EdgeConstraint& edge) { return std::array{edge.a, edge.b}; });
     sort_by_color(body.volumes, count,
                   [](const VolumeConstraint& tet) { return std::to_array(tet.corners); });
-    return body;
+    return made;
 }
 
 void set_state(Body& body, const double* positions, const double* velocities) {

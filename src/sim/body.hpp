@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <memory>
+#include <memory_resource>
 #include <vector>
 
 namespace vox::sim {
@@ -31,21 +33,25 @@ struct VolumeConstraint {
 };
 
 struct Body {
+    explicit Body(std::pmr::memory_resource* memory)
+        : positions(memory), previous(memory), velocities(memory), masses(memory), inverse_masses(memory),
+          grid_positions(memory), tets(memory), edges(memory), volumes(memory) {}
+
     vox_mesh mesh = VOX_NULL_MESH;
     bool fixed = false;
 
     // particles
-    std::vector<Vec3> positions;
-    std::vector<Vec3> previous; // positions at the beginning of the substep
-    std::vector<Vec3> velocities;
-    std::vector<double> masses;
-    std::vector<double> inverse_masses; // all 0 for a fixed body
-    std::vector<float> grid_positions;  // 3 a particle; the grid borrows them
+    std::pmr::vector<Vec3> positions;
+    std::pmr::vector<Vec3> previous; // positions at the beginning of the substep
+    std::pmr::vector<Vec3> velocities;
+    std::pmr::vector<double> masses;
+    std::pmr::vector<double> inverse_masses; // all 0 for a fixed body
+    std::pmr::vector<float> grid_positions;  // 3 a particle; the grid borrows them
 
     // constraints
-    std::vector<std::uint32_t> tets; // 4 a tet
-    std::vector<EdgeConstraint> edges;
-    std::vector<VolumeConstraint> volumes;
+    std::pmr::vector<std::uint32_t> tets; // 4 a tet
+    std::pmr::vector<EdgeConstraint> edges;
+    std::pmr::vector<VolumeConstraint> volumes;
     double damping = 0;
     double substep = 0;         // length of the substep that the constraints are set up for; 0: not yet
     std::uint64_t softened = 0; // constraints whose stiffness that substep cannot handle
@@ -57,8 +63,13 @@ struct Body {
     std::uint64_t raised_masses = 0;
 };
 
+struct DestroyBody {
+    void operator()(Body* body) const noexcept;
+};
+using BodyHandle = std::unique_ptr<Body, DestroyBody>; // in the memory of its arrays
+
 // Checks the caller's arrays and numbers (throws) and computes masses and constraints from them.
-Body make_body(const vox_sim_body_desc& desc);
+BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory);
 
 // Replaces positions and velocities (3 a particle; null: keeps them). Changes nothing if it throws.
 void set_state(Body& body, const double* positions, const double* velocities);

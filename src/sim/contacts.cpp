@@ -16,14 +16,14 @@ const T& element(const T* data, std::size_t byte_stride, std::uint64_t i) {
 }
 
 // The position of the vertex relative to the point of the tet at which it was found.
-Vec3 relative(const Contact& c, const std::vector<Vec3> Body::*positions) {
+Vec3 relative(const Contact& c, const std::pmr::vector<Vec3> Body::*positions) {
     Vec3 r = (c.a->*positions)[c.vertex];
     for (int k = 0; k < 4; ++k) r -= c.weights[k] * (c.b->*positions)[c.corners[k]];
     return r;
 }
 
 // Moves the vertex by `impulse` / its mass, and the tet's corners in the opposite direction.
-void apply(const Contact& c, std::vector<Vec3> Body::*positions, const Vec3& impulse) {
+void apply(const Contact& c, std::pmr::vector<Vec3> Body::*positions, const Vec3& impulse) {
     (c.a->*positions)[c.vertex] += c.a->inverse_masses[c.vertex] * impulse;
     for (int k = 0; k < 4; ++k)
         (c.b->*positions)[c.corners[k]] -= (c.weights[k] * c.b->inverse_masses[c.corners[k]]) * impulse;
@@ -87,14 +87,14 @@ void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint
 
 } // namespace
 
-Body* find_body(std::span<const std::unique_ptr<Body>> bodies, vox_mesh mesh) {
+Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh) {
     const auto found = std::lower_bound(bodies.begin(), bodies.end(), mesh,
                                         [](const auto& body, vox_mesh id) { return body->mesh < id; });
     return found != bodies.end() && (*found)->mesh == mesh ? found->get() : nullptr;
 }
 
-void gather_contacts(const vox_grid* grid, std::span<const std::unique_ptr<Body>> bodies,
-                     const ContactSettings& settings, std::vector<Contact>& contacts) {
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
+                     const ContactSettings& settings, std::pmr::vector<Contact>& contacts) {
     vox_contact_view found{};
     vox_penetration_view penetrations{};
     contacts.clear();

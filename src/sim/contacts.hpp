@@ -43,12 +43,12 @@ struct Floor {
 };
 
 // The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
-Body* find_body(std::span<const std::unique_ptr<Body>> bodies, vox_mesh mesh);
+Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh);
 
 // Reads the contacts of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.
-void gather_contacts(const vox_grid* grid, std::span<const std::unique_ptr<Body>> bodies,
-                     const ContactSettings& settings, std::vector<Contact>& contacts);
+void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
+                     const ContactSettings& settings, std::pmr::vector<Contact>& contacts);
 
 void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h);
 

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
+#include "base/structs.hpp"
 #include "sim/constraints.hpp"
 
 #include <algorithm>
@@ -41,13 +42,13 @@ Floor floor_of(const vox_sim_desc& desc) {
 } // namespace
 
 vox_sim::vox_sim(const vox_sim_desc& desc)
-    : log_(desc.log), gravity_(check_vector(desc.gravity, "gravity")), max_time_step_(desc.max_time_step),
-      substeps_(desc.substeps), detect_every_(desc.detect_every),
+    : memory_(desc.allocator), log_(desc.log), gravity_(check_vector(desc.gravity, "gravity")),
+      max_time_step_(desc.max_time_step), substeps_(desc.substeps), detect_every_(desc.detect_every),
       contact_settings_{.friction = check_number(desc.friction, "friction"),
                         .compliance = check_number(desc.contact_compliance, "contact_compliance"),
                         .push_speed = check_number(desc.max_push_speed, "max_push_speed"),
                         .slop = desc.contact_slop},
-      floor_(floor_of(desc)) {
+      floor_(floor_of(desc)), bodies_(&memory_), contacts_(&memory_) {
     if (!(max_time_step_ >= shortest_time_step && max_time_step_ <= 1e12))
         refuse(format("sim max_time_step is %g, expected a number from %g to 1e12", max_time_step_,
                       shortest_time_step));
@@ -56,7 +57,11 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
     if (!(desc.contact_slop <= 1e60))
         refuse(format("sim contact_slop is %g, expected a number up to 1e60", desc.contact_slop));
     if (desc.reserved != 0) refuse(format("sim reserved is %u, expected 0", desc.reserved));
-    grid_ = create_grid(desc.grid);
+    vox_grid_desc settings = vox_default_grid_desc();
+    if (desc.grid) settings = read_struct(desc.grid, settings, "sim grid");
+    settings.struct_size = sizeof settings;
+    if (!settings.allocator.allocate && !settings.allocator.release) settings.allocator = desc.allocator;
+    grid_ = create_grid(&settings);
     vox_penetration_view penetrations;
     // Fails for a grid without penetrations, which the response needs.
     check(vox_grid_penetrations(grid(), &penetrations));
@@ -132,7 +137,7 @@ void vox_sim::substep(double h) {
 // ---- bodies ---------------------------------------------------------------------------------------
 
 vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
-    auto body = std::make_unique<Body>(make_body(desc));
+    auto body = make_body(desc, &memory_);
     // Nothing may fail after the insertion into the grid, so memory is reserved before.
     if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
 

@@ -1,6 +1,7 @@
 // A simulation: bodies, the grid they collide in, and step(), which runs the substeps.
 #pragma once
 
+#include "base/caller_memory.hpp"
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
 #include "sim/library.hpp"
@@ -12,8 +13,10 @@
 // step (see vox_sim_step).
 struct vox_sim {
 public:
-    explicit vox_sim(const vox_sim_desc& desc); // throws INVALID_ARGUMENT naming the field and its value
+    // Its memory is that of desc.allocator. Throws INVALID_ARGUMENT naming the field and its value.
+    explicit vox_sim(const vox_sim_desc& desc);
 
+    const vox::CallerMemory& memory() const noexcept { return memory_; }
     vox_grid* grid() const noexcept { return grid_.get(); }
     void step(double time_step);
 
@@ -30,6 +33,7 @@ private:
     void substep(double h);
     void write_log(vox_log_level level, const std::string& text) const;
 
+    vox::CallerMemory memory_; // first, as all else is released to it
     vox_log log_;
     vox::sim::Vec3 gravity_;
     double max_time_step_;
@@ -39,8 +43,8 @@ private:
     vox::sim::Floor floor_;
 
     vox::sim::GridHandle grid_;
-    std::vector<std::unique_ptr<vox::sim::Body>> bodies_; // ascending in mesh
-    std::vector<vox::sim::Contact> contacts_;             // of the last detection
+    std::pmr::vector<vox::sim::BodyHandle> bodies_; // ascending in mesh
+    std::pmr::vector<vox::sim::Contact> contacts_;  // of the last detection
 
     bool softening_logged_ = false;
     vox_sim_counts counts_{};

@@ -16,7 +16,7 @@ INCLUDE = os.path.join(ROOT, "include", "vox")
 HEADERS = ["vox.h", "vox_io.h", "vox_sim.h"]
 
 # Everything that a foreign-function interface can carry.
-NUMBERS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void"}
+NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void"}
 
 # What the conventions of vox.h must tell, for all the headers: what functions need not repeat.
 CONVENTIONS = {

@@ -1,5 +1,6 @@
 /* The cell size: every bad argument gives its code, a text with the numbers in it, and leaves the result
  * alone; structs may be smaller or larger than this library's. */
+#include "support/ledger.h"
 #include "support/suggest_scenes.h"
 
 #include <limits.h>
@@ -104,25 +105,28 @@ START_TEST(bad_mesh) {
         fails(NULL, meshes, 2, code, words);                                                                 \
     } while (0)
 
-    BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: flags is 0x8");
-    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: reserved is 7");
-    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: positions is null, vertex_count is 4");
-    BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: tets is null, tet_count is 1");
+    BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): flags is 0x8");
+    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): reserved is 7");
+    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): positions is null, vertex_count is 4");
+    BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): tets is null, tet_count is 1");
     BAD(tets = (const uint32_t*)((const char*)unit_tet + 1), VOX_ERROR_INVALID_ARGUMENT,
-        "mesh 1: tets is not aligned");
-    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_byte_stride is 11");
+        "mesh 1 (user data 0): tets is not aligned");
+    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): position_byte_stride is 11");
     BAD(position_byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 vertices");
-    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT, "mesh 1: position_format is 77");
-    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1: tet 0 names vertex 3 of 3");
-    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: vertex_count is 1099511627776");
-    BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1: tet_count is 1099511627776");
+    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): position_format is 77");
+    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 0 names vertex 3 of 3");
+    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): vertex_count is 1099511627776");
+    BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): tet_count is 1099511627776");
     BAD(struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "meshes[1].struct_size is 0");
     BAD(struct_size = sizeof(vox_mesh_desc) + 8, VOX_ERROR_INVALID_ARGUMENT, "that of meshes[0] is");
 #undef BAD
 
     static const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 900, 3};
     *bad = array_desc(regular_positions, 4, tets, 2);
-    fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1: tet 1 names vertex 900 of 4");
+    fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 1 names vertex 900 of 4");
 
     *bad = good_mesh();
     meshes[0].struct_size = 3;
@@ -147,7 +151,7 @@ START_TEST(non_finite_positions) {
             char words[40];
             const float good = positions[c];
             positions[c] = values[v];
-            snprintf(words, sizeof words, "mesh 1, vertex %d:", c / 3);
+            snprintf(words, sizeof words, "mesh 1 (user data 0), vertex %d:", c / 3);
             fails(NULL, meshes, 2, VOX_ERROR_NON_FINITE, words);
             positions[c] = good;
         }
@@ -271,6 +275,58 @@ START_TEST(larger_structs) {
 }
 END_TEST
 
+/* All models, in the memory of the caller: the same answer, nothing left behind, and every call may fail. */
+START_TEST(memory_of_the_caller) {
+    body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 1, 0.4f, 0.3f);
+    vox_mesh_desc meshes[2] = {body_desc(&box), body_desc(&other)};
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_suggestion* out = (vox_suggestion*)calloc(2, sizeof *out);
+    ledger memory = {0, 0, 0, 0, 0};
+    meshes[0].flags = VOX_MESH_SELF_COLLISION;
+    desc.model = (vox_cost_model)_i;
+    out[0].struct_size = out[1].struct_size = sizeof *out;
+    ck_ok(vox_suggest_cell_size(&desc, meshes, 2, &out[0]));
+    desc.allocator = ledger_allocator(&memory);
+    ck_ok(vox_suggest_cell_size(&desc, meshes, 2, &out[1]));
+    ck_assert_mem_eq(&out[0], &out[1], sizeof *out);
+    ck_assert_uint_gt(memory.peak, 30 * (uint64_t)box.tet_count);
+    ck_assert_uint_eq(memory.bytes, 0);
+    const uint64_t calls = memory.calls;
+    uint64_t failed = 0, tried = 0;
+    for (uint64_t n = 1; n <= calls;
+         n += 1 + n / 16, ++tried) { /* a list that cannot be made shorter stays longer */
+        memory.calls = 0;
+        memory.fail_at = n;
+        const vox_result result = vox_suggest_cell_size(&desc, meshes, 2, &out[1]);
+        ck_assert(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY);
+        failed += result != VOX_OK;
+        ck_assert_mem_eq(&out[0], &out[1], sizeof *out);
+        ck_assert_uint_eq(memory.bytes, 0);
+    }
+    ck_assert_uint_gt(failed, tried / 2);
+    memory.fail_at = 0;
+    memory.calls = 0;
+    vox_cost_prediction prediction;
+    prediction.struct_size = sizeof prediction;
+    ck_ok(vox_cost_predict(&desc, meshes, 2, 0.3, &prediction));
+    ck_assert_uint_gt(memory.calls, 0);
+    ck_assert_uint_eq(memory.bytes, 0);
+
+    /* Of a grid, too: what does not fit on the stack. */
+    vox_grid* grid = grid_of(NULL);
+    for (int b = 0; b < 2; ++b) (void)insert_mesh(grid, &meshes[b]);
+    ck_ok(vox_grid_suggest_cell_size(grid, &desc, &out[1]));
+    ck_assert_uint_eq(memory.bytes, 0);
+    vox_grid_destroy(grid);
+    desc.allocator.release = NULL;
+    ck_fails(vox_suggest_cell_size(&desc, meshes, 2, &out[1]), VOX_ERROR_INVALID_ARGUMENT,
+             "desc.allocator has one of allocate and release");
+    free(out);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
 START_TEST(bad_zone_distance) {
     const double bad[] = {0, -1, NAN, INFINITY};
     double epsilon = 42;
@@ -290,6 +346,7 @@ END_TEST
 void add_argument_tests(Suite* suite) {
     TCase* tests = add_case(suite, "arguments");
     tcase_add_test(tests, defaults);
+    tcase_add_loop_test(tests, memory_of_the_caller, 0, 3);
     tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
     tcase_add_each(tests, bad_enum, bad_mesh, non_finite_positions, nothing_to_measure, bad_struct_sizes,
                    smaller_structs, larger_structs, bad_zone_distance);

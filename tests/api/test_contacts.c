@@ -320,7 +320,7 @@ START_TEST(non_finite_positions) {
     for (int chosen = 0; chosen < 2; ++chosen) { /* the cell size given, and chosen at that very step */
         scene s = new_scene(&a, &b, chosen ? 0 : 0.5);
         char words[64];
-        snprintf(words, sizeof words, "mesh %u, vertex 5", s.b);
+        snprintf(words, sizeof words, "mesh %u (slot 1, user data 0), vertex 5", s.b);
         for (int i = 0; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis) {
                 const float good = other.positions[15 + axis];

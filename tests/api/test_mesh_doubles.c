@@ -209,7 +209,7 @@ START_TEST(limits) {
         const vox_mesh other = insert(grid, &a, 0), mesh = insert(grid, &b, 0);
         const uint64_t hash = hash_of_step(grid);
         char text[64];
-        snprintf(text, sizeof text, "mesh %u, vertex 7: position (", mesh);
+        snprintf(text, sizeof text, "mesh %u (slot 1, user data 0), vertex 7: position (", mesh);
         for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {
             const double kept = b.positions[3 * 7 + 1];
             memcpy(b.bytes + 7 * b.stride + 8, &refused[i], sizeof(double));
@@ -287,7 +287,7 @@ START_TEST(suggested_cell_size) {
     s.positions[4] = 1e200;
     write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
     const vox_mesh_desc desc = solid_desc(&s);
-    ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &out[0]), VOX_ERROR_LIMIT, "mesh 0, vertex 1");
+    ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &out[0]), VOX_ERROR_LIMIT, "mesh 0 (user data 0), vertex 1");
     free_solid(&s);
 }
 END_TEST

@@ -226,7 +226,7 @@ START_TEST(non_finite_is_the_same_vertex) {
     large[1].positions[3 * 2000] = 1 / zero;
     large[1].positions[3 * 1234 + 2] = 1 / zero;
     small[3].positions[0] = 1 / zero;
-    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097, vertex 1234");
+    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097 (slot 1, user data 0), vertex 1234");
     vox_grid_destroy(grid);
     free_bodies();
 }

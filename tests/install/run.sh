@@ -1,13 +1,18 @@
 #!/bin/sh
-# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC lean|tbb: installs into a scratch prefix and builds the two consumers there.
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC lean|tbb: installs into a scratch prefix and builds the consumers there, by CMake's
+# components and by pkg-config.
 set -eu
 build=$1 source=$2 cmake=$3 generator=$4 cc=$5 threads=$6
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 cp "$source"/consumer/* "$scratch"
+components=
+for component in io sim; do
+    [ ! -f "$scratch/prefix/include/vox/vox_$component.h" ] || components="$components${components:+;}$component"
+done
 
-"$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" >"$scratch/log" &&
+"$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" -DCOMPONENTS="$components" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$scratch/build/consumer"
 
@@ -16,11 +21,11 @@ export PKG_CONFIG_PATH
 "$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
 
-if pkg-config --exists vox_sim; then
-    "$scratch/build/consumer_sim"
-    "$cc" -std=c99 "$scratch/consumer_sim.c" $(pkg-config --cflags --libs vox_sim) -o "$scratch/consumer_sim"
-    LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_sim"
-fi
+for component in $(echo "$components" | tr ';' ' '); do
+    "$scratch/build/consumer_$component"
+    "$cc" -std=c99 "$scratch/consumer_$component.c" $(pkg-config --cflags --libs "vox_$component") -o "$scratch/consumer_$component"
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_$component"
+done
 
 # Without oneTBB the core needs the C and C++ runtime and nothing else.
 if [ "$threads" = lean ] && command -v readelf >/dev/null; then

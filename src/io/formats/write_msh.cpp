@@ -11,7 +11,7 @@ namespace vox::io {
 namespace {
 
 struct Kind {
-    const std::vector<std::uint32_t>& corners;
+    std::span<const std::uint32_t> corners;
     std::uint32_t nodes, type, dimension;
     std::uint64_t count() const { return corners.size() / nodes; }
 };
@@ -19,7 +19,7 @@ struct Kind {
 // Writes the sections of a file. Numbers are bytes, or text in rows with a blank between two numbers.
 class MshWriter {
 public:
-    MshWriter(const MeshData& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
+    MshWriter(const MeshArrays& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
 
     void write(vox_io_write_format version, PointData point_data) {
         const bool version_41 = version == VOX_IO_WRITE_MSH_41;
@@ -152,7 +152,7 @@ private:
         end_section("$EndNodeData\n");
     }
 
-    const MeshData& mesh_;
+    const MeshArrays& mesh_;
     const bool binary_;
     Output& out_;
     bool row_is_empty_ = true;
@@ -163,7 +163,7 @@ private:
 
 } // namespace
 
-void write_msh(const MeshData& mesh, vox_io_write_format version, PointData point_data, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, PointData point_data, bool binary,
                Output& out) {
     MshWriter(mesh, binary, out).write(version, point_data);
 }

@@ -65,8 +65,8 @@ private:
 using PointData = std::span<const vox_io_point_data>;
 
 // `version` is VOX_IO_WRITE_MSH_22 or VOX_IO_WRITE_MSH_41.
-void write_msh(const MeshData& mesh, vox_io_write_format version, PointData point_data, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, PointData point_data, bool binary,
                Output& out);
-void write_vtu(const MeshData& mesh, PointData point_data, bool binary, Output& out);
+void write_vtu(const MeshArrays& mesh, PointData point_data, bool binary, Output& out);
 
 } // namespace vox::io

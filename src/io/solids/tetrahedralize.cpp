@@ -102,8 +102,9 @@ MeshData tetrahedralize(const vox_io_mesh_view& surface, const vox_io_tetrahedra
         if (mesh.tets.empty() && (!to_distance || last))
             refuse(format("no tet fits into the surface with a cell of %g (its longest side is %g)", cell,
                           longest));
-        const double reached =
-            to_distance && !mesh.tets.empty() ? measure_quality(view_of(mesh), &surface).hausdorff : 0;
+        const double reached = to_distance && !mesh.tets.empty()
+                                   ? measure_quality(view_of(arrays_of(mesh)), &surface).hausdorff
+                                   : 0;
         if (!mesh.tets.empty() && (!to_distance || reached <= desc.max_distance)) {
             progress.report(1);
             return mesh;

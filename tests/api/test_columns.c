@@ -1,0 +1,404 @@
+/* Positions in columns, or with room between their numbers: everything is bit for bit what it is for the same
+ * positions one after the other. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/bodies.h"
+#include "support/suite.h"
+
+enum { most = 3 };
+
+/* Coordinate c of position v is at byte offset + v * stride + c * component. */
+typedef struct layout {
+    const char* name;
+    vox_format format;
+    uint64_t stride, component; /* as told to the library; 0: as it says */
+    int padding;                /* numbers between two columns, and bytes before the first */
+} layout;
+
+static const layout layouts[] = {{"columns", VOX_FORMAT_FLOAT3, 0, 1, 0},
+                                 {"columns", VOX_FORMAT_DOUBLE3, 0, 1, 0},
+                                 {"columns further apart, not aligned", VOX_FORMAT_FLOAT3, 4, 1, 5},
+                                 {"columns further apart, not aligned", VOX_FORMAT_DOUBLE3, 8, 1, 3},
+                                 {"columns with gaps", VOX_FORMAT_FLOAT3, 12, 1, 1},
+                                 {"columns with gaps", VOX_FORMAT_DOUBLE3, 40, 1, 0},
+                                 {"rows with gaps", VOX_FORMAT_FLOAT3, 36, 8, 0},
+                                 {"rows with gaps", VOX_FORMAT_DOUBLE3, 64, 16, 0},
+                                 {"rows, said in full", VOX_FORMAT_FLOAT3, 12, 4, 0},
+                                 {"rows, said in full", VOX_FORMAT_DOUBLE3, 0, 8, 0}};
+enum { layout_count = sizeof layouts / sizeof *layouts };
+
+/* An array of some positions in a layout; `component` 1 stands for columns. */
+typedef struct laid_out {
+    unsigned char* memory;
+    unsigned char* data;
+    vox_format format;
+    uint64_t stride, component;           /* to be told to the library */
+    uint64_t real_stride, real_component; /* in bytes */
+} laid_out;
+
+static void write_position(const laid_out* a, uint32_t v, const float position[3]) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+        unsigned char* to = a->data + v * a->real_stride + axis * a->real_component;
+        const double d = (double)position[axis];
+        if (a->format == VOX_FORMAT_DOUBLE3)
+            memcpy(to, &d, sizeof d);
+        else
+            memcpy(to, &position[axis], sizeof(float));
+    }
+}
+
+static laid_out lay_out(const layout* l, const float* positions, uint32_t count) {
+    const uint64_t number = l->format == VOX_FORMAT_DOUBLE3 ? 8 : 4;
+    const uint64_t padding = (uint64_t)l->padding;
+    laid_out a = {NULL, NULL, l->format, l->stride, l->component, 0, 0};
+    const int columns = l->component == 1;
+    a.real_stride = l->stride ? l->stride : columns ? number : 3 * number;
+    if (columns) a.component = (count + padding) * a.real_stride;
+    a.real_component = a.component;
+    const uint64_t size = count * a.real_stride + 2 * a.real_component + number + padding;
+    a.memory = (unsigned char*)malloc(size);
+    memset(a.memory, 0xff, size); /* NaN between the numbers */
+    a.data = a.memory + padding;
+    for (uint32_t v = 0; v < count; ++v) write_position(&a, v, positions + 3 * v);
+    return a;
+}
+
+static vox_mesh_desc laid_out_desc(const body* b, const laid_out* a) {
+    vox_mesh_desc desc = body_desc(b);
+    desc.positions = a->data;
+    desc.position_format = a->format;
+    desc.position_byte_stride = a->stride;
+    desc.position_component_byte_stride = a->component;
+    return desc;
+}
+
+/* Two grids with the same bodies; those of `packed` have the usual layout. */
+typedef struct scene {
+    body bodies[most];
+    double* doubles[most]; /* of the packed ones, for the formats of doubles */
+    laid_out arrays[most];
+    vox_grid *packed, *grid;
+    vox_mesh packed_ids[most], ids[most];
+} scene;
+
+static scene new_scene(const layout* l, uint32_t mesh_flags) {
+    scene s;
+    s.packed = engine_grid();
+    s.grid = engine_grid();
+    for (int b = 0; b < most; ++b) {
+        body* box = &s.bodies[b];
+        *box = make_box(4, 0.37f, 0.9f * (float)b, 0.1f * (float)b, 0.07f * (float)b);
+        if (b == 2) /* folded through itself */
+            for (uint32_t v = 0; v < box->vertex_count; ++v) {
+                float* p = box->positions + 3 * v;
+                if (p[0] > 2.5f) p[0] = 5 - 0.9f * p[0] + 0.1f * p[1];
+            }
+        s.doubles[b] = (double*)malloc(3 * sizeof(double) * box->vertex_count);
+        for (size_t i = 0; i < 3 * (size_t)box->vertex_count; ++i)
+            s.doubles[b][i] = (double)box->positions[i];
+        s.arrays[b] = lay_out(l, box->positions, box->vertex_count);
+        vox_mesh_desc usual =
+            l->format == VOX_FORMAT_FLOAT3
+                ? body_desc(box)
+                : vox_mesh_desc_doubles(s.doubles[b], box->vertex_count, box->tets, box->tet_count);
+        vox_mesh_desc desc = laid_out_desc(box, &s.arrays[b]);
+        if (b == 2) usual.flags = desc.flags = VOX_MESH_SELF_COLLISION;
+        desc.flags |= mesh_flags;
+        s.packed_ids[b] = insert_mesh(s.packed, &usual);
+        s.ids[b] = insert_mesh(s.grid, &desc);
+    }
+    return s;
+}
+
+static void free_scene(scene* s) {
+    vox_grid_destroy(s->packed);
+    vox_grid_destroy(s->grid);
+    for (int b = 0; b < most; ++b) {
+        free_body(&s->bodies[b]);
+        free(s->doubles[b]);
+        free(s->arrays[b].memory);
+    }
+}
+
+static void move(scene* s, int b, float by) {
+    for (uint32_t v = 0; v < s->bodies[b].vertex_count; ++v) {
+        float* p = s->bodies[b].positions + 3 * v;
+        p[0] += by;
+        for (int axis = 0; axis < 3; ++axis) s->doubles[b][3 * v + (uint32_t)axis] = (double)p[axis];
+        write_position(&s->arrays[b], v, p);
+    }
+}
+
+#define same_view(type, function)                                                                            \
+    do {                                                                                                     \
+        type x, y;                                                                                           \
+        ck_ok(function(s->packed, &x));                                                                      \
+        ck_ok(function(s->grid, &y));                                                                        \
+        ck_assert_uint_gt(x.count, 20);                                                                      \
+        ck_assert_uint_eq(x.count, y.count);                                                                 \
+        ck_assert_mem_eq(x.data, y.data, x.count* x.byte_stride);                                            \
+    } while (0)
+
+static void same_results(const scene* s) {
+    same_view(vox_contact_view, vox_grid_contacts);
+    same_view(vox_interior_view, vox_grid_contact_interiors);
+    same_view(vox_penetration_view, vox_grid_penetrations);
+    same_view(vox_depth_view, vox_grid_depths);
+}
+
+static void step_both(const scene* s) {
+    ck_ok(vox_grid_step(s->packed));
+    ck_ok(vox_grid_step(s->grid));
+    same_results(s);
+}
+
+static void same_answers(const scene* s) {
+    const double from[3] = {-1, 0.7, 0.6}, to[3] = {5, 0.9, 0.8};
+    vox_ray_hit hits[2];
+    vox_surface_hit closest[2];
+    vox_suggestion suggested[2];
+    vox_grid* const grids[2] = {s->packed, s->grid};
+    memset(hits, 0, sizeof hits);
+    memset(closest, 0, sizeof closest);
+    memset(suggested, 0, sizeof suggested);
+    for (int g = 0; g < 2; ++g) {
+        ck_ok(vox_grid_prepare_queries(grids[g]));
+        ck_ok(vox_grid_query_ray(grids[g], from, to, UINT64_MAX, &hits[g]));
+        ck_ok(vox_grid_query_closest(grids[g], from, INFINITY, UINT64_MAX, &closest[g]));
+        suggested[g].struct_size = sizeof suggested[g];
+        ck_ok(vox_grid_suggest_cell_size(grids[g], NULL, &suggested[g]));
+        ck_ok(vox_grid_prepare_readings(grids[g]));
+    }
+    ck_assert_uint_ne(hits[0].mesh, VOX_NULL_MESH);
+    ck_assert_mem_eq(&hits[0], &hits[1], sizeof hits[0]);
+    ck_assert_mem_eq(&closest[0], &closest[1], sizeof closest[0]);
+    ck_assert_double_eq(suggested[0].stats.mean_edge, suggested[1].stats.mean_edge);
+    ck_assert_mem_eq(suggested[0].stats.bounds_max, suggested[1].stats.bounds_max,
+                     sizeof suggested[0].stats.bounds_max);
+    ck_assert_double_eq_tol(suggested[0].cell_size, suggested[1].cell_size, 0.05 * suggested[0].cell_size);
+    same_view(vox_reading_view, vox_grid_readings);
+}
+
+START_TEST(same_as_packed) {
+    const layout* l = &layouts[_i];
+    scene s = new_scene(l, 0);
+    const double turn[12] = {0.8, -0.6, 0, 0.1, 0.6, 0.8, 0, -0.3, 0, 0, 1, 0.2};
+    for (int step = 0; step < 9; ++step) { /* moving, at rest, turned */
+        if (step < 2) move(&s, 1, 0.05f);
+        if (step == 5) ck_ok(vox_mesh_set_transform(s.packed, s.packed_ids[0], turn));
+        if (step == 5) ck_ok(vox_mesh_set_transform(s.grid, s.ids[0], turn));
+        if (step == 6) move(&s, 2, -0.125f);
+        step_both(&s);
+        if (step % 3 == 0) same_answers(&s);
+    }
+    ck_assert_uint_eq(counters_of(s.grid).moved_meshes, suite_engine == VOX_ENGINE_FAST ? 0 : most);
+    free_scene(&s);
+}
+END_TEST
+
+/* What is made from columns: a copy, a mapped copy, a snapshot. */
+START_TEST(copied) {
+    const layout* l = &layouts[_i];
+    scene s = new_scene(l, VOX_MESH_COPY_POSITIONS);
+    for (int b = 0; b < most; ++b) memset(s.arrays[b].data, 0xff, 3 * (size_t)s.bodies[b].vertex_count);
+    step_both(&s);
+    uint64_t sizes[2];
+    ck_ok(vox_grid_save(s.packed, NULL, 0, &sizes[0]));
+    ck_ok(vox_grid_save(s.grid, NULL, 0, &sizes[1]));
+    ck_assert_uint_eq(sizes[0], sizes[1]);
+    unsigned char* saved[2] = {(unsigned char*)malloc(sizes[0]), (unsigned char*)malloc(sizes[1])};
+    ck_ok(vox_grid_save(s.packed, saved[0], sizes[0], &sizes[0]));
+    ck_ok(vox_grid_save(s.grid, saved[1], sizes[1], &sizes[1]));
+    ck_assert_mem_eq(saved[0], saved[1], sizes[0]);
+    free_scene(&s);
+    /* Borrowed ones are saved as they are. */
+    s = new_scene(l, 0);
+    step_both(&s);
+    ck_ok(vox_grid_save(s.grid, saved[1], sizes[1], &sizes[1]));
+    ck_assert_mem_eq(saved[0], saved[1], sizes[0]);
+    void* mapped = NULL;
+    uint64_t stride = 0;
+    ck_ok(vox_mesh_map_positions(s.grid, s.ids[1], &mapped, &stride));
+    ck_assert_uint_eq(stride, l->format == VOX_FORMAT_FLOAT3 ? 12 : 24);
+    ck_assert_mem_eq(mapped,
+                     l->format == VOX_FORMAT_FLOAT3 ? (void*)s.bodies[1].positions : (void*)s.doubles[1],
+                     stride * s.bodies[1].vertex_count);
+    step_both(&s);
+    /* And bound again. */
+    ck_ok(vox_mesh_bind_strided_positions(s.grid, s.ids[1], s.arrays[1].data, s.arrays[1].format,
+                                          s.arrays[1].stride, s.arrays[1].component));
+    move(&s, 1, 0.0625f);
+    step_both(&s);
+    free_scene(&s);
+    free(saved[0]);
+    free(saved[1]);
+}
+END_TEST
+
+/* Rest poses and vertices that are appended. */
+START_TEST(rest_poses_and_growth) {
+    const layout* l = &layouts[_i];
+    scene s = new_scene(l, 0);
+    for (int grows_own = 0; grows_own < 2; ++grows_own) {
+        body rest = make_box(4, 0.37f, 1.8f, 0.2f, 0.14f);
+        laid_out laid_rest = lay_out(l, rest.positions, rest.vertex_count);
+        vox_filter filter = vox_default_filter();
+        filter.self_collision = 1;
+        filter.self_rest_distance = 1;
+        vox_mesh_desc usual = body_desc(&s.bodies[2]), desc = laid_out_desc(&s.bodies[2], &s.arrays[2]);
+        double* doubles = (double*)malloc(3 * sizeof(double) * rest.vertex_count);
+        for (size_t i = 0; i < 3 * (size_t)rest.vertex_count; ++i) doubles[i] = (double)rest.positions[i];
+        usual.positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)s.bodies[2].positions : s.doubles[2];
+        usual.position_format = l->format;
+        usual.rest_positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)rest.positions : doubles;
+        desc.rest_positions = laid_rest.data;
+        desc.rest_position_byte_stride = laid_rest.stride;
+        desc.rest_position_component_byte_stride = laid_rest.component;
+        usual.filter = desc.filter = &filter;
+        usual.flags = desc.flags = grows_own ? VOX_MESH_COPY_POSITIONS : 0;
+        ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &usual));
+        ck_ok(vox_mesh_set_topology(s.grid, s.ids[2], &desc));
+        ck_ok(vox_mesh_set_filter(s.packed, s.packed_ids[2], &filter));
+        ck_ok(vox_mesh_set_filter(s.grid, s.ids[2], &filter));
+        step_both(&s);
+        ck_assert_uint_gt(counters_of(s.grid).filtered, 0);
+
+        /* Three vertices more, in the first body: all positions where they are borrowed, else the new ones.
+         */
+        const uint32_t before = s.bodies[2].vertex_count, first_new = grows_own ? 0 : before,
+                       count = first_new + 3;
+        float* grown = (float*)malloc(3 * sizeof(float) * count);
+        for (uint32_t v = 0; v < count; ++v)
+            for (uint32_t axis = 0; axis < 3; ++axis)
+                grown[3 * v + axis] = v < first_new
+                                          ? s.bodies[2].positions[3 * v + axis]
+                                          : 0.3f + 0.1f * (float)axis + 0.05f * (float)(v - first_new);
+        double* grown_doubles = (double*)malloc(3 * sizeof(double) * count);
+        for (uint32_t i = 0; i < 3 * count; ++i) grown_doubles[i] = (double)grown[i];
+        laid_out laid_grown = lay_out(l, grown, count), laid_new_rest = lay_out(l, grown + 3 * first_new, 3);
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        uint32_t first = 0;
+        vertices.count = 3;
+        vertices.positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)grown : grown_doubles;
+        vertices.rest_positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)(grown + 3 * first_new)
+                                                                 : grown_doubles + 3 * first_new;
+        ck_ok(vox_mesh_append_vertices(s.packed, s.packed_ids[2], &vertices, &first));
+        vertices.positions = laid_grown.data;
+        vertices.position_byte_stride = laid_grown.stride;
+        vertices.position_component_byte_stride = laid_grown.component;
+        vertices.rest_positions = laid_new_rest.data;
+        vertices.rest_position_byte_stride = laid_new_rest.stride;
+        vertices.rest_position_component_byte_stride = laid_new_rest.component;
+        ck_ok(vox_mesh_append_vertices(s.grid, s.ids[2], &vertices, &first));
+        ck_assert_uint_eq(first, before);
+        step_both(&s);
+        free(laid_rest.memory);
+        if (grows_own == 0) { /* back to the borrowed arrays before these end */
+            const vox_mesh_desc empty = vox_default_mesh_desc();
+            ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &empty));
+            ck_ok(vox_mesh_set_topology(s.grid, s.ids[2], &empty));
+        }
+        free(laid_grown.memory);
+        free(laid_new_rest.memory);
+        free(grown);
+        free(grown_doubles);
+        free(doubles);
+        free_body(&rest);
+    }
+    free_scene(&s);
+}
+END_TEST
+
+START_TEST(suggested_and_asked) {
+    const layout* l = &layouts[_i];
+    body box = make_box(4, 0.37f, 0, 0, 0);
+    laid_out array = lay_out(l, box.positions, box.vertex_count);
+    const vox_mesh_desc usual = body_desc(&box), desc = laid_out_desc(&box, &array);
+    vox_suggestion suggested[2];
+    memset(suggested, 0, sizeof suggested);
+    suggested[0].struct_size = suggested[1].struct_size = sizeof suggested[0];
+    ck_ok(vox_suggest_cell_size(NULL, &usual, 1, &suggested[0]));
+    ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &suggested[1]));
+    ck_assert_double_eq(suggested[0].cell_size, suggested[1].cell_size);
+    ck_assert_mem_eq(&suggested[0].stats, &suggested[1].stats, sizeof suggested[0].stats);
+
+    vox_grid* grid = engine_grid();
+    (void)insert_mesh(grid, &usual);
+    ck_ok(vox_grid_prepare_queries(grid));
+    vox_closest_desc asked = vox_default_closest_desc();
+    vox_closest_hit* hits[2];
+    for (int i = 0; i < 2; ++i) {
+        hits[i] = (vox_closest_hit*)calloc(box.vertex_count, sizeof *hits[i]);
+        asked.point_count = box.vertex_count;
+        asked.points = i ? (const void*)array.data : box.positions;
+        asked.format = i ? array.format : VOX_FORMAT_FLOAT3;
+        asked.byte_stride = i ? array.stride : 0;
+        asked.component_byte_stride = i ? array.component : 0;
+        ck_ok(vox_grid_query_closest_points(grid, &asked, hits[i]));
+    }
+    ck_assert_mem_eq(hits[0], hits[1], box.vertex_count * sizeof *hits[0]);
+    free(hits[0]);
+    free(hits[1]);
+    vox_grid_destroy(grid);
+    free(array.memory);
+    free_body(&box);
+}
+END_TEST
+
+START_TEST(strides_that_are_refused) {
+    static const struct {
+        vox_format format;
+        uint64_t stride, component, count;
+        const char* words;
+    } bad[] = {{VOX_FORMAT_FLOAT3, 0, 396, 100, "overlap; columns need at least 400"},
+               {VOX_FORMAT_FLOAT3, 0, 1, 100, "position_component_byte_stride is 1"},
+               {VOX_FORMAT_DOUBLE3, 0, 4, 100, "position_component_byte_stride is 4"},
+               {VOX_FORMAT_DOUBLE3, 16, 16, 100, "overlap"},
+               {VOX_FORMAT_DOUBLE3, 4, 800, 100, "overlap"},
+               {VOX_FORMAT_DOUBLE3, 0, 1ull << 62, 100, "too large"},
+               {VOX_FORMAT_DOUBLE3, 1ull << 57, 0, 100, "too large"},
+               {VOX_FORMAT_DOUBLE3, 0, UINT64_MAX, 1, "too large"},
+               {VOX_FORMAT_FLOAT3, 8, 0, 100, "is 8, expected 0 or at least 12"}};
+    double memory[300] = {0};
+    vox_grid* grid = grid_of(NULL);
+    vox_mesh_desc desc = vox_mesh_desc_doubles(memory, 100, NULL, 0);
+    vox_mesh mesh = insert_mesh(grid, &desc), out = VOX_NULL_MESH;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+        desc = vox_default_mesh_desc();
+        desc.vertex_count = bad[i].count;
+        desc.positions = memory;
+        desc.position_format = bad[i].format;
+        desc.position_byte_stride = bad[i].stride;
+        desc.position_component_byte_stride = bad[i].component;
+        ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
+        desc.position_byte_stride = desc.position_component_byte_stride = 0;
+        desc.rest_positions = memory;
+        desc.rest_position_byte_stride = bad[i].stride;
+        desc.rest_position_component_byte_stride = bad[i].component;
+        ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
+        if (bad[i].count == 100)
+            ck_fails(vox_mesh_bind_strided_positions(grid, mesh, memory, bad[i].format, bad[i].stride,
+                                                     bad[i].component),
+                     VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
+    }
+    ck_assert_uint_eq(out, VOX_NULL_MESH);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_loop_test(tests, same_as_packed, 0, layout_count);
+    tcase_add_loop_test(tests, copied, 0, layout_count);
+    tcase_add_loop_test(tests, rest_poses_and_growth, 0, layout_count);
+}
+
+int main(void) {
+    Suite* suite = suite_create("columns");
+    add_for_each_engine(suite, add_tests);
+    TCase* tests = add_case(suite, "both engines, or none");
+    tcase_add_loop_test(tests, suggested_and_asked, 0, layout_count);
+    tcase_add_test(tests, strides_that_are_refused);
+    return run_suite(suite);
+}

@@ -1,0 +1,336 @@
+/* What is easily got wrong is refused or said: doubles under the format of floats, structs that were zeroed,
+ * meshes whose edges and faces collide with nothing. And whether a contact is interior. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/bodies.h"
+#include "support/ledger.h"
+#include "support/oracle.h"
+#include "support/suite.h"
+
+/* ---- the log ---- */
+
+typedef struct lines {
+    char text[4096];
+    uint32_t warnings;
+} lines;
+
+static void keep_line(vox_log_level level, const char* text, void* user) {
+    lines* l = (lines*)user;
+    if (level != VOX_LOG_WARNING) return;
+    ++l->warnings;
+    snprintf(l->text + strlen(l->text), sizeof l->text - strlen(l->text), "%s\n", text);
+}
+
+static vox_log log_to(lines* l) {
+    const vox_log log = {keep_line, l};
+    memset(l, 0, sizeof *l);
+    return log;
+}
+
+static int says(const lines* l, const char* words) { return strstr(l->text, words) != NULL; }
+
+/* ---- doubles and floats ---- */
+
+/* In doubles, of one decimal and scaled, as programs have them. */
+static double* doubles_of(const body* b, double scale) {
+    double* positions = (double*)malloc(3 * sizeof(double) * b->vertex_count);
+    for (size_t i = 0; i < 3 * (size_t)b->vertex_count; ++i)
+        positions[i] = scale * (round(10 * (double)b->positions[i]) / 10);
+    return positions;
+}
+
+START_TEST(doubles_under_floats_are_refused) {
+    body box = make_box(4, 0.3f, 0.1f, 0.2f, 0.3f), other = make_box(4, 0.3f, 0.5f, 0.4f, 0.3f);
+    const double scales[] = {1, 0.1, 1e-3, 3e5 / 7, 3.7};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; ++i) {
+        double* positions = doubles_of(&box, scales[i]);
+        vox_mesh_desc desc = vox_mesh_desc_doubles(positions, box.vertex_count, box.tets, box.tet_count);
+        vox_suggestion suggestion;
+        vox_mesh mesh = VOX_NULL_MESH;
+        desc.user_data = 77;
+        desc.position_format = VOX_FORMAT_FLOAT3; /* the mistake */
+        suggestion.struct_size = sizeof suggestion;
+
+        /* At the first step that reads them, as borrowed ones may be written until then. */
+        vox_grid* grid = engine_grid();
+        vox_mesh_desc good =
+            vox_mesh_desc_floats(other.positions, other.vertex_count, other.tets, other.tet_count);
+        (void)insert_mesh(grid, &good);
+        mesh = insert_mesh(grid, &desc);
+        ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "its positions are doubles");
+        ck_assert_ptr_nonnull(strstr(vox_last_error(), "mesh 4097 (slot 1, user data 77)"));
+        vox_failure failure;
+        failure.struct_size = sizeof failure;
+        ck_ok(vox_grid_failure(grid, 0, &failure));
+        ck_assert_int_eq(failure.result, VOX_ERROR_INVALID_ARGUMENT);
+        ck_assert_uint_eq(failure.mesh, mesh);
+        ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
+        ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT,
+                 "are doubles");
+        ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+        ck_ok(vox_mesh_bind_doubles(grid, mesh, positions));
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_mesh_bind_floats(grid, mesh, (const float*)(const void*)positions));
+        ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+
+        /* At once where they are copied, and where only they are used. */
+        desc.flags = VOX_MESH_COPY_POSITIONS;
+        ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+        ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &suggestion), VOX_ERROR_INVALID_ARGUMENT,
+                 "mesh 0 (user data 77): its positions are doubles");
+        vox_grid_destroy(grid);
+        free(positions);
+    }
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+/* Floats of any size are taken: alike, of every size at once, tiny, huge, zeros. */
+START_TEST(floats_are_never_refused) {
+    body box = make_box(4, 0.25f, 0, 0, 0);
+    const float scales[] = {1, 1e-30f, 1e30f, 0x1p-140f, 0x1p100f};
+    float* positions = (float*)malloc(3 * sizeof(float) * box.vertex_count);
+    vox_grid* grid = engine_grid();
+    const vox_mesh_desc desc = vox_mesh_desc_floats(positions, box.vertex_count, box.tets, box.tet_count);
+    memcpy(positions, box.positions, 3 * sizeof(float) * box.vertex_count);
+    const vox_mesh mesh = insert_mesh(grid, &desc);
+    uint64_t random = 5;
+    for (int axes = 1; axes < 8; ++axes) /* scaled or wild along some axes, as they are along the others */
+        for (size_t s = 0; s < sizeof scales / sizeof *scales + 2; ++s) {
+            for (size_t i = 0; i < 3 * (size_t)box.vertex_count; ++i) {
+                positions[i] = box.positions[i];
+                if (!(axes & 1 << i % 3)) continue;
+                if (s < sizeof scales / sizeof *scales)
+                    positions[i] *= scales[s];
+                else
+                    do
+                        random = random * 6364136223846793005u + 1442695040888963407u,
+                        memcpy(&positions[i], (char*)&random + 4, sizeof(float));
+                    while (!isfinite(positions[i]));
+            }
+            ck_ok(vox_mesh_bind_floats(grid, mesh, positions));
+            ck_ok(vox_grid_step(grid));
+        }
+    vox_grid_destroy(grid);
+    free(positions);
+    free_body(&box);
+}
+END_TEST
+
+/* A mesh whose borrowed memory holds doubles when it is inserted, and floats when it is stepped, is fine. */
+START_TEST(what_the_memory_held_before_does_not_matter) {
+    body box = make_box(4, 0.3f, 0.1f, 0.2f, 0.3f);
+    double* memory = doubles_of(&box, 0.1);
+    vox_grid* grid = engine_grid();
+    const vox_mesh_desc desc =
+        vox_mesh_desc_floats((const float*)(const void*)memory, box.vertex_count, box.tets, box.tet_count);
+    (void)insert_mesh(grid, &desc);
+    memcpy(memory, box.positions, 3 * sizeof(float) * box.vertex_count);
+    ck_ok(vox_grid_step(grid));
+    vox_grid_destroy(grid);
+    free(memory);
+    free_body(&box);
+}
+END_TEST
+
+START_TEST(typed_helpers) {
+    const float floats[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double doubles[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const uint32_t tets[4] = {0, 1, 2, 3};
+    vox_mesh_desc expected = vox_default_mesh_desc();
+    expected.positions = floats;
+    expected.vertex_count = 4;
+    expected.tets = tets;
+    expected.tet_count = 1;
+    vox_mesh_desc desc = vox_mesh_desc_floats(floats, 4, tets, 1);
+    ck_assert_mem_eq(&desc, &expected, sizeof desc);
+    expected.positions = doubles;
+    expected.position_format = VOX_FORMAT_DOUBLE3;
+    desc = vox_mesh_desc_doubles(doubles, 4, tets, 1);
+    ck_assert_mem_eq(&desc, &expected, sizeof desc);
+}
+END_TEST
+
+/* ---- zeroed structs ---- */
+
+START_TEST(zeroed_filter) {
+    body box = make_box(2, 0.5f, 0, 0, 0), other = make_box(2, 0.5f, 0.3f, 0.3f, 0.3f);
+    lines log;
+    vox_grid_desc settings = engine_desc();
+    settings.log = log_to(&log);
+    vox_grid* grid = grid_of(&settings);
+    const vox_mesh_desc a = body_desc(&box);
+    vox_mesh_desc b = body_desc(&other);
+    (void)insert_mesh(grid, &a);
+    vox_filter filter;
+    memset(&filter, 0, sizeof filter);
+    filter.struct_size = sizeof filter;
+    vox_mesh mesh = VOX_NULL_MESH;
+    b.filter = &filter;
+    b.user_data = 9;
+    ck_fails(vox_mesh_insert(grid, &b, &mesh), VOX_ERROR_INVALID_ARGUMENT, "collide with nothing");
+    b.filter = NULL;
+    mesh = insert_mesh(grid, &b);
+    ck_ok(vox_grid_step(grid));
+    const uint64_t count = contacts_of(grid).count;
+    ck_assert_uint_gt(count, 0);
+    ck_fails(vox_mesh_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "vox_default_filter");
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(contacts_of(grid).count, count);
+    ck_assert_uint_eq(log.warnings, 0);
+
+    /* What someone may want is taken, and said once where there is a log. */
+    filter.self_collision = 1; /* with itself alone */
+    for (int i = 0; i < 3; ++i) ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_assert_uint_eq(log.warnings, 1);
+    ck_assert(says(
+        &log, "mesh 4097 (slot 1, user data 9) collides with no other mesh: the mask of its filter is 0"));
+    vox_grid_destroy(grid);
+    memset(&log, 0, sizeof log);
+    grid = grid_of(&settings);
+    b.filter = &filter;
+    filter.mask = 1;
+    filter.group = 3; /* with its group alone */
+    (void)insert_mesh(grid, &b);
+    ck_assert_uint_eq(log.warnings, 0);
+    filter.group = 0;
+    (void)insert_mesh(grid, &b);
+    ck_assert_uint_eq(log.warnings, 1);
+    ck_assert(
+        says(&log,
+             "mesh 4097 (slot 1, user data 9) collides with no other mesh: the category of its filter is 0"));
+    vox_grid_destroy(grid);
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+START_TEST(zeroed_grid_desc) {
+    lines log;
+    vox_grid_desc desc;
+    vox_penetration_view view;
+    memset(&desc, 0, sizeof desc);
+    desc.struct_size = sizeof desc;
+    desc.log = log_to(&log);
+    vox_grid* grid = grid_of(&desc);
+    ck_assert_uint_eq(log.warnings, 1);
+    ck_assert(says(&log, "vox_grid_desc is all 0: no penetrations"));
+    ck_fails(vox_grid_penetrations(grid, &view), VOX_ERROR_INVALID_STATE, "vox_default_grid_desc sets");
+    vox_grid_destroy(grid);
+    desc = vox_default_grid_desc();
+    desc.log = log_to(&log);
+    desc.flags = 0; /* on purpose */
+    vox_grid_destroy(grid_of(&desc));
+    ck_assert_uint_eq(log.warnings, 0);
+}
+END_TEST
+
+/* ---- meshes without tetrahedra ---- */
+
+START_TEST(edges_collide_with_nothing) {
+    /* A blade through a tetrahedron: no vertex of either is in the other. */
+    const float organ[12] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4},
+                blade[9] = {-9, -9, 0.5f, 9, 0, 0.5f, 0, 9, 0.5f};
+    const uint32_t tets[4] = {0, 1, 2, 3};
+    lines log;
+    vox_grid_desc settings = engine_desc();
+    settings.log = log_to(&log);
+    vox_grid* grid = grid_of(&settings);
+    const vox_mesh_desc a = vox_mesh_desc_floats(organ, 4, tets, 1);
+    vox_mesh_desc b = vox_mesh_desc_floats(blade, 3, NULL, 0);
+    b.user_data = 12;
+    (void)insert_mesh(grid, &a);
+    ck_assert_uint_eq(log.warnings, 0);
+    (void)insert_mesh(grid, &b);
+    ck_assert_uint_eq(log.warnings, 1);
+    ck_assert(says(&log, "mesh 4097 (slot 1, user data 12) has no tetrahedra"));
+    ck_assert(says(&log, "its edges and faces with nothing"));
+    (void)insert_mesh(grid, &b);
+    ck_assert_uint_eq(log.warnings, 1);
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(contacts_of(grid).count, 0);
+    const vox_counters counters = counters_of(grid);
+    ck_assert_uint_eq(counters.meshes, 3);
+    ck_assert_uint_eq(counters.meshes_without_tets, 2);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+/* ---- interior or boundary ---- */
+
+static vox_interior_view interiors_of(const vox_grid* grid) {
+    vox_interior_view view = {NULL, 0, 99, 0};
+    ck_ok(vox_grid_contact_interiors(grid, &view));
+    return view;
+}
+
+/* Compares with the oracle; returns how many contacts are on a boundary. */
+static uint64_t check_interiors(const vox_grid* grid, const body* bodies, uint32_t count) {
+    oracle_mesh meshes[3];
+    oracle_contact* expected = NULL;
+    for (uint32_t b = 0; b < count; ++b) {
+        const oracle_mesh mesh = {bodies[b].positions, bodies[b].tets, bodies[b].vertex_count,
+                                  bodies[b].tet_count, 0};
+        meshes[b] = mesh;
+    }
+    const size_t contacts = oracle_contacts(meshes, count, &expected);
+    const vox_interior_view view = interiors_of(grid);
+    uint64_t epoch = 0, boundary = 0;
+    ck_ok(vox_grid_epoch(grid, &epoch));
+    ck_assert_uint_eq(view.epoch, epoch);
+    ck_assert_uint_eq(view.count, contacts);
+    ck_assert_uint_eq(view.count, contacts_of(grid).count);
+    for (size_t i = 0; i < contacts; ++i) {
+        const uint8_t interior = view.data[i * view.byte_stride];
+        ck_assert_uint_eq(interior, (uint8_t)(expected[i].interior != 0));
+        boundary += !interior;
+    }
+    free(expected);
+    return boundary;
+}
+
+START_TEST(interior_and_boundary) {
+    body bodies[3] = {make_box(3, 0.5f, 0, 0, 0), make_box(3, 0.5f, 0.5f, 0.25f, 0),
+                      make_box(2, 0.5f, 0.3f, 0.4f, 0.6f)};
+    vox_grid* grid = engine_grid();
+    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    for (int b = 0; b < 3; ++b) {
+        const vox_mesh_desc desc = body_desc(&bodies[b]);
+        (void)insert_mesh(grid, &desc);
+    }
+    for (int step = 0; step < 6; ++step) { /* new, at rest, and with one that moves among others at rest */
+        ck_ok(vox_grid_step(grid));
+        const uint64_t boundary = check_interiors(grid, bodies, 3);
+        ck_assert_uint_gt(boundary, 10);
+        ck_assert_uint_lt(boundary + 10, contacts_of(grid).count);
+        if (step >= 2)
+            for (uint32_t v = 0; v < bodies[2].vertex_count; ++v) bodies[2].positions[3 * v] += 0.03125f;
+    }
+    bodies[0].positions[0] = NAN;
+    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "not finite");
+    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    bodies[0].positions[0] = 0;
+    ck_ok(vox_grid_step(grid));
+    (void)check_interiors(grid, bodies, 3);
+    ck_ok(vox_grid_clear(grid));
+    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    vox_grid_destroy(grid);
+    for (int b = 0; b < 3; ++b) free_body(&bodies[b]);
+}
+END_TEST
+
+static void add_tests(TCase* tests) {
+    tcase_add_each(tests, doubles_under_floats_are_refused, floats_are_never_refused,
+                   what_the_memory_held_before_does_not_matter, zeroed_filter, edges_collide_with_nothing,
+                   interior_and_boundary);
+}
+
+int main(void) {
+    Suite* suite = suite_create("traps");
+    add_for_each_engine(suite, add_tests);
+    tcase_add_each(add_case(suite, "both engines, or none"), typed_helpers, zeroed_grid_desc);
+    return run_suite(suite);
+}
