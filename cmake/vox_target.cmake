@@ -16,9 +16,37 @@ function(vox_target name)
   endif()
 endfunction()
 
+# What makes an overflow, should there be one, harder to exploit. The libraries read files and snapshots of strangers.
+option(VOX_HARDEN "Compile and link libraries and tool with stack protector, fortified C functions, control-flow
+protection and read-only relocations; off: where a packager's own flags say it" ON)
+if(VOX_SANITIZE OR MSVC)
+  set(VOX_HARDEN OFF) # the sanitizers see more
+endif()
+if(VOX_HARDEN)
+  include(CheckCXXCompilerFlag)
+  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection=full -mbranch-protection=standard)
+    string(MAKE_C_IDENTIFIER "VOX_HAS${flag}" has)
+    check_cxx_compiler_flag(${flag} ${has})
+    if(${has})
+      list(APPEND VOX_HARDENING ${flag})
+    endif()
+  endforeach()
+endif()
+function(vox_harden name)
+  if(NOT VOX_HARDEN)
+    return()
+  endif()
+  target_compile_options(${name} PRIVATE ${VOX_HARDENING}
+    $<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2>) # which needs an optimising compiler
+  if(UNIX AND NOT APPLE AND NOT EMSCRIPTEN)
+    target_link_options(${name} PRIVATE LINKER:-z,relro,-z,now,-z,noexecstack)
+  endif()
+endfunction()
+
 # A library with C linkage only: everything but vox_* is hidden, by compiler flags and by an export map.
 function(vox_library name export_map)
   vox_target(${name})
+  vox_harden(${name})
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${VOX_ABI_VERSION})
   if(BUILD_SHARED_LIBS)
     target_compile_definitions(${name} PRIVATE VOX_BUILD)
