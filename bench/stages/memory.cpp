@@ -167,7 +167,7 @@ void report(bench::Scene& scene, const Options& options) {
     table.add("states", held(parts.of_states));
     state("- last positions", [](const vox::fast::MeshState& s) { return room(s.last_positions.positions); });
     state("- reference of orientation", [](const vox::fast::MeshState& s) {
-        return room(s.orientation.points, s.orientation.shapes, s.orientation.slack);
+        return room(s.orientation->points, s.orientation->shapes, s.orientation->slack);
     });
     const vox::fast::StepBoxes& boxes = parts.engine.boxes();
     const vox::fast::Windows& windows = parts.engine.windows();

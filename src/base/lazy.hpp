@@ -1,13 +1,17 @@
-// A value that is made by the first const call that needs it, and then kept. If several threads call at the
-// same time, each makes one, and the first that is ready is kept.
+// Values that are made when they are needed.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <memory_resource>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 namespace vox {
 
+// Made by the first const call that needs it, and then kept. If several threads call at the same time, each
+// makes one, and the first that is ready is kept.
 template <class T>
 class Lazy {
 public:
@@ -35,6 +39,45 @@ public:
 
 private:
     mutable std::atomic<const T*> made_ = nullptr;
+};
+
+// A value that few objects need: a pointer until it is made, and as if empty before. A T is made from a
+// memory_resource*, which then takes no memory and cannot fail.
+template <class T>
+class Rare {
+    static_assert(std::is_nothrow_constructible_v<T, std::pmr::memory_resource*>);
+
+public:
+    explicit Rare(std::pmr::memory_resource* memory) noexcept : memory_(memory) {}
+    Rare(Rare&& other) noexcept : memory_(other.memory_), made_(std::exchange(other.made_, nullptr)) {}
+    Rare& operator=(Rare&& other) noexcept {
+        std::swap(memory_, other.memory_);
+        std::swap(made_, other.made_);
+        return *this;
+    }
+    ~Rare() {
+        if (!made_) return;
+        made_->~T();
+        memory_->deallocate(made_, sizeof(T), alignof(T));
+    }
+
+    const T& operator*() const noexcept {
+        static const T empty(std::pmr::null_memory_resource());
+        return made_ ? *made_ : empty;
+    }
+    const T* operator->() const noexcept { return &**this; }
+
+    // To change it; null before it is made.
+    T* if_made() noexcept { return made_; }
+    // Makes it, unless that is done. Throws what the memory throws.
+    T& make() {
+        if (!made_) made_ = ::new (memory_->allocate(sizeof(T), alignof(T))) T(memory_);
+        return *made_;
+    }
+
+private:
+    std::pmr::memory_resource* memory_;
+    T* made_ = nullptr;
 };
 
 } // namespace vox

@@ -53,7 +53,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
         body.last = &prepared[b].state->last_positions;
         if (settings.winding && bodies[b].self_collision && prepared[b].boundary->is_closed) {
             body.boundary = prepared[b].boundary;
-            body.orientation = &prepared[b].state->orientation;
+            body.orientation = &prepared[b].state->orientation.make();
         }
         body.moved = !settings.carry;
     }

@@ -1,6 +1,7 @@
 // What the fast engine keeps of a mesh from step to step, beside what the mesh keeps of itself.
 #pragma once
 
+#include "base/lazy.hpp"
 #include "fast/last_positions.hpp"
 #include "fast/winding/orientation.hpp"
 #include "mesh/tiled_mesh.hpp"
@@ -15,7 +16,7 @@ struct MeshState {
         : last_positions(memory), orientation(memory) {}
 
     LastPositions last_positions;
-    OrientationCache orientation;
+    Rare<OrientationCache> orientation; // of bodies that winding numbers may be of use for
 
     // Brings the state up to date with the tiles of a mesh, before a step. `version` is that of the tiles:
     // where they were made anew, so is the state, else it takes in the edits since the last call. Throws what

@@ -229,7 +229,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
-        const RestPose& rest = mesh.self_filter_.rest;
+        const RestPose& rest = mesh.self_filter_->rest;
         const vox_filter filter = mesh.filter(), usual = filter_defaults();
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
             filter.mask == usual.mask && filter.self_rings == usual.self_rings &&
@@ -282,7 +282,7 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     }
     in.end();
     or_refuse(in, id, [&] {
-        if (rest != no_rest) mesh.self_filter_.rest = mesh.rest_pose(given, mesh.vertex_count());
+        if (rest != no_rest) mesh.self_filter_.make().rest = mesh.rest_pose(given, mesh.vertex_count());
         check_filter(filter);
         mesh.set_filter(filter);
     });

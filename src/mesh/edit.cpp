@@ -176,13 +176,13 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
 
     // The rest pose grows, too.
     RestPose rest(memory());
-    const bool has_rest = !self_filter_.rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
+    const bool has_rest = !self_filter_->rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
         rest = rest_pose(check_positions(desc.rest_positions, position_format, desc.rest_position_byte_stride,
                                          desc.rest_position_component_byte_stride, added, "rest_"),
                          added);
     } else if (has_rest && desc.copies_of) {
-        rest = self_filter_.rest.of({desc.copies_of, added});
+        rest = self_filter_->rest.of({desc.copies_of, added});
     } else if (has_rest) {
         Positions poses = given;
         if (owns)
@@ -195,11 +195,11 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
         if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
         rest = rest_pose(poses, added);
     }
-    self_filter_.rest.reserve_for(rest);
+    if (has_rest) self_filter_.make().rest.reserve_for(rest);
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
     if (owns) reserve_growing(owned_, doubles);
 
-    self_filter_.rest.append(rest);
+    if (SelfFilter* own = self_filter_.if_made()) own->rest.append(rest);
     vertex_count_ = count;
     if (owns) {
         owned_.resize(doubles);
@@ -268,7 +268,7 @@ void Mesh::invalidate_tiles() noexcept {
 void Mesh::invalidate_prepared() noexcept {
     tets_of_ = IndexLists(memory());
     drop_topology();
-    self_filter_.rings = Rings(memory());
+    if (SelfFilter* own = self_filter_.if_made()) own->rings = Rings(memory());
     has_tets_of_ = false;
     has_rings_ = filter_.self_rings == 0;
     sample_.reset();
@@ -293,7 +293,7 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
             ++topology_version_;
             repair_topology(tets_, tets_of_, changes, topology_);
         }
-        if (has_rings) self_filter_.rings.repair(tets_, tets_of_, changes, filter_.self_rings);
+        if (has_rings) self_filter_.make().rings.repair(tets_, tets_of_, changes, filter_.self_rings);
     } catch (...) { // out of memory, as a rule
         invalidate_prepared();
     }
@@ -305,7 +305,7 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
         if (has_tets_of_) tets_of_.resize(vertex_count_);
         if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) invalidate_tiles();
         if (has_topology_) add_vertices(vertex_count_, topology_);
-        if (has_rings_ && filter_.self_rings != 0) self_filter_.rings.add_vertices(vertex_count_);
+        if (has_rings_ && filter_.self_rings != 0) self_filter_.make().rings.add_vertices(vertex_count_);
     } catch (...) {
         invalidate_prepared();
     }
@@ -318,7 +318,8 @@ Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
     made.set_transform(has_transform_ ? transform_.data() : nullptr);
     if (!desc.positions && view.vertex_count == vertex_count_) {
         made.positions_ = positions_; // take_over() moves owned ones
-        if (!desc.rest_positions) made.self_filter_.rest = self_filter_.rest;
+        if (!desc.rest_positions && !self_filter_->rest.empty())
+            made.self_filter_.make().rest = self_filter_->rest;
     }
     made.set_filter(filter_);
     return made;

@@ -23,7 +23,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
         map_positions();
     }
     if (desc.rest_positions)
-        self_filter_.rest = rest_pose(
+        self_filter_.make().rest = rest_pose(
             check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
                             desc.rest_position_component_byte_stride, vertex_count_, "rest_"),
             vertex_count_);
@@ -68,7 +68,8 @@ const MeshSample& Mesh::sample() const {
 
 void Mesh::make_rings() {
     if (has_rings_) return;
-    self_filter_.rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
+    if (filter_.self_rings != 0)
+        self_filter_.make().rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
     has_rings_ = true;
 }
 
@@ -118,7 +119,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .penetration_mask = filter_.penetration_mask,
             .exceptions = exceptions_,
             .self_filter =
-                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &self_filter_ : nullptr,
+                filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &*self_filter_ : nullptr,
             .off = off_.words(),
             .off_count = off_.count(),
             .removed_vertices = removed_vertices_.words(),
@@ -128,13 +129,14 @@ Body Mesh::body(vox_mesh id) const noexcept {
 
 void Mesh::set_filter(const vox_filter& filter) {
     RestPose rest(memory());
-    if (filter.self_rest_distance > 0 && self_filter_.rest.empty() && vertex_count_ > 0) {
+    if (filter.self_rest_distance > 0 && self_filter_->rest.empty() && vertex_count_ > 0) {
         if (!has_positions())
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
         rest = rest_pose(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
     }
+    if (filter.self_rings != 0 || filter.self_rest_distance > 0) self_filter_.make();
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
     if (other_rings) rings = Rings(tets(), vertex_count_, filter.self_rings, memory());
@@ -145,10 +147,12 @@ void Mesh::set_filter(const vox_filter& filter) {
         make_tiled_mesh(with_self, tiled_, has_topology_ ? &topology_ : nullptr);
         ++tiles_version_;
     }
-    if (!rest.empty()) self_filter_.rest = std::move(rest);
-    if (other_rings) self_filter_.rings = std::move(rings);
+    if (SelfFilter* own = self_filter_.if_made()) {
+        if (!rest.empty()) own->rest = std::move(rest);
+        if (other_rings) own->rings = std::move(rings);
+        own->rest_distance = filter.self_rest_distance;
+    }
     has_rings_ = true;
-    self_filter_.rest_distance = filter.self_rest_distance;
     filter_ = filter;
 }
 

@@ -162,7 +162,7 @@ private:
     bool format_checked_ = false; // that the positions are of their format
     bool enabled_ = true;
     vox_filter filter_;
-    SelfFilter self_filter_;
+    Rare<SelfFilter> self_filter_;
     std::pmr::vector<vox_mesh> exceptions_;
 };
 
