@@ -33,8 +33,8 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_VTU = 6,     /* XML .vtu: ASCII, base64, appended; raw or zlib */
     VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
-     * busy without end and fill its memory. So AUTO never chooses it, and libraries built without it (the CMake option
-     * VOX_IO_ASSIMP is off by default) answer UNSUPPORTED. */
+     * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
+     * default (docs/files.md), answers UNSUPPORTED. */
     VOX_IO_FORMAT_ASSIMP = 8,
     VOX_IO_FORMAT_FORCE_32_BITS = 0x7fffffff
 } vox_io_format;
@@ -65,8 +65,10 @@ typedef struct vox_io_source {
 /* A mesh in memory. Immutable. */
 typedef struct vox_io_mesh vox_io_mesh;
 
-/* Reads the file at `path` (for TetGen either file of the pair; the other must be beside it). desc null:
- * defaults. A regular file is mapped into memory while it is read and must not be shortened meanwhile.
+/* Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must files that a
+ * .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory; one
+ * that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is read
+ * and must not be shortened meanwhile.
  * Errors: FILE, FORMAT (the text names the file, the line or byte, and what was expected there),
  * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT. */
 VOX_API vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
