@@ -2,6 +2,7 @@
 
 #include "by_assimp.hpp"
 #include "failure.hpp"
+#include "terminal.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -53,6 +54,8 @@ Body own_body(const std::string& name, vox_io_mesh* mesh) {
 }
 
 Body load_body(const std::string& path, const Placement& placement, const Fill& fill) {
+    Progress progress;
+    progress.show_reading(path);
     Body body;
     body.name = path;
     body.mesh = load_mesh(path);

@@ -1,8 +1,11 @@
 #include "command_line.hpp"
 
+#include "terminal.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -28,6 +31,94 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
         if (argument.size() > 2 && argument.starts_with("-.") && argument[2] >= '0' && argument[2] <= '9')
             argument.insert(1, "0");
     return arguments;
+}
+
+// How many letters must be put in, left out, replaced or swapped with the next to make `b` of `a`.
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> two_before(b.size() + 1), before(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) before[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            row[j] = std::min({before[j] + 1, row[j - 1] + 1, before[j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], two_before[j - 2] + 1);
+        }
+        two_before = before;
+        before = row;
+    }
+    return before.back();
+}
+
+// ", did you mean X?", or nothing if no name resembles the word.
+std::string nearest(const std::string& word, const std::vector<std::string>& names) {
+    const std::string* best = nullptr;
+    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& name : names)
+        if (const std::size_t found = distance(word, name); found < least) {
+            best = &name;
+            least = found;
+        }
+    return best ? ", did you mean '" + *best + "'?" : "";
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// `vox help` and `vox help COMMAND` are what other programs have for --help.
+void replace_help(std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments.back() != "help") return;
+    arguments.pop_back();
+    arguments.insert(arguments.empty() ? arguments.end() : arguments.end() - 1, "--help");
+}
+
+// Words for what CLI11 did not expect: the first such argument and the name that it may have meant.
+std::string unexpected(const CLI::App& app) {
+    const std::vector<std::string> rest = app.remaining(true);
+    const auto chosen = app.get_subcommands();
+    const std::string word = rest.front().substr(0, rest.front().find('='));
+    const bool option = word.starts_with('-');
+    if (chosen.empty() && !option)
+        return "there is no command '" + word + "'" + nearest(word, command_names(app));
+    return "unexpected " + std::string(option ? "option" : "argument") + " '" + word + "'" +
+           (option ? nearest(word, option_names(chosen.empty() ? app : *chosen.front())) : "");
+}
+
+std::vector<std::string> split_choices(const std::string& text) {
+    std::vector<std::string> parts;
+    if (text.find('|') == std::string::npos) return parts;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('|', begin)) != std::string::npos; begin = end + 1)
+        parts.push_back(text.substr(begin, end - begin));
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+OptionUsage usage_of(const CLI::Option& option) {
+    OptionUsage usage;
+    for (const std::string& name : option.get_snames()) usage.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) usage.names.push_back("--" + name);
+    const std::string type = option.get_type_name();
+    if (option.get_positional())
+        usage.value = option.get_name();
+    else if (option.get_items_expected_max() > 0)
+        usage.value = type;
+    usage.choices = split_choices(type);
+    usage.description = option.get_description();
+    usage.required = option.get_required();
+    usage.repeated = option.get_positional() && option.get_items_expected_max() > 1;
+    return usage;
 }
 
 } // namespace
@@ -59,6 +150,9 @@ Option& Option::number(bool (*accept)(double value), const std::string& words) {
 Option& Option::finite() {
     return number([](double) { return true; }, "a finite number");
 }
+Option& Option::not_zero() {
+    return number([](double value) { return value != 0; }, "a number other than 0");
+}
 Option& Option::positive() {
     return number([](double value) { return value > 0; }, "a number above 0");
 }
@@ -69,12 +163,22 @@ Option& Option::fraction() {
     return number([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1");
 }
 
-Option& Option::range(std::uint32_t least, std::uint32_t most) {
-    return option_->check(CLI::Range(least, most)), *this;
+Option& Option::whole(std::uint64_t least, std::uint64_t most) {
+    const auto check = [least, most](const std::string& text) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = error == std::errc() && end == text.data() + text.size();
+        return whole && value >= least && value <= most
+                   ? std::string()
+                   : "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+                         ", found " + text;
+    };
+    option_->check(CLI::Validator(check, ""));
+    return *this;
 }
-Option& Option::range(std::uint64_t least, std::uint64_t most) {
-    return option_->check(CLI::Range(least, most)), *this;
-}
+
+Option& Option::range(std::uint32_t least, std::uint32_t most) { return whole(least, most); }
+Option& Option::range(std::uint64_t least, std::uint64_t most) { return whole(least, most); }
 
 // ---- commands -------------------------------------------------------------------------------------
 
@@ -92,10 +196,10 @@ Option Command::option(const std::string& name, std::vector<double>& value, cons
     return Option(app_->add_option(name, value, description));
 }
 Option Command::option(const std::string& name, std::uint32_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    return Option(app_->add_option(name, value, description)).whole(0, UINT32_MAX);
 }
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    return Option(app_->add_option(name, value, description)).whole(0, UINT64_MAX);
 }
 
 Option Command::flag(const std::string& name, bool& value, const std::string& description) {
@@ -118,26 +222,58 @@ CommandLine::CommandLine(const std::string& name, const std::string& version, co
     : app_(std::make_unique<CLI::App>(description, name)) {
     app_->set_version_flag("--version", version);
     app_->require_subcommand(1);
+    app_->footer("'vox help COMMAND' shows the options of a command.");
 }
 
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::add(const std::string& name, const std::string& description) {
-    return Command(app_->add_subcommand(name, description));
+    CLI::App* const command = app_->add_subcommand(name, description);
+    command->add_flag("--progress", progress_,
+                      "Show progress on standard error also if that is not a terminal");
+    return Command(command);
 }
 
 int CommandLine::run(int argc, char** argv) {
+    std::vector<std::string> arguments = arguments_of(argc, argv);
+    replace_help(arguments);
+    // A word in the place of the command: CLI11 would only say that a command is missing.
+    if (!arguments.empty() && !arguments.back().starts_with('-')) {
+        const std::vector<std::string> names = command_names(*app_);
+        if (std::find(names.begin(), names.end(), arguments.back()) == names.end())
+            return wrong_usage(*app_, ("there is no command '" + arguments.back() + "'" +
+                                       nearest(arguments.back(), names))
+                                          .c_str());
+    }
+    // Commands run within parse(), so that this must be known before.
+    if (std::find(arguments.begin(), arguments.end(), "--progress") != arguments.end())
+        Progress::show_always();
     try {
-        app_->parse(arguments_of(argc, argv)); // also runs the command
+        app_->parse(arguments); // also runs the command
         return 0;
     } catch (const CLI::Success& request) { // --help, --version
         app_->exit(request);
         return 0;
     } catch (const CLI::ParseError& error) {
-        return wrong_usage(*app_, error.what());
+        // What is missing may be there, but misspelt.
+        const bool odd = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError) ||
+                         error.get_exit_code() == int(CLI::ExitCodes::RequiredError);
+        return wrong_usage(*app_, odd && !app_->remaining(true).empty() ? unexpected(*app_).c_str() : error.what());
     } catch (const WrongUsage& error) {
         return wrong_usage(*app_, error.what());
     }
+}
+
+Usage CommandLine::usage() const {
+    Usage usage{app_->get_name(), app_->get_description(), {}, {}};
+    for (const CLI::Option* option : app_->get_options()) usage.options.push_back(usage_of(*option));
+    for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; })) {
+        CommandUsage& added =
+            usage.commands.emplace_back(CommandUsage{command->get_name(), command->get_description(), {}, {}});
+        for (const CLI::Option* option : command->get_options())
+            (option->get_positional() ? added.arguments : added.options).push_back(usage_of(*option));
+    }
+    return usage;
 }
 
 } // namespace tool

@@ -39,6 +39,7 @@ public:
     Option& excludes(const Option& other);
 
     Option& finite();
+    Option& not_zero();
     Option& positive();
     Option& not_negative();
     Option& fraction(); // between 0 and 1
@@ -46,8 +47,11 @@ public:
     Option& range(std::uint64_t least, std::uint64_t most);
 
 private:
+    friend class Command;
     // Accepts finite numbers for which `accept` is true; `words` describes them, e.g. "a number above 0".
     Option& number(bool (*accept)(double value), const std::string& words);
+    // CLI11 alone takes -1 for the largest number there is.
+    Option& whole(std::uint64_t least, std::uint64_t most);
 
     CLI::Option* option_;
 };
@@ -92,6 +96,26 @@ private:
     CLI::App* app_;
 };
 
+// An option, or an argument, as the usage shows it.
+struct OptionUsage {
+    std::vector<std::string> names;   // "-o", "--output"; empty for an argument
+    std::string value;                // what it takes, e.g. FLOAT or FILE; the name of an argument; empty for a flag
+    std::vector<std::string> choices; // the values that it accepts, if these are few words
+    std::string description;
+    bool required = false, repeated = false;
+};
+
+struct CommandUsage {
+    std::string name, description;
+    std::vector<OptionUsage> arguments, options;
+};
+
+struct Usage {
+    std::string name, description;
+    std::vector<OptionUsage> options;
+    std::vector<CommandUsage> commands;
+};
+
 // The program with its commands, of which one has to be named.
 class CommandLine {
 public:
@@ -106,8 +130,12 @@ public:
     // usage.
     int run(int argc, char** argv);
 
+    // The usage as data, for the manual page and the completions of shells.
+    Usage usage() const;
+
 private:
     std::unique_ptr<CLI::App> app_;
+    bool progress_ = false;
 };
 
 } // namespace tool

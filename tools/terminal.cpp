@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 
 #ifdef _WIN32
@@ -24,6 +25,8 @@ bool standard_error_is_terminal() {
 #endif
 }
 
+bool lines = false; // progress as lines, also where standard error is no terminal
+
 std::string repeated(std::string_view text, int count) {
     std::string result;
     for (int i = 0; i < count; ++i) result += text;
@@ -37,17 +40,39 @@ constexpr const char* rows_utf8[8] = {"", "▏", "▎", "▍", "▌", "▋", "�
 
 } // namespace
 
-Progress::Progress() : terminal_(standard_error_is_terminal()), begin_(std::chrono::steady_clock::now()) {}
+Progress::Progress() : begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
+    if (shown_ && !lines) std::fputs("\r\033[K", stderr);
 }
 
+void Progress::show_always() { lines = !standard_error_is_terminal(); }
+
 void Progress::show(const std::string& where) {
-    if (!terminal_ || std::chrono::steady_clock::now() - begin_ < std::chrono::milliseconds(500)) return;
-    std::fprintf(stderr, "\r\033[Kvox: %s", where.c_str());
+    const auto now = std::chrono::steady_clock::now();
+    const bool due = lines ? !shown_ || now - last_ >= std::chrono::seconds(1)
+                           : standard_error_is_terminal() && now - begin_ >= std::chrono::milliseconds(500);
+    if (due) print(where);
+}
+
+void Progress::show_reading(const std::string& path) {
+    std::error_code error;
+    const double bytes = static_cast<double>(std::filesystem::file_size(path, error));
+    if (error) return; // the reader says why
+    char words[48];
+    if (bytes < 1e6)
+        std::snprintf(words, sizeof words, ", %.0f kB", std::ceil(bytes * 1e-3));
+    else
+        std::snprintf(words, sizeof words, ", %.0f MB", bytes * 1e-6);
+    // Readers take some tens of megabytes a second.
+    if (lines || (standard_error_is_terminal() && bytes > 1e7)) print("reading " + path + words);
+}
+
+void Progress::print(const std::string& where) {
+    std::fprintf(stderr, lines ? "vox: %s\n" : "\r\033[Kvox: %s", where.c_str());
     std::fflush(stderr);
     shown_ = true;
+    last_ = std::chrono::steady_clock::now();
 }
 
 bool locale_is_utf8() {

@@ -9,7 +9,8 @@
 namespace tool {
 
 // A line on standard error that overwrites itself, e.g. "vox: step 3 of 100". It is shown only on a terminal,
-// and only after half a second, so that short work shows nothing. The destructor erases it.
+// and only after half a second, so that short work shows nothing. The destructor erases it. After show_always() it
+// is shown elsewhere, too, as lines of their own: the first at once, the next ones after a second each.
 class Progress {
 public:
     Progress();
@@ -17,12 +18,17 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    static void show_always();
+
     void show(const std::string& where);
+    // Names the file and its size, at once if it is so large that reading it will take long.
+    void show_reading(const std::string& path);
 
 private:
-    bool terminal_;
+    void print(const std::string& where);
+
     bool shown_ = false;
-    std::chrono::steady_clock::time_point begin_;
+    std::chrono::steady_clock::time_point begin_, last_;
 };
 
 // Whether the locale of the environment can print the block and line characters of Unicode.
