@@ -212,7 +212,8 @@ START_TEST(reserved_contacts) {
         vox_grid* grid = grid_of(&desc);
         const uint64_t before = counters_of(grid).bytes;
         ck_ok(vox_grid_reserve(grid, 0, contacts));
-        const uint64_t each = 84 + (flags & VOX_GRID_PENETRATIONS ? 76 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
+        const uint64_t each =
+            85 + (flags & VOX_GRID_PENETRATIONS ? 76 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
         ck_assert_uint_eq(counters_of(grid).bytes - before, each * contacts);
         vox_grid_destroy(grid);
     }
