@@ -161,7 +161,7 @@ public:
         // A hash without pattern gives the fullest bucket of n about ln n / ln ln n cells where there is one
         // for each bucket (Knuth 3, Sect. 6.4; 9 of a million), and few more than the mean where there are
         // many. The bound is far above that.
-        longest_chain_ = std::uint32_t(32 + 8 * (particle_count / std::max<std::size_t>(bucket_count, 1)));
+        longest_chain_ = 32 + 8 * (particle_count / std::max<std::size_t>(bucket_count, 1));
     }
 
     // The occupied cell at these coordinates of this bucket, or null.
@@ -174,7 +174,8 @@ public:
     // Puts particle `index` at the head of its cell's list; returns how many are in the cell now. Returns 0,
     // and has changed nothing, if the bucket has so many cells that its hash is not to be used.
     std::uint32_t insert(std::uint32_t bucket, const CellCoord& at, Particle& particle, std::uint32_t index) {
-        std::uint32_t c = heads_[bucket], left = longest_chain_;
+        std::uint32_t c = heads_[bucket];
+        std::size_t left = longest_chain_;
         for (; c != none && cells_[c].at != at; c = cells_[c].next)
             if (--left == 0) return 0;
         if (c == none) {
@@ -193,7 +194,7 @@ public:
 private:
     std::pmr::vector<std::uint32_t> heads_; // by bucket
     std::pmr::vector<Cell> cells_;
-    std::uint32_t longest_chain_ = 0; // most cells of a bucket
+    std::size_t longest_chain_ = 0; // most cells of a bucket
 };
 
 // The smallest prime that is at least `number`, or else the largest prime of 32 bits.

@@ -77,7 +77,7 @@ START_TEST(ranges_are_the_whole_or_an_error) {
         as_many += !each_once && done == items;
     }
     ck_assert_uint_gt(whole, 1000);
-    ck_assert_uint_gt(as_many, 1000); // a sum of items alone would let these pass
+    ck_assert_uint_gt(as_many, 500); // a sum of items alone would let these pass
 }
 END_TEST
 
