@@ -24,7 +24,7 @@ std::int32_t add_up(const void* data, std::size_t size, void* user) {
 }
 
 // Writes a mesh in this format; the sum of its bytes goes to *sum.
-bool write_to(const vox_io_mesh* mesh, vox_io_format format, std::uint32_t binary, heap::Life& life,
+bool write_to(const vox_io_mesh* mesh, vox_io_write_format format, std::uint32_t binary, heap::Life& life,
               std::uint64_t* sum) {
     vox_io_write_desc desc;
     ck_ok(vox_io_write_desc_init(&desc, sizeof desc));
@@ -69,9 +69,9 @@ START_TEST(each_allocation_of_bodies_and_writers) {
         Held held;
         std::uint64_t sums[3] = {0, 0, 0};
         if (life([&] { return vox_io_make_ball(1, 0.7, &held.mesh); }) &&
-            write_to(held.mesh, VOX_IO_FORMAT_GMSH, 0, life, &sums[0]) &&
-            write_to(held.mesh, VOX_IO_FORMAT_GMSH, 1, life, &sums[1]) &&
-            write_to(held.mesh, VOX_IO_FORMAT_VTU, 1, life, &sums[2]))
+            write_to(held.mesh, VOX_IO_WRITE_GMSH, 0, life, &sums[0]) &&
+            write_to(held.mesh, VOX_IO_WRITE_GMSH, 1, life, &sums[1]) &&
+            write_to(held.mesh, VOX_IO_WRITE_VTU, 1, life, &sums[2]))
             life.hash = sums[0] ^ sums[1] ^ sums[2];
     });
 }
