@@ -992,8 +992,8 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_gri
  * and other changes do not show until it is called again, so an answer may name a mesh that was removed since;
  * vox_grid_clear discards what was prepared. Disabled meshes and meshes without tetrahedra take no part.
  * Preparing changes the grid. The queries only read it, so any number of threads may run them at once, but not while
- * the grid is changed, and vox_grid_step changes it. Queries of views (vox_query_view_*, below) may run at any time,
- * also during a step. Their temporary memory is from the C++ runtime's heap.
+ * the grid is changed, and vox_grid_step changes it. Query views (below) may be asked at any time, also during
+ * a step. Their temporary memory is from the C++ runtime's heap.
  * Answers do not depend on engine, cell size, workers or machine.
  * `mask`: a mesh takes part if its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
  * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_MESH, and any id that was not there when the

@@ -49,7 +49,12 @@ START_TEST(each_allocation_of_a_load) {
                                  "box_ascii.vtu",
                                  "box_appended.vtu",
                                  "box_base64_zlib.vtu",
-                                 "cube.off"};
+                                 "cube.off",
+                                 "cube.stl",
+                                 "cube.obj",
+                                 "cube.ply",
+                                 "two_tetrahedra.gltf",
+                                 "two_tetrahedra.glb"};
     for (const char* name : names) {
         const std::string path = std::string(VOX_TEST_DATA "/") + name;
         heap::fail_each([&](heap::Life& life) {
@@ -69,8 +74,8 @@ START_TEST(each_allocation_of_bodies_and_writers) {
         Held held;
         std::uint64_t sums[3] = {0, 0, 0};
         if (life([&] { return vox_io_make_ball(1, 0.7, &held.mesh); }) &&
-            write_to(held.mesh, VOX_IO_WRITE_GMSH, 0, life, &sums[0]) &&
-            write_to(held.mesh, VOX_IO_WRITE_GMSH, 1, life, &sums[1]) &&
+            write_to(held.mesh, VOX_IO_WRITE_MSH_22, 0, life, &sums[0]) &&
+            write_to(held.mesh, VOX_IO_WRITE_MSH_41, 1, life, &sums[1]) &&
             write_to(held.mesh, VOX_IO_WRITE_VTU, 1, life, &sums[2]))
             life.hash = sums[0] ^ sums[1] ^ sums[2];
     });
