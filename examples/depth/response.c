@@ -42,7 +42,7 @@ static void add(double* to, double factor, const double* a) {
 
 /* ---- rows ---- */
 
-/* `data` holds soft bodies: the user data of a mesh leads to its own. */
+/* The user data of a mesh is the number of its body in `bodies`. */
 static void make_rows(vox_grid* grid, soft* bodies) {
     vox_contact_view contacts;
     vox_penetration_view found;
