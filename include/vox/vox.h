@@ -137,8 +137,9 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
  * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
  * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
  * once by vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view.
- * If not all items were run, or a worker index was out of range, the function fails with INVALID_ARGUMENT and leaves no
- * contacts, no readings, nothing prepared for queries, or no view. If both are null, the built-in scheduler is used. */
+ * If not every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
+ * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
+ * If both are null, the built-in scheduler is used. */
 typedef struct vox_task_system {
     void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     void (*finish)(void* handle, void* user);
@@ -164,7 +165,8 @@ typedef enum vox_storage {
     VOX_STORAGE_FORCE_32_BITS = 0x7fffffff
 } vox_storage;
 
-/* Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. */
+/* Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
+ * cells share a bucket, the step finds cells by binary search instead, so its time stays bounded. */
 typedef enum vox_hash {
     VOX_HASH_MIXED = 0, /* a well-mixed 64-bit hash: the default */
     VOX_HASH_PAPER = 1, /* i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1) */
@@ -814,7 +816,9 @@ typedef struct vox_touch_event {
 #define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair of a pair that ended */
 
 /* All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
- * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. */
+ * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. These are the events of one step:
+ * a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
+ * total_touches_ended show the loss. */
 typedef struct vox_touch_view {
     const vox_touch_event* data;
     size_t byte_stride;
@@ -840,7 +844,8 @@ typedef struct vox_contact_event {
 } vox_contact_event;
 
 /* All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b). `data` lives until the
- * next step, change of the flags or destroy of the grid. */
+ * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
+ * vox_counters.total_contacts_began and total_contacts_ended. */
 typedef struct vox_contact_event_view {
     const vox_contact_event* data;
     size_t byte_stride;
@@ -988,7 +993,8 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_gri
  * and other changes do not show until it is called again, so an answer may name a mesh that was removed since;
  * vox_grid_clear discards what was prepared. Disabled meshes and meshes without tetrahedra take no part.
  * Preparing changes the grid. The queries only read it, so any number of threads may run them at once, but not while
- * the grid is changed; query views (below) allow that, too. Their temporary memory is from the C++ runtime's heap.
+ * the grid is changed, and vox_grid_step changes it. Query views (below) may be asked at any time, also during
+ * a step. Their temporary memory is from the C++ runtime's heap.
  * Answers do not depend on engine, cell size, workers or machine.
  * `mask`: a mesh takes part if its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
  * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_MESH, and any id that was not there when the
@@ -1260,6 +1266,12 @@ typedef struct vox_counters {
     uint64_t carried_penetrations; /* part of `penetrations` carried over with their contacts */
     uint64_t skipped_meshes;     /* left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes` */
     uint64_t meshes_without_tets; /* part of `meshes`: their vertices collide, their edges and faces do not */
+    /* Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each step
+     * gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events. */
+    uint64_t total_touches_began;
+    uint64_t total_touches_ended;
+    uint64_t total_contacts_began;
+    uint64_t total_contacts_ended;
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */

@@ -2,6 +2,8 @@
 
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
+#include "base/llu.hpp"
+#include "base/sampling.hpp"
 
 namespace vox {
 
@@ -33,23 +35,50 @@ void Workers::set_count(std::uint32_t worker_count) {
     count_ = count;
 }
 
+namespace {
+
+// From one end of a range to the other. Such ways add up to the one from 0 to `items` if the ranges follow
+// each other from there to there. No other ranges do, but by a chance of 2^-64: ranges only lead forwards, so
+// each end but the last has to be the beginning of another range, and these are numbers that look random.
+std::uint64_t way(std::uint64_t begin, std::uint64_t end) noexcept {
+    return next_random(end) - next_random(begin);
+}
+
+} // namespace
+
+Workers::Job::Job(Call* call_, void* callable_, std::uint32_t worker_count_, std::size_t items_) noexcept
+    : call(call_), callable(callable_), worker_count(worker_count_), items(items_),
+      uncovered(way(0, items_)) {}
+
 void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker,
                         void* context) noexcept {
     const DefaultFloats floats; // of a thread that may have any
     Job& job = *static_cast<Job*>(context);
     std::exception_ptr failure;
+    bool runs = false;
     try {
         if (worker >= job.worker_count || begin > end || end > job.items)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("the task system ran items %llu to %llu of %zu on worker %u of %u",
-                               static_cast<unsigned long long>(begin), static_cast<unsigned long long>(end),
-                               job.items, worker, job.worker_count));
+                        format("the task system ran items %llu to %llu of %zu on worker %u of %u", llu(begin),
+                               llu(end), job.items, worker, job.worker_count));
+        {
+            const std::lock_guard lock(job.mutex);
+            runs = !job.busy[worker];
+            job.busy[worker] = true;
+        }
+        if (!runs)
+            throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                        format("the task system ran two ranges on worker %u at the same time, one of them "
+                               "items %llu to %llu of %zu",
+                               worker, llu(begin), llu(end), job.items));
         job.call(job.callable, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), worker);
     } catch (...) {
         failure = std::current_exception();
     }
     const std::lock_guard lock(job.mutex);
+    if (runs) job.busy[worker] = false;
     job.done += static_cast<std::size_t>(end - begin);
+    job.uncovered -= way(begin, end);
     if (failure && !job.failure) job.failure = failure;
 }
 
@@ -65,6 +94,9 @@ void Workers::run(Job& job, std::size_t items, std::size_t min_range) {
     if (job.done != items)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("the task system ran %zu of %zu items", job.done, items));
+    if (job.uncovered != 0)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("the task system ran some of %zu items twice and others not at all", items));
 }
 
 } // namespace vox

@@ -6,6 +6,7 @@
 
 #include <vox/vox.h>
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -28,7 +29,8 @@ public:
 
     // Calls function(begin, end, worker) for ranges that make up [0, items), each of at least min_range items
     // where that can be, and returns when all have. The first exception that one of them throws is thrown
-    // here. Counts as one task of the step.
+    // here. Throws INVALID_ARGUMENT where the caller's task system does not keep to vox_task_system. Counts
+    // as one task of the step.
     template <class Function>
     void for_ranges(std::size_t items, std::size_t min_range, Function&& function) {
         if (items == 0) return;
@@ -37,22 +39,28 @@ public:
             return;
         }
         using Plain = std::remove_reference_t<Function>;
-        Job job{[](void* callable, std::size_t begin, std::size_t end, std::uint32_t worker) {
-                    (*static_cast<Plain*>(callable))(begin, end, worker);
-                },
-                const_cast<std::remove_const_t<Plain>*>(&function), count_, items};
+        Job job([](void* callable, std::size_t begin, std::size_t end,
+                   std::uint32_t worker) { (*static_cast<Plain*>(callable))(begin, end, worker); },
+                const_cast<std::remove_const_t<Plain>*>(&function), count_, items);
         run(job, items, min_range);
     }
 
 private:
+    using Call = void(void* callable, std::size_t begin, std::size_t end, std::uint32_t worker);
+
     struct Job {
-        void (*call)(void* callable, std::size_t begin, std::size_t end, std::uint32_t worker);
-        void* callable;
-        std::uint32_t worker_count;
-        std::size_t items;
-        std::mutex mutex{};
+        Job(Call* call, void* callable, std::uint32_t worker_count, std::size_t items) noexcept;
+
+        Call* const call;
+        void* const callable;
+        const std::uint32_t worker_count;
+        const std::size_t items;
+        std::mutex mutex{}; // for what follows
         std::exception_ptr failure{};
+        std::bitset<VOX_MAX_WORKERS> busy{}; // workers that run a range
         std::size_t done = 0;
+        // Becomes 0 when the ranges run make up [0, items) without a gap or an overlap.
+        std::uint64_t uncovered;
     };
 
     static void run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker, void* job) noexcept;

@@ -94,6 +94,10 @@ void Events::compare(std::span<const vox_contact> contacts) {
     }
     current_ = 1 - current_;
     pairs_are_shown_ = true;
+    touches_.began += began_;
+    touches_.ended += touch_events_.size() - began_ - persisted_;
+    vertices_.began += contacts_began_;
+    vertices_.ended += contact_events_.size() - contacts_began_;
 }
 
 void Events::repeat() {
@@ -164,6 +168,13 @@ vox_touch_view Events::touch_events(std::uint64_t epoch) const noexcept {
             .began = began_,
             .persisted = persisted_,
             .ended = count - began_ - persisted_};
+}
+
+void Events::count(vox_counters& counters) const noexcept {
+    counters.total_touches_began = touches_.began;
+    counters.total_touches_ended = touches_.ended;
+    counters.total_contacts_began = vertices_.began;
+    counters.total_contacts_ended = vertices_.ended;
 }
 
 vox_contact_event_view Events::contact_events(std::uint64_t epoch) const {

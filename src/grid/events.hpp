@@ -70,6 +70,8 @@ public:
     void set_of_contacts(bool of_contacts) noexcept;
     // Throws Error(INVALID_STATE) without `of_contacts`.
     vox_contact_event_view contact_events(std::uint64_t epoch) const;
+    // Sets the counters from `total_touches_began` to `total_contacts_ended`.
+    void count(vox_counters& counters) const noexcept;
 
 private:
     friend class Snapshot;
@@ -101,6 +103,11 @@ private:
     std::pmr::vector<vox_contact_event> contact_events_;
     std::uint64_t began_ = 0, persisted_ = 0; // of touch_events_
     std::uint64_t contacts_began_ = 0;        // of contact_events_
+    // Of all steps: how many pairs, and vertices in meshes, began and ended.
+    struct Totals {
+        std::uint64_t began = 0, ended = 0;
+    };
+    Totals touches_, vertices_;
 };
 
 } // namespace vox

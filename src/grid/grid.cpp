@@ -388,6 +388,7 @@ void vox_grid::step() {
     counters.skipped_meshes = left_out_.size();
     counters.contacts = contacts_.size();
     counters.penetrations = penetrations_.all().size();
+    events_.count(counters);
     if (chooses_cell_size() && !fast_) {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
@@ -587,7 +588,7 @@ double vox_grid::byte_limit() const noexcept {
         held +=
             40 * static_cast<double>(meshes_.vertex_count()) + 24 * static_cast<double>(meshes_.tet_count());
     else
-        held -= static_cast<double>(reference_.cell_bytes());
+        held -= static_cast<double>(reference_.cells().bucket_bytes());
     return std::max(0.9 * (static_cast<double>(memory_.budget()) - held), 4.0);
 }
 

@@ -4,16 +4,21 @@
 //   hashed  the hash of Teschner, Heidelberger, Mueller, Pomeranets, Gross, "Optimized Spatial Hashing for
 //           Collision Detection of Deformable Objects", VMV 2003, or a well-mixed 64-bit hash, modulo a prime
 // A bucket holds the occupied cells that fell into it with their coordinates, so that two cells in one bucket
-// are never confused.
+// are never confused. Positions can be chosen so that a hash puts all cells into one bucket. A bucket with
+// far more cells than chance gives it is noticed (CellLists::insert), and SortedAddress takes the hash's
+// place.
 #pragma once
 
 #include "base/scene.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
+#include <span>
+#include <tuple>
 #include <vector>
 
 namespace vox {
@@ -105,6 +110,25 @@ struct MixedAddress { // odd multipliers of 64 bits, folded and multiplied again
     }
 };
 
+// No hash: the number of a cell in a sorted list of the occupied ones, by binary search. A cell that is not
+// in the list gets the bucket of another.
+struct SortedAddress {
+    std::span<const CellCoord> cells; // not empty
+
+    struct Row {
+        std::int32_t j, k;
+    };
+    static bool before(const CellCoord& a, const CellCoord& b) {
+        return std::tie(a.k, a.j, a.i) < std::tie(b.k, b.j, b.i);
+    }
+    Row row(std::int32_t j, std::int32_t k) const { return {j, k}; }
+    std::uint32_t bucket(const Row& row, std::int32_t i) const {
+        const auto found = std::lower_bound(cells.begin(), cells.end(), CellCoord{i, row.j, row.k}, before);
+        return std::uint32_t(
+            std::min<std::ptrdiff_t>(found - cells.begin(), std::ptrdiff_t(cells.size()) - 1));
+    }
+};
+
 // An occupied cell and the head of its list of particles.
 struct Cell {
     CellCoord at;
@@ -134,6 +158,10 @@ public:
             heads_ = std::pmr::vector<std::uint32_t>(heads_.get_allocator());
         heads_.assign(bucket_count, none);
         cells_.reserve(particle_count);
+        // A hash without pattern gives the fullest bucket of n about ln n / ln ln n cells where there is one
+        // for each bucket (Knuth 3, Sect. 6.4; 9 of a million), and few more than the mean where there are
+        // many. The bound is far above that.
+        longest_chain_ = 32 + 8 * (particle_count / std::max<std::size_t>(bucket_count, 1));
     }
 
     // The occupied cell at these coordinates of this bucket, or null.
@@ -143,10 +171,13 @@ public:
         return nullptr;
     }
 
-    // Puts particle `index` at the head of its cell's list; returns how many are in the cell now.
+    // Puts particle `index` at the head of its cell's list; returns how many are in the cell now. Returns 0,
+    // and has changed nothing, if the bucket has so many cells that its hash is not to be used.
     std::uint32_t insert(std::uint32_t bucket, const CellCoord& at, Particle& particle, std::uint32_t index) {
         std::uint32_t c = heads_[bucket];
-        while (c != none && cells_[c].at != at) c = cells_[c].next;
+        std::size_t left = longest_chain_;
+        for (; c != none && cells_[c].at != at; c = cells_[c].next)
+            if (--left == 0) return 0;
         if (c == none) {
             c = std::uint32_t(cells_.size());
             cells_.push_back({at, none, 0, heads_[bucket]});
@@ -163,6 +194,7 @@ public:
 private:
     std::pmr::vector<std::uint32_t> heads_; // by bucket
     std::pmr::vector<Cell> cells_;
+    std::size_t longest_chain_ = 0; // most cells of a bucket
 };
 
 // The smallest prime that is at least `number`, or else the largest prime of 32 bits.

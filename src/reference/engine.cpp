@@ -39,7 +39,8 @@ double cells_between(const CellCoord& min, const CellCoord& max) {
 } // namespace
 
 ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
-    : particles_(memory), exact_(memory), first_(memory), body_of_(memory), boxes_(memory), cells_(memory) {}
+    : particles_(memory), exact_(memory), first_(memory), body_of_(memory), boxes_(memory), cells_(memory),
+      sorted_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
                              std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
@@ -77,18 +78,26 @@ void ReferenceEngine::detect_level(Step& step, double cell_size, const Sizes& si
         const Lattice lattice = prepare_dense(settings, cell_size, address);
         run(step, sizes, lattice, address);
     } else if (settings.hash == VOX_HASH_PAPER) {
-        run(step, sizes, unbounded, PaperAddress{prepare_hashed(settings)});
+        run_hashed(step, sizes, unbounded, PaperAddress{prepare_hashed(settings)});
     } else {
-        run(step, sizes, unbounded, MixedAddress{prepare_hashed(settings)});
+        run_hashed(step, sizes, unbounded, MixedAddress{prepare_hashed(settings)});
     }
 }
 
 template <class Address>
-void ReferenceEngine::run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address) {
+void ReferenceEngine::run_hashed(Step& step, const Sizes& sizes, const Lattice& lattice,
+                                 const Address& address) {
+    if (!run(step, sizes, lattice, address)) run(step, sizes, lattice, prepare_sorted(lattice));
+}
+
+// Returns false, and has found nothing, if the address puts too many cells into one bucket.
+template <class Address>
+bool ReferenceEngine::run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address) {
     const std::uint64_t start = nanoseconds(), decided = step.profile.narrow_ns;
-    classify(step, lattice, address);
+    const bool is_classified = classify(step, lattice, address);
     const std::uint64_t classified = nanoseconds();
     step.profile.bin_ns += classified - start;
+    if (!is_classified) return false;
 
     const Box3f* boxes = boxes_.data();
     for (std::uint32_t body = 0; body < step.bodies.size(); ++body) {
@@ -97,6 +106,7 @@ void ReferenceEngine::run(Step& step, const Sizes& sizes, const Lattice& lattice
         boxes += step.bodies[body].tets.size();
     }
     step.profile.broad_ns += nanoseconds() - classified - (step.profile.narrow_ns - decided);
+    return true;
 }
 
 // ---- pass one -------------------------------------------------------------------------------------
@@ -205,18 +215,34 @@ Modulus ReferenceEngine::prepare_hashed(const ReferenceSettings& settings) {
     return Modulus(size);
 }
 
+// Lists the occupied cells in ascending order, and makes a bucket for each.
+SortedAddress ReferenceEngine::prepare_sorted(const Lattice& lattice) {
+    sorted_.clear();
+    sorted_.reserve(particles_.size());
+    for (const Particle& particle : particles_) sorted_.push_back(lattice.cell_of(particle.position));
+    std::sort(sorted_.begin(), sorted_.end(), SortedAddress::before);
+    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+    cells_.reset(sorted_.size(), particles_.size());
+    return {sorted_};
+}
+
+// Puts the particles into cells. Returns false if the address puts too many cells into one bucket; the cells
+// are then of no use.
 template <class Address>
-void ReferenceEngine::classify(Step& step, const Lattice& lattice, const Address& address) {
+bool ReferenceEngine::classify(Step& step, const Lattice& lattice, const Address& address) {
     std::uint32_t fullest = 0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
         Particle& particle = particles_[p];
         const CellCoord at = lattice.cell_of(particle.position);
         const std::uint32_t bucket = address.bucket(address.row(at.j, at.k), at.i);
-        fullest = std::max(fullest, cells_.insert(bucket, at, particle, std::uint32_t(p)));
+        const std::uint32_t count = cells_.insert(bucket, at, particle, std::uint32_t(p));
+        if (count == 0) return false;
+        fullest = std::max(fullest, count);
     }
     step.counters.cells += cells_.occupied().size();
     step.counters.entries += particles_.size();
     step.counters.fullest_cell = std::max<std::uint64_t>(step.counters.fullest_cell, fullest);
+    return true;
 }
 
 // ---- pass two -------------------------------------------------------------------------------------

@@ -40,8 +40,8 @@ public:
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
-    // Bytes held by the buckets of the cells.
-    std::size_t cell_bytes() const noexcept { return cells_.bucket_bytes(); }
+    // Those of the last level.
+    const CellLists& cells() const noexcept { return cells_; }
 
 private:
     struct Candidate {
@@ -63,9 +63,12 @@ private:
     Lattice prepare_dense(const ReferenceSettings& settings, double cell_size, DenseAddress& address);
     Modulus prepare_hashed(const ReferenceSettings& settings);
     template <class Address>
-    void run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address);
+    void run_hashed(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address);
     template <class Address>
-    void classify(Step& step, const Lattice& lattice, const Address& address);
+    bool run(Step& step, const Sizes& sizes, const Lattice& lattice, const Address& address);
+    template <class Address>
+    bool classify(Step& step, const Lattice& lattice, const Address& address);
+    SortedAddress prepare_sorted(const Lattice& lattice);
     template <class Address>
     void broad_phase(Step& step, std::uint32_t body, const Box3f* boxes, const Sizes& sizes,
                      const Lattice& lattice, const Address& address);
@@ -77,6 +80,7 @@ private:
     std::pmr::vector<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
     std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
+    std::pmr::vector<CellCoord> sorted_;     // the occupied cells, where a hash was of no use
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
     std::size_t candidate_count_ = 0;
 };

@@ -121,6 +121,61 @@ START_TEST(begin_persist_end) {
 }
 END_TEST
 
+/* What a reader has added up of the views that it read. */
+typedef struct totals {
+    uint64_t touches_began, touches_ended, contacts_began, contacts_ended;
+} totals;
+
+static void read_events(const vox_grid* grid, totals* sums) {
+    const vox_touch_view touches = touch_events(grid);
+    const vox_contact_event_view contacts = contact_events(grid);
+    sums->touches_began += touches.began;
+    sums->touches_ended += touches.ended;
+    sums->contacts_began += contacts.began;
+    sums->contacts_ended += contacts.ended;
+}
+
+static void check_totals(const vox_grid* grid, const totals* sums) {
+    const vox_counters counters = counters_of(grid);
+    ck_assert_uint_eq(counters.total_touches_began, sums->touches_began);
+    ck_assert_uint_eq(counters.total_touches_ended, sums->touches_ended);
+    ck_assert_uint_eq(counters.total_contacts_began, sums->contacts_began);
+    ck_assert_uint_eq(counters.total_contacts_ended, sums->contacts_ended);
+}
+
+/* Events are per step: one reader reads every step, the other every second one, and the totals show which is right. */
+START_TEST(totals_show_events_that_nobody_read) {
+    meeting m = new_meeting();
+    totals all = {0, 0, 0, 0}, half = all;
+    check_totals(m.grid, &all);
+    for (int step = 0; step < 24; ++step) {
+        if (step % 3 != 2) shift(&m.other, step % 6 < 3 ? 1.0f : -1.0f); /* in, out, at rest; and back */
+        if (step == 9) { /* a failed step has no events */
+            const float kept = m.other.positions[0];
+            m.other.positions[0] = NAN;
+            ck_fails(vox_grid_step(m.grid), VOX_ERROR_NON_FINITE, "not finite");
+            m.other.positions[0] = kept;
+            check_totals(m.grid, &all);
+        }
+        if (step == 12) ck_ok(vox_grid_clear(m.grid)); /* the totals go on */
+        if (step == 13) {
+            m.a = insert(m.grid, &m.box, 7);
+            m.b = insert(m.grid, &m.other, UINT64_MAX);
+        }
+        ck_ok(vox_grid_step(m.grid));
+        read_events(m.grid, &all);
+        check_totals(m.grid, &all);
+        if (step % 2 == 1) read_events(m.grid, &half);
+    }
+    ck_assert_uint_ge(all.touches_ended, 3);
+    const vox_counters counters = counters_of(m.grid);
+    ck_assert_uint_gt(counters.total_touches_began, half.touches_began);
+    ck_assert_uint_gt(counters.total_contacts_began, half.contacts_began);
+    ck_assert_uint_eq(counters.total_touches_began - counters.total_touches_ended, pairs_of(m.grid).count);
+    end_meeting(&m);
+}
+END_TEST
+
 START_TEST(removal_ends_once_with_the_old_ids) {
     meeting m = new_meeting();
     ck_ok(vox_grid_step(m.grid));
@@ -558,7 +613,7 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, begin_persist_end, removal_ends_once_with_the_old_ids,
+    tcase_add_each(tests, begin_persist_end, totals_show_events_that_nobody_read, removal_ends_once_with_the_old_ids,
                    clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
                    every_event_has_its_pair, steady_state_allocates_nothing, arguments);
 }

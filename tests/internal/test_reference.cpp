@@ -484,6 +484,76 @@ START_TEST(budget_is_named_with_cells_and_bytes) {
 }
 END_TEST
 
+// ---- hash flooding --------------------------------------------------------------------------------
+
+template <class Address>
+std::uint32_t bucket_of(const Address& address, const CellCoord& at) {
+    return address.bucket(address.row(at.j, at.k), at.i);
+}
+
+// Points in cells of size 1 that this address puts into one bucket, with a tetrahedron around each tenth.
+template <class Address>
+Meshes flood(std::size_t points, std::size_t tets) {
+    const Address address{Modulus(next_prime(2 * (points + 4 * tets)))};
+    Meshes scene(2);
+    Random random{7};
+    const std::uint32_t bucket = bucket_of(address, {3, 4, 5});
+    while (scene[0].positions.size() < points) {
+        const CellCoord at{std::int32_t(random.below(1024)), std::int32_t(random.below(1024)),
+                           std::int32_t(random.below(1024))};
+        if (bucket_of(address, at) == bucket)
+            scene[0].positions.push_back({float(at.i) + 0.5f, float(at.j) + 0.5f, float(at.k) + 0.5f});
+    }
+    for (std::uint32_t t = 0; t < tets; ++t) {
+        const Vec3f& p = scene[0].positions[t * (points / tets)];
+        for (int v = 0; v < 4; ++v)
+            scene[1].positions.push_back({p.x + (v == 1 ? 0.75f : -0.25f), p.y + (v == 2 ? 0.75f : -0.25f),
+                                          p.z + (v == 3 ? 0.75f : -0.25f)});
+        scene[1].tets.push_back({{4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3}});
+    }
+    return scene;
+}
+
+// The most cells that a search for one may have to look at.
+std::uint32_t longest_chain(const CellLists& lists) {
+    std::vector<std::uint32_t> length; // a cell's next one in its bucket came before it
+    for (const Cell& cell : lists.occupied())
+        length.push_back(cell.next == CellLists::none ? 1 : length[cell.next] + 1);
+    return *std::max_element(length.begin(), length.end());
+}
+
+START_TEST(chosen_cells_do_not_share_a_bucket) {
+    constexpr std::size_t points = 2000, tets = 200;
+    const auto check = [](const Meshes& scene, vox_hash flooded) {
+        Engine engine;
+        const ReferenceSettings settings{.cell_size = 1, .storage = VOX_STORAGE_HASHED, .hash = flooded};
+        const ReferenceSettings other{.cell_size = 1,
+                                      .storage = VOX_STORAGE_HASHED,
+                                      .hash = flooded == VOX_HASH_PAPER ? VOX_HASH_MIXED : VOX_HASH_PAPER};
+        engine.step(scene, other); // a hash that these cells were not chosen for
+        ck_assert_uint_le(longest_chain(engine.reference.cells()), 32);
+        const std::uint64_t hash = hash_contacts(engine.contacts);
+        const vox_counters expected = engine.counters;
+        ck_assert_uint_ge(expected.contacts + engine.contacts.size(), tets);
+
+        std::size_t allocations = 0;
+        for (int step = 0; step < 3; ++step) {
+            if (step == 2) allocations = engine.memory.allocations;
+            engine.step(scene, settings);
+            ck_assert_uint_le(longest_chain(engine.reference.cells()), 32);
+            ck_assert_uint_eq(hash_contacts(engine.contacts), hash);
+            ck_assert_uint_eq(engine.counters.cells, expected.cells);
+            ck_assert_uint_eq(engine.counters.fullest_cell, expected.fullest_cell);
+            ck_assert_uint_eq(engine.counters.visited_cells, expected.visited_cells);
+            ck_assert_uint_eq(engine.counters.visited_entries, expected.visited_entries);
+        }
+        ck_assert_uint_eq(engine.memory.allocations, allocations);
+    };
+    check(flood<PaperAddress>(points, tets), VOX_HASH_PAPER);
+    check(flood<MixedAddress>(points, tets), VOX_HASH_MIXED);
+}
+END_TEST
+
 START_TEST(steady_state_allocates_nothing) {
     Engine engine;
     Random random{17};
@@ -517,7 +587,7 @@ int main() {
           moving_and_scaling_change_nothing, shuffling_renames_and_no_more,
           counters_of_a_scene_counted_by_hand, every_objective_voxel_is_counted,
           non_finite_positions_are_named, budget_is_named_with_cells_and_bytes,
-          steady_state_allocates_nothing})
+          chosen_cells_do_not_share_a_bucket, steady_state_allocates_nothing})
         tcase_add_test(tests, test);
     return run_suite(suite);
 }

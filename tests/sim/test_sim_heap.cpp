@@ -1,0 +1,87 @@
+// vox_sim over a C++ heap that fails: every allocation in turn in the life of two bodies, and in an
+// experiment.
+#include "scenes/bodies.h"
+#include "support/failing_heap.hpp"
+
+#include <vox/vox_sim.h>
+
+#include <vector>
+
+namespace {
+
+struct Shape {
+    body box = make_box(2, 0.5f, 0, 0, 0);
+    std::vector<double> positions{box.positions, box.positions + 3 * box.vertex_count};
+    ~Shape() { free_body(&box); }
+
+    vox_sim_body_desc desc() const {
+        vox_sim_body_desc desc = vox_default_sim_body_desc();
+        desc.positions = positions.data();
+        desc.vertex_count = box.vertex_count;
+        desc.tets = box.tets;
+        desc.tet_count = box.tet_count;
+        return desc;
+    }
+};
+
+START_TEST(each_allocation_of_a_simulation) {
+    Shape low, high;
+    for (std::size_t v = 0; v < high.positions.size(); v += 3) {
+        high.positions[v] += 0.3;
+        high.positions[v + 2] += 0.9;
+    }
+    heap::fail_each([&](heap::Life& life) {
+        struct Held {
+            vox_sim* sim = nullptr;
+            ~Held() { vox_sim_destroy(sim); }
+        } held;
+        const vox_sim_body_desc a = low.desc(), b = high.desc();
+        vox_mesh bodies[2];
+        vox_sim_body_view view;
+        const bool done = life([&] { return vox_sim_create(nullptr, &held.sim); }) &&
+                          life([&] { return vox_sim_body_insert(held.sim, &a, &bodies[0]); }) &&
+                          life([&] { return vox_sim_body_insert(held.sim, &b, &bodies[1]); }) &&
+                          life([&] { return vox_sim_step(held.sim, 0.01); }) &&
+                          life([&] { return vox_sim_body_remove(held.sim, bodies[0]); });
+        if (!done) return;
+        ck_ok(vox_sim_body_get(held.sim, bodies[1], &view));
+        life.hash = view.vertex_count;
+    });
+}
+END_TEST
+
+START_TEST(each_allocation_of_an_experiment) {
+    const Shape shape;
+    heap::fail_each(
+        [&](heap::Life& life) {
+            struct Held {
+                vox_experiment* experiment = nullptr;
+                ~Held() { vox_experiment_destroy(experiment); }
+            } held;
+            const vox_sim_body_desc a = shape.desc();
+            vox_experiment_desc desc = vox_default_experiment_desc();
+            desc.a = &a;
+            desc.frames = 1;
+            desc.contact_share = 0.2;
+            vox_experiment_facts facts;
+            facts.struct_size = sizeof facts;
+            vox_experiment_sample sample;
+            sample.struct_size = sizeof sample;
+            if (!life([&] { return vox_experiment_create(&desc, &held.experiment); }) ||
+                !life([&] { return vox_experiment_measure(held.experiment, 0.5, nullptr, &sample); }))
+                return;
+            ck_ok(vox_experiment_get(held.experiment, &facts));
+            life.hash = facts.hash;
+        },
+        7);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("sim heap");
+    TCase* tests = add_case(suite, "heap");
+    tcase_add_each(tests, each_allocation_of_a_simulation, each_allocation_of_an_experiment);
+    return run_suite(suite);
+}
