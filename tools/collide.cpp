@@ -104,8 +104,8 @@ void require_inside(const std::vector<Body>& bodies) {
         return;
     std::string names;
     for (const Body& body : bodies) names += (names.empty() ? "" : " and ") + body.name;
-    throw Failure(names + (bodies.size() == 1 ? " is a surface" : " are surfaces") +
-                  " and have no inside for a vertex to be in; --fill fills them with tetrahedra first");
+    throw Failure(names + (bodies.size() == 1 ? " is a surface and has" : " are surfaces and have") +
+                  " no inside for a vertex to be in; --fill fills them with tetrahedra first");
 }
 
 void run(const Options& options) {

@@ -9,8 +9,11 @@
 #include "stepping.hpp"
 #include "terminal.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 
 namespace tool {
 
@@ -65,7 +68,7 @@ void run(const Options& options) {
     Progress progress;
     Json list = Json::array();
     std::vector<std::string> series;
-    std::vector<double> times;
+    std::vector<std::uint64_t> times;
     for (std::size_t i = 0; i < options.files.size(); ++i) {
         const std::string& file = options.files[i];
         if (options.files.size() > 1)
@@ -79,7 +82,7 @@ void run(const Options& options) {
             const std::string drawing = is_series(options.out) ? file_in_series(options.out, i) : options.out;
             write_results(drawing, drawn_meshes(snapshot.bytes), grid);
             series.push_back(std::filesystem::path(drawing).filename().string());
-            times.push_back(static_cast<double>(epoch));
+            times.push_back(epoch);
         }
         if (!options.json) {
             print_text(options, file, epoch, grid);
@@ -90,6 +93,9 @@ void run(const Options& options) {
         add_result(json, grid, profile_of(grid));
         list.push_back(std::move(json));
     }
+    // Files of one time would be drawn over each other.
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
+        std::iota(times.begin(), times.end(), 0u);
     if (is_series(options.out)) write_file(options.out, pvd_series(series, times));
     if (options.json) print(list.size() == 1 ? list.front() : Json{{"snapshots", list}});
 }

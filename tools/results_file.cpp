@@ -151,13 +151,11 @@ void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, c
     write_file(path, text);
 }
 
-std::string pvd_series(std::span<const std::string> files, std::span<const double> times) {
+std::string pvd_series(std::span<const std::string> files, std::span<const std::uint64_t> times) {
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (std::size_t i = 0; i < files.size(); ++i) {
-        char time[40];
-        std::snprintf(time, sizeof time, "%.17g", times[i]);
-        text += std::string("<DataSet timestep=\"") + time + "\" file=\"" + xml_text(files[i]) + "\"/>\n";
+        text += "<DataSet timestep=\"" + std::to_string(times[i]) + "\" file=\"" + xml_text(files[i]) + "\"/>\n";
     }
     return text + "</Collection>\n</VTKFile>\n";
 }

@@ -31,6 +31,6 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
 void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, const vox_grid* grid);
 
 // The text of a .pvd file, ParaView's list of files with a time each.
-std::string pvd_series(std::span<const std::string> files, std::span<const double> times);
+std::string pvd_series(std::span<const std::string> files, std::span<const std::uint64_t> times);
 
 } // namespace tool
