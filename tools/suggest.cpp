@@ -62,10 +62,10 @@ void print_levels(const vox_suggestion& found) {
 void print_text(const vox_suggestion& found, std::size_t mesh_count) {
     const double mean_edge = found.stats.mean_edge;
     if (!(found.predicted_cost > 0)) {
-        std::printf("Nothing collides: %s. Every cell size costs an engine the same, which is nothing.\n"
+        std::printf("Nothing collides: %s. Every cell size costs the engine the same, which is nothing.\n"
                     "The mean edge is %.9g. --model paper suggests a cell size from the tetrahedra alone.\n",
                     mesh_count == 1 ? "there is one mesh, and --self is not given"
-                                    : "no box of a mesh meets another one",
+                                    : "the boxes of the meshes do not meet",
                     mean_edge);
         return;
     }
