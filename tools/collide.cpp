@@ -3,7 +3,9 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
+#include "results_file.hpp"
 #include "snapshot_file.hpp"
 #include "stepping.hpp"
 
@@ -24,7 +26,8 @@ struct Options {
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
-    std::string save;
+    bool no_depth = false;
+    std::string save, out, csv;
     bool json = false;
 };
 
@@ -52,9 +55,12 @@ void print_penetrations(const Options& options, const vox_grid* grid, const std:
 void print_text(const Options& options, const vox_grid* grid, const std::vector<Body>& bodies,
                 const std::vector<vox_mesh>& ids, const vox_profile& profile) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        std::printf("%c  %s: %llu vertices, %llu tetrahedra\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
+        std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
                     static_cast<unsigned long long>(bodies[i].view.vertex_count),
-                    static_cast<unsigned long long>(bodies[i].view.tet_count));
+                    static_cast<unsigned long long>(bodies[i].view.tet_count),
+                    bodies[i].view.tet_count > 0
+                        ? ""
+                        : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
     const vox_contact_view view = contacts_of(grid);
     std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
                 view.count == 1 ? "contact" : "contacts");
@@ -72,7 +78,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     if (shown < view.count)
         std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
                     static_cast<unsigned long long>(view.count - shown));
-    print_penetrations(options, grid, ids);
+    if (!options.no_depth) print_penetrations(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
@@ -85,13 +91,29 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
                     milliseconds(profile.broad_ns), milliseconds(profile.narrow_ns));
     std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(profile.contacts_ns),
                 milliseconds(profile.depth_ns),
-                options.repeat == 1 ? "one step; --repeat N gives medians"
-                                    : ("medians of " + std::to_string(options.repeat) + " steps").c_str());
+                options.repeat == 1
+                    ? "one step, in which all vertices move; --repeat N gives medians"
+                    : ("medians of " + std::to_string(options.repeat) + " steps, in which all vertices move")
+                          .c_str());
+}
+
+// Without a tetrahedron there is nothing that a vertex can be in, so the answer would be 0 whatever the
+// meshes.
+void require_inside(const std::vector<Body>& bodies) {
+    if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; }))
+        return;
+    std::string names;
+    for (const Body& body : bodies) names += (names.empty() ? "" : " and ") + body.name;
+    throw Failure(names + (bodies.size() == 1 ? " is a surface and has" : " are surfaces and have") +
+                  " no inside for a vertex to be in; --fill fills them with tetrahedra first");
 }
 
 void run(const Options& options) {
     if (options.b.empty() && !options.self)
         throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
+    if (!options.out.empty()) check_output(options.out, {".vtu", ".msh"});
+    for (const std::string& path : {options.csv, options.save})
+        if (!path.empty()) check_output(path);
     std::vector<Body> bodies;
     bodies.push_back(load_body(options.a, {.keep_doubles = options.keep_doubles}, options.fill));
     if (!options.b.empty()) {
@@ -99,10 +121,19 @@ void run(const Options& options) {
             options.scale, {options.offset[0], options.offset[1], options.offset[2]}, options.keep_doubles};
         bodies.push_back(load_body(options.b, placement, options.fill));
     }
+    require_inside(bodies);
     std::vector<vox_mesh> ids;
-    const Grid grid = make_grid(options.grid, bodies, options.self, ids);
-    const vox_profile profile = measure_steps(grid.get(), ids, options.repeat);
+    vox_grid_desc desc = options.grid;
+    if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
+    const Grid grid = make_grid(desc, bodies, options.self, ids);
+    const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
     if (!options.save.empty()) save_snapshot(grid.get(), options.save);
+    if (!options.csv.empty()) write_contacts(options.csv, ids, grid.get());
+    if (!options.out.empty()) {
+        std::vector<DrawnMesh> drawn;
+        for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
+        write_results(options.out, drawn, grid.get());
+    }
     if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
     Json json = {{"meshes", body_list(bodies)}};
     add_collision(json, grid.get(), ids, profile);
@@ -118,7 +149,7 @@ void add_collide(CommandLine& line) {
     Option b = command.option("B", options->b, "Second mesh file");
     command.flag("--self", options->self, "Also find the contacts of a mesh with itself");
     add_fill(command, options->fill);
-    command.option("--scale", options->scale, "Scale B by this factor").finite().needs(b);
+    command.option("--scale", options->scale, "Scale B by this factor").not_zero().needs(b);
     command.option("--offset", options->offset, "Move B by X Y Z after scaling it")
         .count(3)
         .shown_as("FLOAT")
@@ -130,9 +161,16 @@ void add_collide(CommandLine& line) {
         .not_negative();
     add_cells(command, options->grid);
     add_threads(command, options->grid);
-    command.option("--repeat", options->repeat, "Number of steps to time, after one to warm up")
+    command
+        .option("--repeat", options->repeat,
+                "Number of steps to time, after one to warm up; the bodies wobble, and come back")
         .range(1u, 1000000u);
     command.option("--limit", options->limit, "Most contacts to print as text");
+    command.flag("--no-depth", options->no_depth, "Find contacts only, without depths and directions");
+    command
+        .option("-o,--output", options->out, "Write meshes, contacts and depths to this file, .vtu or .msh")
+        .shown_as("FILE");
+    command.option("--csv", options->csv, "Write all contacts to this file, a line each").shown_as("FILE");
     command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");

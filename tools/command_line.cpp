@@ -241,9 +241,9 @@ int CommandLine::run(int argc, char** argv) {
     if (!arguments.empty() && !arguments.back().starts_with('-')) {
         const std::vector<std::string> names = command_names(*app_);
         if (std::find(names.begin(), names.end(), arguments.back()) == names.end())
-            return wrong_usage(*app_, ("there is no command '" + arguments.back() + "'" +
-                                       nearest(arguments.back(), names))
-                                          .c_str());
+            return wrong_usage(
+                *app_, ("there is no command '" + arguments.back() + "'" + nearest(arguments.back(), names))
+                           .c_str());
     }
     // Commands run within parse(), so that this must be known before.
     if (std::find(arguments.begin(), arguments.end(), "--progress") != arguments.end())
@@ -258,7 +258,8 @@ int CommandLine::run(int argc, char** argv) {
         // What is missing may be there, but misspelt.
         const bool odd = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError) ||
                          error.get_exit_code() == int(CLI::ExitCodes::RequiredError);
-        return wrong_usage(*app_, odd && !app_->remaining(true).empty() ? unexpected(*app_).c_str() : error.what());
+        return wrong_usage(*app_,
+                           odd && !app_->remaining(true).empty() ? unexpected(*app_).c_str() : error.what());
     } catch (const WrongUsage& error) {
         return wrong_usage(*app_, error.what());
     }
@@ -268,8 +269,8 @@ Usage CommandLine::usage() const {
     Usage usage{app_->get_name(), app_->get_description(), {}, {}};
     for (const CLI::Option* option : app_->get_options()) usage.options.push_back(usage_of(*option));
     for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; })) {
-        CommandUsage& added =
-            usage.commands.emplace_back(CommandUsage{command->get_name(), command->get_description(), {}, {}});
+        CommandUsage& added = usage.commands.emplace_back(
+            CommandUsage{command->get_name(), command->get_description(), {}, {}});
         for (const CLI::Option* option : command->get_options())
             (option->get_positional() ? added.arguments : added.options).push_back(usage_of(*option));
     }

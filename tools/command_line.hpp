@@ -98,8 +98,8 @@ private:
 
 // An option, or an argument, as the usage shows it.
 struct OptionUsage {
-    std::vector<std::string> names;   // "-o", "--output"; empty for an argument
-    std::string value;                // what it takes, e.g. FLOAT or FILE; the name of an argument; empty for a flag
+    std::vector<std::string> names; // "-o", "--output"; empty for an argument
+    std::string value; // what it takes, e.g. FLOAT or FILE; the name of an argument; empty for a flag
     std::vector<std::string> choices; // the values that it accepts, if these are few words
     std::string description;
     bool required = false, repeated = false;

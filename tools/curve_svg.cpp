@@ -1,9 +1,12 @@
 #include "curve_svg.hpp"
 
+#include "report.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 namespace tool {
@@ -11,7 +14,7 @@ namespace tool {
 namespace {
 
 // The size and margins of the picture, in its own units.
-constexpr double width = 800, height = 440, left = 60, right = 24, above = 24, below = 56;
+constexpr double width = 800, height = 480, left = 76, right = 24, above = 64, below = 56;
 // Costs are drawn from 0 to this many times the minimum.
 constexpr double top = 4;
 
@@ -64,6 +67,21 @@ std::vector<double> round_sizes(const vox_suggestion& s) {
     return sizes;
 }
 
+// The names of up to three files without their folders.
+std::string short_names(const std::vector<std::string>& files) {
+    constexpr std::size_t most = 3;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(files.size(), most); ++i)
+        names += (i == 0 ? "" : ", ") + std::filesystem::path(files[i]).filename().string();
+    if (files.size() > most) names += " and " + std::to_string(files.size() - most) + " more";
+    return names;
+}
+
+std::string model_words(vox_cost_model model) {
+    return model == VOX_COST_MODEL_PAPER ? "cost model of the paper"
+                                         : "cost model of the " + std::string(model_name(model)) + " engine";
+}
+
 struct Rule {
     const char* name;
     double cell_size, cost;
@@ -71,14 +89,22 @@ struct Rule {
 
 } // namespace
 
-std::string curve_svg(const vox_suggestion& s) {
+std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& files) {
     const Axes axes(s);
     const double floor_y = height - below;
     std::string text;
     add(text,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %g %g\" font-family=\"sans-serif\" "
-        "font-size=\"13\">\n<rect width=\"%g\" height=\"%g\" fill=\"white\"/>\n",
+        "font-size=\"13\">\n<title>Predicted cost over cell size</title>\n<rect width=\"%g\" height=\"%g\" "
+        "fill=\"white\"/>\n",
         width, height, width, height);
+    add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">Predicted cost over cell size</text>\n", left);
+    add(text, "<text x=\"%g\" y=\"46\" fill=\"#555\">", left);
+    text += xml_text(short_names(files)) + "; " + model_words(s.model) + "</text>\n";
+    add(text,
+        "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">cost, in units of the "
+        "least</text>\n",
+        (above + floor_y) / 2);
     add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" fill=\"#dcebdc\"/>\n",
         axes.x(s.zone_min), above, axes.x(s.zone_max) - axes.x(s.zone_min), floor_y - above);
     for (int times = 0; times <= static_cast<int>(top); ++times) {

@@ -4,10 +4,11 @@
 #include <vox/vox.h>
 
 #include <string>
+#include <vector>
 
 namespace tool {
 
-// The text of an SVG file.
-std::string curve_svg(const vox_suggestion& suggestion);
+// The text of an SVG file, which names the mesh files.
+std::string curve_svg(const vox_suggestion& suggestion, const std::vector<std::string>& files);
 
 } // namespace tool

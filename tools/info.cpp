@@ -4,7 +4,9 @@
 #include "failure.hpp"
 #include "report.hpp"
 #include "shape.hpp"
+#include "terminal.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -21,10 +23,13 @@ struct Info {
     std::string file;
     Shape shape;
     vox_io_report report{};
+    vox_io_quality quality{};
     std::vector<std::string> warnings;
 };
 
 Info read_info(const std::string& file) {
+    Progress progress;
+    progress.show_reading(file);
     Info info;
     info.file = file;
     info.report.struct_size = sizeof info.report;
@@ -32,10 +37,17 @@ Info read_info(const std::string& file) {
     vox_io_mesh_view view{};
     check(vox_io_mesh_get(mesh.get(), &view));
     info.shape = measure_shape(view);
+    info.quality.struct_size = sizeof info.quality;
+    check(vox_io_measure_quality(mesh.get(), nullptr, &info.quality));
     std::istringstream lines(vox_io_mesh_warnings(mesh.get()));
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) info.warnings.push_back(line);
     return info;
+}
+
+// An angle of the tetrahedra, if there are any.
+Json angle(const Info& info, double degrees) {
+    return info.report.tets > 0 ? number(degrees) : Json(nullptr);
 }
 
 Json to_json(const Info& info) {
@@ -50,6 +62,8 @@ Json to_json(const Info& info) {
             {"mean_facet_area", number(info.shape.mean_facet_area)},
             {"mean_volume", number(info.shape.mean_volume)},
             {"volume", number(report.volume)},
+            {"min_dihedral", angle(info, info.quality.min_dihedral)},
+            {"max_dihedral", angle(info, info.quality.max_dihedral)},
             {"inverted", report.inverted_tets},
             {"degenerate", report.degenerate_tets},
             {"duplicate_vertices", report.duplicate_vertices},
@@ -68,22 +82,40 @@ Json to_json(const Info& info) {
             {"warnings", info.warnings}};
 }
 
-void print_mean(const char* name, std::optional<double> value) {
-    if (value) std::printf("  %-18s %.9g\n", name, *value);
+void print_count(const char* name, std::uint64_t value) {
+    std::printf("  %-18s %llu\n", name, static_cast<unsigned long long>(value));
+}
+
+void print_number(const char* name, std::optional<double> value) {
+    if (!value) return;
+    std::printf(std::isfinite(*value) ? "  %-18s %.9g\n" : "  %-18s too large for a double\n", name, *value);
+}
+
+void print_angles(const Info& info) {
+    const vox_io_quality& quality = info.quality;
+    if (info.report.tets > 0 && std::isfinite(quality.min_dihedral) && std::isfinite(quality.max_dihedral))
+        std::printf("  %-18s %.4g to %.4g degrees\n", "dihedral angles", quality.min_dihedral,
+                    quality.max_dihedral);
 }
 
 void print_text(const Info& info) {
     const vox_io_report& report = info.report;
     std::printf("%s\n", info.file.c_str());
     std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
-    std::printf("  %-18s %llu\n", "vertices", static_cast<unsigned long long>(report.vertices));
-    std::printf("  %-18s %llu\n", "tetrahedra", static_cast<unsigned long long>(report.tets));
-    std::printf("  %-18s %llu\n", "surface triangles",
-                static_cast<unsigned long long>(report.boundary_facets));
-    print_mean("mean edge", info.shape.mean_edge);
-    print_mean("mean longest edge", info.shape.mean_longest_edge);
-    print_mean("mean facet area", info.shape.mean_facet_area);
-    print_mean("mean volume", info.shape.mean_volume);
+    print_count("vertices", report.vertices);
+    print_count("tetrahedra", report.tets);
+    print_count("surface triangles", report.boundary_facets);
+    print_count("components", report.components);
+    print_number("volume", report.volume);
+    print_angles(info);
+    print_number("mean edge", info.shape.mean_edge);
+    print_number("mean longest edge", info.shape.mean_longest_edge);
+    print_number("mean facet area", info.shape.mean_facet_area);
+    print_number("mean volume", info.shape.mean_volume);
+    if (report.unit_in_metres > 0)
+        std::printf("  %-18s %.9g m\n", "unit", report.unit_in_metres);
+    else
+        std::printf("  %-18s not stated in the file\n", "unit");
     const double *min = report.bounds_min, *max = report.bounds_max;
     std::printf("  %-18s %.9g %.9g %.9g to %.9g %.9g %.9g\n", "bounds", min[0], min[1], min[2], max[0],
                 max[1], max[2]);

@@ -1,9 +1,11 @@
 // The command line tool vox. Its exit codes are 0 for success, 1 for bad input and 2 for wrong usage.
 #include "commands.hpp"
 #include "failure.hpp"
+#include "manual.hpp"
 #include "report.hpp"
 
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -13,6 +15,25 @@ int fail(const char* words) {
     std::fflush(stdout); // keeps earlier output before the error text
     std::fprintf(stderr, "vox: %s\n", words);
     return 1;
+}
+
+// What cmake runs to make the files that are installed beside the program.
+void add_generate(tool::CommandLine& line) {
+    const auto make = std::make_shared<std::string (*)(const tool::Usage&)>(nullptr);
+    const auto page = [](const tool::Usage& usage) { return tool::manual_page(usage, vox_version_string()); };
+    tool::Command command = line.add("generate", "Print the manual page, or completions for a shell");
+    command
+        .choice("WHAT", *make,
+                tool::Choices<std::string (*)(const tool::Usage&)>{{"man", page},
+                                                                   {"bash", tool::bash_completion},
+                                                                   {"zsh", tool::zsh_completion},
+                                                                   {"fish", tool::fish_completion}},
+                "What to print")
+        .required();
+    command.runs([make, &line] {
+        const std::string text = (*make)(line.usage());
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    });
 }
 
 int run(int argc, char** argv) {
@@ -26,6 +47,7 @@ int run(int argc, char** argv) {
     tool::add_replay(line);
     tool::add_sweep(line);
     tool::add_tetrahedralize(line);
+    add_generate(line);
     const int code = line.run(argc, argv);
     if (code == 0) tool::finish_output();
     return code;

@@ -2,22 +2,39 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
+#include "results_file.hpp"
 #include "snapshot_file.hpp"
 #include "stepping.hpp"
+#include "terminal.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <numeric>
 
 namespace tool {
 
 namespace {
 
 struct Options {
-    std::string file;
+    std::vector<std::string> files;
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t steps = 1;
+    std::string out;
     bool json = false;
 };
+
+bool is_series(const std::string& out) { return out.ends_with(".pvd"); }
+
+// The file of one snapshot of a series, beside it: of run.pvd, run_0007.vtu.
+std::string file_in_series(const std::string& out, std::size_t index) {
+    char number[32];
+    std::snprintf(number, sizeof number, "_%04zu.vtu", index);
+    return out.substr(0, out.size() - 4) + number;
+}
 
 std::uint64_t epoch_of(const vox_grid* grid) {
     std::uint64_t epoch = 0;
@@ -25,39 +42,77 @@ std::uint64_t epoch_of(const vox_grid* grid) {
     return epoch;
 }
 
-void run(const Options& options) {
-    const Grid grid = load_snapshot(options.file, options.grid);
-    const std::uint64_t epoch = epoch_of(grid.get());
-    for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid.get()));
-    const vox_profile profile = profile_of(grid.get());
-    if (options.json) {
-        Json json = {{"file", options.file}, {"saved_epoch", epoch}, {"steps", options.steps}};
-        json["contact_count"] = contacts_of(grid.get()).count;
-        add_result(json, grid.get(), profile);
-        print(json);
-        return;
-    }
-    const vox_counters counters = counters_of(grid.get());
-    std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", options.file.c_str(),
+void print_text(const Options& options, const std::string& file, std::uint64_t epoch, const vox_grid* grid) {
+    const vox_counters counters = counters_of(grid);
+    std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
                 counters.meshes, static_cast<unsigned long long>(counters.vertices),
                 static_cast<unsigned long long>(counters.tets), static_cast<unsigned long long>(epoch));
-
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
                 static_cast<unsigned long long>(counters.contacts),
-                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid.get()).c_str(),
-                cell_size_of(grid.get()), options.steps, options.steps == 1 ? "step" : "steps",
-                static_cast<double>(profile.step_ns) * 1e-6);
+                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid).c_str(), cell_size_of(grid),
+                options.steps, options.steps == 1 ? "step" : "steps",
+                static_cast<double>(profile_of(grid).step_ns) * 1e-6);
+}
+
+void check_usage(const Options& options) {
+    if (options.out.empty()) return;
+    if (options.files.size() > 1 && !is_series(options.out))
+        throw WrongUsage(
+            "--output: several snapshots make a series; expected a name that ends with .pvd, found " +
+            options.out);
+    check_output(options.out, {".pvd", ".vtu", ".msh"});
+}
+
+void run(const Options& options) {
+    check_usage(options);
+    Progress progress;
+    Json list = Json::array();
+    std::vector<std::string> series;
+    std::vector<std::uint64_t> times;
+    for (std::size_t i = 0; i < options.files.size(); ++i) {
+        const std::string& file = options.files[i];
+        if (options.files.size() > 1)
+            progress.show("snapshot " + std::to_string(i + 1) + " of " +
+                          std::to_string(options.files.size()));
+        const Snapshot snapshot = load_snapshot(file, options.grid);
+        vox_grid* const grid = snapshot.grid.get();
+        const std::uint64_t epoch = epoch_of(grid);
+        for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid));
+        if (!options.out.empty()) {
+            const std::string drawing = is_series(options.out) ? file_in_series(options.out, i) : options.out;
+            write_results(drawing, drawn_meshes(snapshot.bytes), grid);
+            series.push_back(std::filesystem::path(drawing).filename().string());
+            times.push_back(epoch);
+        }
+        if (!options.json) {
+            print_text(options, file, epoch, grid);
+            continue;
+        }
+        Json json = {{"file", file}, {"saved_epoch", epoch}, {"steps", options.steps}};
+        json["contact_count"] = contacts_of(grid).count;
+        add_result(json, grid, profile_of(grid));
+        list.push_back(std::move(json));
+    }
+    // Files of one time would be drawn over each other.
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
+        std::iota(times.begin(), times.end(), 0u);
+    if (is_series(options.out)) write_file(options.out, pvd_series(series, times));
+    if (options.json) print(list.size() == 1 ? list.front() : Json{{"snapshots", list}});
 }
 
 } // namespace
 
 void add_replay(CommandLine& line) {
     const auto options = std::make_shared<Options>();
-    Command command = line.add("replay", "Run steps of the grid in a snapshot");
-    command.option("FILE", options->file, "Snapshot written by collide --save").required();
+    Command command = line.add("replay", "Run steps of the grids in snapshots");
+    command.option("FILE", options->files, "Snapshots written by collide --save or vox_grid_save").required();
     command.option("--steps", options->steps, "Number of steps to run").range(1u, 1000000u);
     command.choice("--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
     add_threads(command, options->grid);
+    command
+        .option("-o,--output", options->out,
+                "Write meshes, contacts and depths: .vtu or .msh, or a series of snapshots, .pvd")
+        .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run(*options); });
 }

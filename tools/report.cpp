@@ -12,20 +12,6 @@ namespace tool {
 
 namespace {
 
-const char* model_name(vox_cost_model model) {
-    switch (model) {
-    case VOX_COST_MODEL_PAPER:
-        return "paper";
-    case VOX_COST_MODEL_REFERENCE:
-        return "reference";
-    case VOX_COST_MODEL_FAST:
-        return "fast";
-    case VOX_COST_MODEL_FORCE_32_BITS:
-        break;
-    }
-    return "unknown";
-}
-
 // The library gives cell size 0 for a rule that does not apply.
 Json rule(double cell_size) { return cell_size > 0 ? number(cell_size) : Json(nullptr); }
 
@@ -95,6 +81,20 @@ Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
 
 } // namespace
 
+const char* model_name(vox_cost_model model) {
+    switch (model) {
+    case VOX_COST_MODEL_PAPER:
+        return "paper";
+    case VOX_COST_MODEL_REFERENCE:
+        return "reference";
+    case VOX_COST_MODEL_FAST:
+        return "fast";
+    case VOX_COST_MODEL_FORCE_32_BITS:
+        break;
+    }
+    return "unknown";
+}
+
 const char* state_name(vox_penetration_state state) {
     switch (state) {
     case VOX_PENETRATION_SURFACE:
@@ -129,7 +129,10 @@ Json bounds(const double (&min)[3], const double (&max)[3]) {
 void add_suggestion(Json& json, const vox_suggestion& suggestion) {
     json["cell_size"] = number(suggestion.cell_size);
     json["cells_per_axis"] = number(suggestion.cells_per_axis);
-    json["zone"] = {{"min", number(suggestion.zone_min)}, {"max", number(suggestion.zone_max)}};
+    const bool collides = suggestion.predicted_cost > 0; // if not, every cell size is as good
+    json["zone"] = {{"min", collides ? number(suggestion.zone_min) : Json(nullptr)},
+                    {"max", collides ? number(suggestion.zone_max) : Json(nullptr)}};
+    json["collides"] = collides;
     json["predicted_cost"] = number(suggestion.predicted_cost);
     json["model"] = model_name(suggestion.model);
     json["rules"] = rules(suggestion.rules);
@@ -171,7 +174,7 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
              {"barycentric", {number(weight[0]), number(weight[1]), number(weight[2]), number(weight[3])}}});
     }
     json["contacts"] = std::move(contacts);
-    json["penetrations"] = penetrations(grid, ids);
+    json["penetrations"] = has_penetrations(grid) ? penetrations(grid, ids) : Json(nullptr);
     add_result(json, grid, profile);
 }
 
@@ -215,6 +218,28 @@ std::string hexadecimal(std::uint64_t value) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
     return text;
+}
+
+std::string xml_text(const std::string& text) {
+    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string result;
+    for (const char c : Json::parse(quoted).get<std::string>()) switch (c) {
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c >= 0 && c < ' ' ? '?' : c;
+        }
+    return result;
 }
 
 void print(const Json& json) {

@@ -28,6 +28,9 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
+// Returns "paper", "reference" or "fast".
+const char* model_name(vox_cost_model model);
+
 // Returns "surface", "propagated", "enclosed", "crossing", "coincident" or "unknown".
 const char* state_name(vox_penetration_state state);
 
@@ -42,6 +45,9 @@ std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh);
 
 std::string hash_of(const vox_grid* grid);
 std::string hexadecimal(std::uint64_t value); // sixteen digits
+
+// The text as XML has it, with bytes that are not UTF-8 replaced.
+std::string xml_text(const std::string& text);
 
 // Prints one line on standard output.
 void print(const Json& json);

@@ -40,9 +40,16 @@ std::optional<double> mean(const std::vector<Element>& elements, Size size) {
 } // namespace
 
 Shape measure_shape(const vox_io_mesh_view& mesh) {
+    // Everything is measured in a unit, a power of two, in which coordinates are below 1, so that no product
+    // overflows. Only the means themselves may.
+    double largest = 0;
+    for (std::size_t i = 0; i < 3 * mesh.vertex_count; ++i)
+        largest = std::max(largest, std::abs(mesh.positions[i]));
+    const int exponent = largest > 0 ? std::clamp(std::ilogb(largest) + 2, -1000, 1000) : 0;
+    const double scale = std::ldexp(1.0, -exponent);
     const auto point = [&](std::uint32_t vertex) {
         const double* p = mesh.positions + 3 * std::size_t{vertex};
-        return Vector{p[0], p[1], p[2]};
+        return Vector{scale * p[0], scale * p[1], scale * p[2]};
     };
     const auto edge_length = [&](const Edge& edge) { return length(point(edge[1]) - point(edge[0])); };
 
@@ -78,7 +85,11 @@ Shape measure_shape(const vox_io_mesh_view& mesh) {
         const Vector a = point(facet[0]);
         return length(cross(point(facet[1]) - a, point(facet[2]) - a)) / 2;
     };
-    return {mean(edges, edge_length), mean(longest, itself), mean(facets, area), mean(volumes, itself)};
+    const auto unscaled = [exponent](std::optional<double> value, int dimensions) {
+        return value ? std::ldexp(*value, dimensions * exponent) : value;
+    };
+    return {unscaled(mean(edges, edge_length), 1), unscaled(mean(longest, itself), 1),
+            unscaled(mean(facets, area), 2), unscaled(mean(volumes, itself), 3)};
 }
 
 } // namespace tool

@@ -4,13 +4,12 @@
 #include "curve_svg.hpp"
 #include "failure.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 #include "terminal.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 
 namespace tool {
 
@@ -62,6 +61,14 @@ void print_levels(const vox_suggestion& found) {
 
 void print_text(const vox_suggestion& found, std::size_t mesh_count) {
     const double mean_edge = found.stats.mean_edge;
+    if (!(found.predicted_cost > 0)) {
+        std::printf("Nothing collides: %s. Every cell size costs the engine the same, which is nothing.\n"
+                    "The mean edge is %.9g. --model paper suggests a cell size from the tetrahedra alone.\n",
+                    mesh_count == 1 ? "there is one mesh, and --self is not given"
+                                    : "the boxes of the meshes do not meet",
+                    mean_edge);
+        return;
+    }
     std::printf("Suggested cell size %.9g, %.2f mean edges.\n", found.cell_size, found.cell_size / mean_edge);
     std::printf("Between %.9g and %.9g the predicted cost stays near its minimum.\n\n", found.zone_min,
                 found.zone_max);
@@ -92,14 +99,8 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
         std::printf("%.4g ms a step.\n", found.predicted_cost * 1e-6);
 }
 
-void write_file(const std::string& path, const std::string& text) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    const bool closed = file && std::fclose(file) == 0;
-    if (!written || !closed) throw Failure("cannot write " + path + ": " + std::strerror(errno));
-}
-
 void run(const Options& options) {
+    if (!options.svg.empty()) check_output(options.svg);
     std::vector<Body> bodies;
     std::vector<vox_mesh_desc> meshes;
     for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
@@ -110,7 +111,11 @@ void run(const Options& options) {
     vox_suggestion found{};
     found.struct_size = sizeof found;
     check(vox_suggest_cell_size(&options.desc, meshes.data(), meshes.size(), &found));
-    if (!options.svg.empty()) write_file(options.svg, curve_svg(found));
+    if (!options.svg.empty()) {
+        if (!(found.predicted_cost > 0))
+            throw Failure(options.svg + ": nothing collides, so that there is no cost to draw");
+        write_file(options.svg, curve_svg(found, options.files));
+    }
     if (!options.json) return print_text(found, meshes.size());
     Json json;
     add_suggestion(json, found);

@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 #include "stepping.hpp"
 #include "sweep_log.hpp"
@@ -16,6 +17,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <optional>
 
 namespace tool {
@@ -36,6 +39,7 @@ struct Options {
     std::uint32_t rounds = 7;
     std::uint64_t seed = 1;
     std::string csv, resume;
+    bool force = false; // replace the file of `csv`
     bool json = false;
 };
 
@@ -74,6 +78,10 @@ Experiment make_experiment(const Options& options, const Body& a, const Body& b)
     check(vox_experiment_create(&desc, &created));
     return Experiment(created);
 }
+
+// Of one thread the time in which it has a processor is taken; of several the time that passes, as they share
+// work.
+const char* clock_name(const vox_grid_desc& grid) { return grid.worker_count == 1 ? "processor" : "wall"; }
 
 // ---- cell sizes and samples -------------------------------------------------------------------------
 
@@ -124,10 +132,23 @@ std::string remaining(std::chrono::duration<double> seconds) {
     return text;
 }
 
+// Warns if others had the processors for a good part of the time: caches are then shared, too, and what
+// several threads need cannot be told from waiting.
+void warn_if_busy(std::chrono::duration<double> passed, double processor) {
+    constexpr double share = 0.9;
+    if (processor >= share * passed.count()) return;
+    std::fprintf(
+        stderr,
+        "vox: warning: the machine is busy: of %.1f s of measuring, this process had a processor for "
+        "%.1f s; times may be too long\n",
+        passed.count(), processor);
+}
+
 void measure(const Options& options, vox_experiment* experiment, const vox_suggestion& suggestion,
              SweepLog& log, const std::vector<Size>& sizes) {
     Progress progress;
     const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
     const std::size_t total = sizes.size() * options.rounds;
     std::size_t done = 0, measured = 0;
     std::vector<std::uint64_t> order(sizes.size());
@@ -159,6 +180,7 @@ void measure(const Options& options, vox_experiment* experiment, const vox_sugge
             ++measured;
         }
     }
+    warn_if_busy(std::chrono::steady_clock::now() - begin, double(std::clock() - used) / CLOCKS_PER_SEC);
 }
 
 void collect(const Options& options, const SweepLog& log, std::vector<Size>& sizes) {
@@ -293,6 +315,7 @@ void print_json(const Sweep& sweep) {
     json["distance"] = number(facts.distance);
     json["frames"] = facts.frames;
     json["rounds"] = sweep.options.rounds;
+    json["clock"] = clock_name(sweep.options.grid);
     json["contacts"] = facts.contacts;
     json["contact_share"] = {{"wanted", number(sweep.options.experiment.contact_share)},
                              {"mean", number(facts.mean_share)},
@@ -372,7 +395,7 @@ void print_text(const Sweep& sweep) {
 // ---- the command ------------------------------------------------------------------------------------
 
 std::string engine_name(const vox_grid_desc& grid) {
-    return std::string(grid.engine == VOX_ENGINE_FAST ? "fast" : "reference") + "/" +
+    return std::string(grid.engine == VOX_ENGINE_FAST ? "fast" : "reference") + "/" + clock_name(grid) + "/" +
            std::to_string(static_cast<int>(grid.storage)) + "/" +
            std::to_string(static_cast<int>(grid.hash)) + "/" + std::to_string(grid.worker_count);
 }
@@ -385,6 +408,10 @@ void check_usage(const Options& options) {
     if (options.a.empty() == (options.ball == 0)) throw WrongUsage("sweep needs a mesh file, or --ball");
     check_range(options.cell_sizes, "--cell-sizes");
     check_range(options.cells_per_axis, "--cells-per-axis");
+    if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
+        throw Failure(options.csv + ": there is such a file; --resume continues it, --force replaces it");
+    for (const std::string& path : {options.csv, options.resume})
+        if (!path.empty()) check_output(path);
     if (options.axis[0] == 0 && options.axis[1] == 0 && options.axis[2] == 0)
         throw WrongUsage("--axis: expected a direction, found 0 0 0");
 }
@@ -458,7 +485,8 @@ void add_sweep(CommandLine& line) {
     command.option("--count", options->count, "Number of cell sizes in the range").range(5u, 10000u);
     command.option("--rounds", options->rounds, "Number of samples of each cell size").range(1u, 10000u);
     command.option("--seed", options->seed, "Seed for the order of the samples");
-    Option csv = command.option("--csv", options->csv, "Write each sample to this file");
+    Option csv = command.option("--csv", options->csv, "Write each sample to this new file");
+    command.flag("--force", options->force, "Replace the file of --csv if it exists").needs(csv);
     command.option("--resume", options->resume, "As --csv, but continue the file if it exists").excludes(csv);
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run(*options); });

@@ -9,8 +9,9 @@
 namespace tool {
 
 // A line on standard error that overwrites itself, e.g. "vox: step 3 of 100". It is shown only on a terminal,
-// and only after half a second, so that short work shows nothing. The destructor erases it. After show_always() it
-// is shown elsewhere, too, as lines of their own: the first at once, the next ones after a second each.
+// and only after half a second, so that short work shows nothing. The destructor erases it. After
+// show_always() it is shown elsewhere, too, as lines of their own: the first at once, the next ones after a
+// second each.
 class Progress {
 public:
     Progress();

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 #include "terminal.hpp"
 
@@ -53,6 +54,9 @@ void print_text(const Options& options, const vox_io_quality& quality) {
 }
 
 void run(const Options& options) {
+    check_output(options.out, {".msh", ".vtu"}); // filling may take minutes
+    Progress progress;
+    progress.show_reading(options.surface);
     const Mesh surface = load_mesh(options.surface);
     const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);

@@ -226,10 +226,11 @@ typedef enum vox_io_write_format {
     VOX_IO_WRITE_FORMAT_FORCE_32_BITS = 0x7fffffff
 } vox_io_write_format;
 
-/* Numbers attached to the vertices, e.g. contacts or penetration depths. */
+/* Numbers attached to the vertices or cells, e.g. contacts or penetration depths. Cells are the triangles, then the
+ * tets. */
 typedef struct vox_io_point_data {
     const char* name;     /* not empty, without control characters and double quotes */
-    const double* values; /* components * vertex_count, finite */
+    const double* values; /* components * the number of vertices, or of cells; finite */
     uint32_t components;  /* 1 (scalars), 3 (vectors) or 9 (tensors) */
     uint32_t reserved;    /* 0 */
 } vox_io_point_data;
@@ -241,9 +242,11 @@ typedef struct vox_io_write_desc {
     uint32_t reserved; /* 0 */
     const vox_io_point_data* point_data; /* point_data_count of them; read during the call */
     uint64_t point_data_count;
+    const vox_io_point_data* cell_data; /* cell_data_count of them, with values for each cell */
+    uint64_t cell_data_count;
 } vox_io_write_desc;
 
-/* Fills `desc` with the defaults (AUTO, text, no point data) for the fields that `struct_size` covers. */
+/* Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size` covers. */
 VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size);
 
 /* Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path`

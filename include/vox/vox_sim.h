@@ -289,7 +289,8 @@ typedef struct vox_experiment_sample {
     uint32_t reserved;
     double cell_size;
     double mean_ns; /* mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth),
-                     * without the motion */
+                     * without the motion. Of a grid with one worker, the processor time of the calling thread, which a
+                     * busy machine lengthens much less; of several, the time that passes */
     uint64_t contacts;
     uint64_t visited_cells;
     uint64_t visited_entries;

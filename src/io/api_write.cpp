@@ -16,45 +16,52 @@
 namespace vox::io {
 namespace {
 
+// `what` is the field's name, and `owner` what has values, of which there are `owners`.
+void check_data(const char* what, const char* owner, const vox_io_point_data* list, std::uint64_t count,
+                std::uint64_t owners) {
+    if (count > 0) require(list, format("vox_io_write_desc.%s", what).c_str());
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const vox_io_point_data& data = list[i];
+        const std::string where = format("%s[%llu]", what, llu(i));
+        require(data.name, (where + ".name").c_str());
+        if (!*data.name) refuse(where + ".name is empty");
+        for (const char* c = data.name; *c; ++c)
+            if (static_cast<unsigned char>(*c) < ' ' || *c == '"' || *c == 0x7f)
+                refuse(where + ".name holds a control character or a double quote");
+        if (data.components != 1 && data.components != 3 && data.components != 9)
+            refuse(where + format(".components is %u, not 1, 3 or 9", data.components));
+        if (data.reserved != 0) refuse(where + format(".reserved is %u, not 0", data.reserved));
+        const std::uint64_t values = data.components * owners;
+        if (values > 0) require(data.values, (where + ".values").c_str());
+        for (std::uint64_t v = 0; v < values; ++v)
+            if (!std::isfinite(data.values[v]))
+                throw Error(VOX_ERROR_NON_FINITE,
+                            where + format(" (%s) is not finite at %s %llu", printable(data.name).c_str(),
+                                           owner, llu(v / data.components)));
+    }
+}
+
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
     vox_io_write_desc desc{};
     if (in) desc = read_struct(in, desc, "vox_io_write_desc");
     check_enum(desc.format, VOX_IO_WRITE_VTU, "vox_io_write_desc.format");
     if (desc.binary > 1) refuse(format("vox_io_write_desc.binary is %u, neither 0 nor 1", desc.binary));
     if (desc.reserved != 0) refuse(format("vox_io_write_desc.reserved is %u, not 0", desc.reserved));
-    if (desc.point_data_count > 0) require(desc.point_data, "vox_io_write_desc.point_data");
-    for (std::uint64_t i = 0; i < desc.point_data_count; ++i) {
-        const vox_io_point_data& data = desc.point_data[i];
-        const auto index = llu(i);
-        require(data.name, format("point_data[%llu].name", index).c_str());
-        if (!*data.name) refuse(format("point_data[%llu].name is empty", index));
-        for (const char* c = data.name; *c; ++c)
-            if (static_cast<unsigned char>(*c) < ' ' || *c == '"' || *c == 0x7f)
-                refuse(format("point_data[%llu].name holds a control character or a double quote", index));
-        if (data.components != 1 && data.components != 3 && data.components != 9)
-            refuse(format("point_data[%llu].components is %u, not 1, 3 or 9", index, data.components));
-        if (data.reserved != 0)
-            refuse(format("point_data[%llu].reserved is %u, not 0", index, data.reserved));
-        const std::uint64_t values = data.components * mesh.report.vertices;
-        if (values > 0) require(data.values, format("point_data[%llu].values", index).c_str());
-        for (std::uint64_t v = 0; v < values; ++v)
-            if (!std::isfinite(data.values[v]))
-                throw Error(VOX_ERROR_NON_FINITE,
-                            format("point_data[%llu] (%s) is not finite at vertex %llu", index,
-                                   printable(data.name).c_str(), llu(v / data.components)));
-    }
+    const vox_io_report& report = mesh.report;
+    check_data("point_data", "vertex", desc.point_data, desc.point_data_count, report.vertices);
+    check_data("cell_data", "cell", desc.cell_data, desc.cell_data_count, report.triangles + report.tets);
     return desc;
 }
 
 void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
            std::function<void(std::string_view)> sink) {
     Output out(std::move(sink));
-    const PointData point_data(desc.point_data, desc.point_data_count);
+    const Values values{{desc.point_data, desc.point_data_count}, {desc.cell_data, desc.cell_data_count}};
     const bool binary = desc.binary != 0;
     if (desc.format == VOX_IO_WRITE_VTU)
-        write_vtu(mesh.arrays, point_data, binary, out);
+        write_vtu(mesh.arrays, values, binary, out);
     else
-        write_msh(mesh.arrays, desc.format, point_data, binary, out);
+        write_msh(mesh.arrays, desc.format, values, binary, out);
     out.flush();
 }
 
@@ -77,11 +84,11 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
             if (!direct && !done) (void)std::remove(target.c_str());
         };
         std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(target.c_str(), "wb"), close);
-        if (!file) fail(target, errno);
+        if (!file) fail(path, errno);
         write(mesh, desc, [&](std::string_view bytes) {
-            if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(target, errno);
+            if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(path, errno);
         });
-        if (std::fflush(file.get()) != 0) fail(target, errno);
+        if (std::fflush(file.get()) != 0) fail(path, errno);
         done = true;
     }
     if (direct) return;

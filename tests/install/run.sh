@@ -12,6 +12,13 @@ for component in io sim; do
     [ ! -f "$scratch/prefix/include/vox/vox_$component.h" ] || components="$components${components:+;}$component"
 done
 
+# What is generated from the options of the program comes with it.
+if [ -x "$scratch/prefix/bin/vox" ]; then
+    for file in man/man1/vox.1 bash-completion/completions/vox zsh/site-functions/_vox fish/vendor_completions.d/vox.fish; do
+        grep -q tetrahedralize "$scratch/prefix/share/$file" || { echo "share/$file is not installed"; exit 1; }
+    done
+fi
+
 "$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" -DCOMPONENTS="$components" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$scratch/build/consumer"

@@ -178,6 +178,7 @@ START_TEST(files) {
     free(kept.data);
     remove(names[0]);
     ck_fails(vox_io_write(mesh, "no/such/folder/x.msh", NULL), VOX_ERROR_FILE, "no/such/folder/x.msh");
+    ck_assert_ptr_null(strstr(vox_last_error(), ".part")); /* the name that the caller gave */
     ck_fails(vox_io_write(mesh, ".", &desc), VOX_ERROR_NON_FINITE, "bad");
     desc.point_data_count = 0;
     ck_fails(vox_io_write(mesh, ".", &desc), VOX_ERROR_FILE, "irectory");
@@ -186,6 +187,50 @@ START_TEST(files) {
 #ifdef __linux__
     ck_fails(vox_io_write(mesh, "/dev/full", &desc), VOX_ERROR_FILE, "/dev/full");
 #endif
+    vox_io_mesh_destroy(mesh);
+}
+END_TEST
+
+/* The values on the cells are in the file, triangles first, and are checked as those on the vertices. */
+START_TEST(cell_data) {
+    static const double values[] = {-3, 0.5, 1e-7, NAN};
+    vox_io_mesh* mesh = hard_mesh(); /* one triangle, two tets */
+    vox_io_point_data data = {"inside", values, 1, 0};
+    vox_io_write_desc desc = way_desc(_i);
+    desc.cell_data = &data;
+    desc.cell_data_count = 1;
+    bytes file = written(mesh, &desc);
+    const int vtu = desc.format == VOX_IO_WRITE_VTU;
+    size_t named = 0, found = 0;
+    const char* name = vtu ? "Name=\"inside\"" : "$ElementData\n1\n\"inside\"\n1\n0\n3\n0\n1\n3\n";
+    const char* text = vtu ? "\n-3\n0.5\n1e-07\n" : "\n1 -3\n2 0.5\n3 1e-07\n";
+    for (size_t i = 0; i < file.size; ++i) {
+        named += i + strlen(name) <= file.size && memcmp(file.data + i, name, strlen(name)) == 0;
+        if (!desc.binary)
+            found += i + strlen(text) <= file.size && memcmp(file.data + i, text, strlen(text)) == 0;
+        else
+            found +=
+                i + sizeof(double) <= file.size && memcmp(file.data + i, &values[2], sizeof(double)) == 0;
+    }
+    ck_assert_uint_eq(named, 1);
+    ck_assert_uint_ge(found, 1);
+    const vox_io_source source = {ways[_i].extension, file.data, file.size};
+    vox_io_mesh* again = NULL;
+    ck_ok(vox_io_read(&source, 1, NULL, &again));
+    check_same(mesh, again);
+    vox_io_mesh_destroy(again);
+    free(file.data);
+
+    keeper k = {{NULL, 0}, -1};
+    const vox_io_sink sink = {keep, &k};
+    data.values = values + 1;
+    ck_fails(vox_io_write_to(mesh, &desc, &sink), VOX_ERROR_NON_FINITE,
+             "cell_data[0] (inside) is not finite at cell 2");
+    data.values = NULL;
+    ck_fails(vox_io_write_to(mesh, &desc, &sink), VOX_ERROR_INVALID_ARGUMENT, "cell_data[0].values");
+    desc.cell_data = NULL;
+    ck_fails(vox_io_write_to(mesh, &desc, &sink), VOX_ERROR_INVALID_ARGUMENT, "cell_data");
+    ck_assert_ptr_null(k.kept.data);
     vox_io_mesh_destroy(mesh);
 }
 END_TEST
@@ -285,6 +330,7 @@ int main(void) {
     TCase* tests = add_case(suite, "write");
     tcase_add_loop_test(tests, round_trip, 0, way_count);
     tcase_add_loop_test(tests, point_data, 0, way_count);
+    tcase_add_loop_test(tests, cell_data, 0, way_count);
     tcase_add_each(tests, surface_alone, failing_sink, files, bad_arguments, enums_of_any_bits);
     return run_suite(suite);
 }

@@ -34,6 +34,7 @@ class CommandLine(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.two = self.file("two.msh", msh(TWO_TETS[:5], TETS))
         self.one = self.file("one.msh", msh(TWO_TETS[:4], TETS[:1]))
+        self.far = self.file("far.msh", msh([(x + 100, y, z) for x, y, z in TWO_TETS[:4]], TETS[:1]))
         self.surface = self.file("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
 
     def file(self, name, text):
@@ -78,6 +79,7 @@ class CommandLine(unittest.TestCase):
             ["collide", self.two, self.two, "--offset", "-.x", 1, 2],
             ["collide", self.two, self.two, "--scale", "inf"],
             ["collide", self.two, self.two, "--scale", "2x"],
+            ["collide", self.two, self.two, "--scale", 0],
             ["collide", self.two, self.two, "--cell-size", -1],
             ["collide", self.two, self.two, "--cell-size", "nan"],
             ["collide", self.two, self.two, "--engine", "warp"],
@@ -86,6 +88,7 @@ class CommandLine(unittest.TestCase):
             ["collide", self.two, self.two, "--repeat", 0],
             ["collide", self.two, self.two, "--repeat", -3],
             ["collide", self.two, self.two, "--limit", "few"],
+            ["collide", self.two, self.two, "--limit", -1],
             ["collide", self.two, self.two, "--threads", -1],
             ["collide", self.two, self.two, "--threads", 257],
             ["suggest", self.two, "--p-nc", 1], ["suggest", self.two, "--p-nc", 0],
@@ -192,7 +195,40 @@ class CommandLine(unittest.TestCase):
             file.write(msh(TWO_TETS[:5], TETS))
         self.assertIn("\ufffd", run_json("info", path)["meshes"][0]["file"])
 
+    def test_info_as_text_has_what_json_has(self):
+        text = run("info", self.two).stdout.decode()
+        for pattern in (r"components +1\n", r"volume +0\.5\n", r"dihedral angles +[0-9.]+ to [0-9.]+ degrees\n",
+                        r"unit +not stated in the file\n"):
+            self.assertRegex(text, pattern)
+        found = run_json("info", self.one)["meshes"][0]
+        self.assertAlmostEqual(found["max_dihedral"], 90, 9)
+        self.assertAlmostEqual(found["min_dihedral"], 54.7356103, 6)
+        self.assertIsNone(run_json("info", self.surface)["meshes"][0]["min_dihedral"])
+
+    def test_info_of_huge_coordinates(self):
+        huge = [tuple(1e300 * x for x in point) for point in TWO_TETS[:5]]
+        path = self.file("huge.msh", msh(huge, TETS))
+        text = run("info", path).stdout.decode()
+        self.assertNotRegex(text, r"nan|inf\b")
+        self.assertRegex(text, r"mean volume +too large for a double\n")
+        found = run_json("info", path)["meshes"][0]
+        self.assertAlmostEqual(found["mean_edge"] / 1e300, run_json("info", self.two)["meshes"][0]["mean_edge"], 12)
+        self.assertIsNone(found["mean_facet_area"])
+
     # ---- suggest ----
+
+    def test_suggest_where_nothing_collides(self):
+        for arguments in [self.one], [self.one, self.far]:
+            text = run("suggest", *arguments, "--model", "fast").stdout.decode()
+            self.assertRegex(text, r"\ANothing collides: ")
+            self.assertNotIn("Between", text)
+            found = run_json("suggest", *arguments, "--model", "fast")
+            self.assertFalse(found["collides"])
+            self.assertEqual(found["zone"], {"min": None, "max": None})
+        self.refused(1, "nothing collides", "suggest", self.one, "--model", "fast", "--svg",
+                     os.path.join(self.folder.name, "none.svg"))
+        for model in "paper", "reference":  # these cost something even then
+            self.assertIsNotNone(run_json("suggest", self.one, "--model", model)["zone"]["min"])
 
     def test_suggest(self):
         found = run_json("suggest", self.two, self.one, "--world", 8, "--factor", 3, "--resolution", 0.25)
@@ -223,8 +259,9 @@ class CommandLine(unittest.TestCase):
                 if size:
                     self.assertGreaterEqual(found["rule_costs"][rule], cost * (1 - 1e-6))
             self.assertGreaterEqual(found["uniform_loss"], 0)
-            self.assertIn("What the cost is made of", run("suggest", self.two, "--model", model).stdout.decode())
-        run_json("suggest", self.two, "--model", "reference", "--calibrate")
+            text = run("suggest", self.two, "--self", "--model", model).stdout.decode()
+            self.assertIn("What the cost is made of", text)
+        run_json("suggest", self.two, "--self", "--model", "reference", "--calibrate")
 
     def test_suggest_picture(self):
         path = os.path.join(self.folder.name, "curve.svg")
@@ -233,7 +270,14 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
         points = root.find("{http://www.w3.org/2000/svg}polyline").get("points").split()
         self.assertEqual(len(points), 64)
-        self.refused(1, "cannot write", "suggest", self.two, "--svg", os.path.join(self.folder.name, "no", "such.svg"))
+        self.assertEqual(root.find("{http://www.w3.org/2000/svg}title").text, "Predicted cost over cell size")
+        words = " | ".join(text.text for text in root.iter("{http://www.w3.org/2000/svg}text"))
+        for expected in "two.msh", "cost model of the paper", "cell size", "cost, in units of the least":
+            self.assertIn(expected, words)
+        odd = self.file("a&b <c>.msh", msh(TWO_TETS[:5], TETS))
+        run_json("suggest", odd, "--svg", path)
+        self.assertIn("a&b <c>.msh", "".join(xml.etree.ElementTree.parse(path).getroot().itertext()))
+        self.refused(1, "cannot be written", "suggest", self.two, "--svg", os.path.join(self.folder.name, "no", "such.svg"))
 
     def test_suggest_solves_the_cubic(self):
         """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
@@ -332,6 +376,20 @@ class CommandLine(unittest.TestCase):
         found = run_json("collide", self.surface, self.one, "--offset", -0.1, -0.1, -0.1)
         self.assertEqual([(c["mesh_a"], c["vertex"], c["mesh_b"]) for c in found["contacts"]], [(0, 0, 1)])
 
+    def test_surfaces_alone_are_refused(self):
+        self.refused(1, "surface.*no inside.*--fill", "collide", self.surface, self.surface)
+        self.refused(1, "surface.*no inside.*--fill", "collide", self.surface, "--self")
+        self.assertIn("it has no inside", run("collide", self.surface, self.one).stdout.decode())
+
+    def test_repeat_moves_the_bodies_and_puts_them_back(self):
+        """All vertices move in the steps that are timed, and the result is that of the positions given."""
+        for double in [], ["--double"]:
+            placed = ["collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, *double]
+            once, often = run_json(*placed), run_json(*placed, "--repeat", 20)
+            for key in "contacts", "penetrations", "hash", "meshes":
+                self.assertEqual(once[key], often[key])
+        self.assertIn("in which all vertices move", run(*placed, "--repeat", 3).stdout.decode())
+
     def test_collide_as_text(self):
         done = run("collide", self.two, self.two, "--limit", 2)
         text = done.stdout.decode()
@@ -371,6 +429,21 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run("collide", cube, self.one, "--fill-cell", 0.1).returncode, 2)
         # With tetrahedra it holds what a surface cannot.
         self.assertGreater(run_json("collide", out, self.one, "--scale", 0.5)["contact_count"], 4)
+
+    def test_output_is_checked_before_the_work(self):
+        # There is no such surface, but that is not what is said: the output is looked at first.
+        for out, words in (("out.stl", r"out.stl: expected a name that ends with .msh or .vtu"),
+                           (os.path.join("no", "out.msh"), "out.msh: cannot be written: No such file"),
+                           ("", "cannot be written|expected a name")):
+            path = os.path.join(self.folder.name, out)
+            self.refused(1, words, "tetrahedralize", "missing.obj", "-o", path)
+            self.assertNotIn(b".part", run("tetrahedralize", "missing.obj", "-o", path).stderr)
+        kept = self.file("kept.msh", "kept")
+        self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept)
+        self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept + ".vtu")
+        self.assertFalse(os.path.exists(kept + ".vtu"))
+        with open(kept, encoding="ascii") as file:
+            self.assertEqual(file.read(), "kept")
 
     def test_surfaces_that_cannot_be_filled(self):
         out = os.path.join(self.folder.name, "out.msh")

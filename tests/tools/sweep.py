@@ -2,10 +2,13 @@
 
 import csv
 import os
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
-from vox import run, run_json
+from vox import TOOL, run, run_json
 
 BALL = ["--ball", 1500, "--count", 6, "--frames", 3]  # small: times are the machine's and not tested
 RULES = {"suggestion", "traditional", "mean_edge_multiple", "object_512", "mean_volume", "median_box_side"}
@@ -45,6 +48,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual((found["engine"], found["frames"], found["rounds"], found["world"]), ("reference", 3, 2, 4))
         self.assertEqual(found["tets"], sum(mesh["tets"] for mesh in found["meshes"]))
         self.assertEqual(found["meshes"][0], found["meshes"][1])
+        self.assertEqual(found["clock"], "processor")
         share = found["contact_share"]
         self.assertEqual(share["wanted"], 0.01)
         self.assertAlmostEqual(share["mean"], 0.01, delta=0.003)
@@ -122,6 +126,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(found[0]["hash"], found[1]["hash"])
         self.assertEqual(found[0]["contacts"], found[1]["contacts"])
         self.assertEqual(found[1]["engine"], "fast")
+        self.assertEqual(run_json("sweep", *BALL, "--rounds", 1, "--threads", 2)["clock"], "wall")
 
     def test_share_and_axis(self):
         near = run_json("sweep", *BALL, "--rounds", 1, "--share", 0.04)
@@ -172,8 +177,11 @@ class Sweep(unittest.TestCase):
         self.assertEqual(self.lines(cut)[:len(again)], again)
         self.assertEqual(len(self.lines(cut)), 1 + 3 * (6 + len(RULES)))
 
-        # --csv starts again; --resume of no file, and of an empty one, starts.
-        run_json("sweep", *BALL, "--rounds", 1, "--csv", cut)
+        # --csv starts again, but only if it is forced to; --resume of no file, and of an empty one, starts.
+        kept = self.lines(cut)
+        self.refused(1, "cut.csv: there is such a file; --resume continues it, --force", *BALL, "--csv", cut)
+        self.assertEqual(self.lines(cut), kept)
+        run_json("sweep", *BALL, "--rounds", 1, "--csv", cut, "--force")
         self.assertEqual(len(self.lines(cut)), 1 + 6 + len(RULES))
         for name in self.path("new.csv"), self.write("empty.csv", ""):
             run_json("sweep", *BALL, "--rounds", 1, "--resume", name)
@@ -199,6 +207,26 @@ class Sweep(unittest.TestCase):
         self.refused(1, "line 1 is not the header", *BALL, "--rounds", 1, "--resume", self.write("no.csv", "garbage"))
         self.refused(1, "cannot be written", *BALL, "--rounds", 1, "--csv", os.path.join(self.folder.name, "no", "x.csv"))
         self.refused(1, "cannot be written", *BALL, "--rounds", 1, "--resume", self.folder.name)
+
+    @unittest.skipUnless(hasattr(signal, "SIGSTOP"), "no signals here")
+    def test_waiting_is_not_measured(self):
+        """A process that is stopped for seconds says so, and no time of a frame has these seconds."""
+        path = self.path("samples.csv")
+        sweep = subprocess.Popen([TOOL, "sweep", "--ball", "30000", "--count", "8", "--frames", "3", "--rounds", "2",
+                                  "--csv", path], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while sweep.poll() is None and not (os.path.exists(path) and len(self.lines(path)) > 3):
+            time.sleep(0.002)
+        self.assertIsNone(sweep.poll(), "the sweep ended before it could be stopped")
+        sweep.send_signal(signal.SIGSTOP)
+        time.sleep(6)
+        sweep.send_signal(signal.SIGCONT)
+        _, words = sweep.communicate(timeout=600)
+        self.assertEqual(sweep.returncode, 0)
+        self.assertRegex(words.decode(), r"\Avox: warning: the machine is busy: of [0-9.]+ s of measuring, this process "
+                                         r"had a processor for [0-9.]+ s")
+        with open(path, newline="") as file:
+            times = [int(ns) for row in csv.DictReader(file) for ns in row["frames_ns"].split()]
+        self.assertLess(max(times), 5e9)
 
     # ---- refused ----
 

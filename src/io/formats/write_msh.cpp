@@ -21,7 +21,7 @@ class MshWriter {
 public:
     MshWriter(const MeshArrays& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
 
-    void write(vox_io_write_format version, PointData point_data) {
+    void write(vox_io_write_format version, const Values& values) {
         const bool version_41 = version == VOX_IO_WRITE_MSH_41;
         out_ << "$MeshFormat\n" << (version_41 ? "4.1" : "2.2") << (binary_ ? " 1 8\n" : " 0 8\n");
         if (binary_) out_.binary<std::uint32_t>(1) << '\n';
@@ -30,7 +30,8 @@ public:
             write_blocks();
         else
             write_lists();
-        for (const vox_io_point_data& array : point_data) write_point_data(array);
+        for (const vox_io_point_data& data : values.points) write_values("NodeData", data, vertices_);
+        for (const vox_io_point_data& data : values.cells) write_values("ElementData", data, elements_);
     }
 
 private:
@@ -54,7 +55,7 @@ private:
         end_row();
     }
 
-    void end_section(const char* mark) { out_ << (binary_ ? "\n" : "") << mark; }
+    void end_section(std::string_view mark) { out_ << (binary_ ? "\n" : "") << mark; }
 
     // ---- version 2.2; integers have 32 bits ----
 
@@ -139,17 +140,18 @@ private:
 
     // ---- both versions ----
 
-    void write_point_data(const vox_io_point_data& array) {
-        out_ << "$NodeData\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n"
+    // `section` is NodeData or ElementData.
+    void write_values(const std::string& section, const vox_io_point_data& array, std::uint64_t count) {
+        out_ << "$" << section << "\n1\n\"" << array.name << "\"\n1\n0\n3\n0\n"
              << array.components << '\n'
-             << vertices_ << '\n';
+             << count << '\n';
         const double* value = array.values;
-        for (std::uint32_t v = 0; v < vertices_; ++v) {
-            put(v + 1);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            put(i + 1);
             for (std::uint32_t c = 0; c < array.components; ++c) put(*value++);
             end_row();
         }
-        end_section("$EndNodeData\n");
+        end_section("$End" + section + "\n");
     }
 
     const MeshArrays& mesh_;
@@ -163,9 +165,9 @@ private:
 
 } // namespace
 
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, PointData point_data, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, const Values& values, bool binary,
                Output& out) {
-    MshWriter(mesh, binary, out).write(version, point_data);
+    MshWriter(mesh, binary, out).write(version, values);
 }
 
 } // namespace vox::io

@@ -70,7 +70,7 @@ private:
 
 } // namespace
 
-void write_vtu(const MeshArrays& mesh, PointData point_data, bool binary, Output& out) {
+void write_vtu(const MeshArrays& mesh, const Values& values, bool binary, Output& out) {
     const std::uint64_t vertices = mesh.positions.size() / 3;
     const std::uint64_t triangles = mesh.triangles.size() / 3, tets = mesh.tets.size() / 4;
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
@@ -79,15 +79,20 @@ void write_vtu(const MeshArrays& mesh, PointData point_data, bool binary, Output
         << "\" NumberOfCells=\"" << triangles + tets << "\">\n";
     Arrays arrays(binary, out);
 
+    const auto declare = [&](std::span<const vox_io_point_data> list, std::uint64_t owners) {
+        for (const vox_io_point_data& data : list) {
+            const std::uint64_t count = data.components * owners;
+            arrays.declare<double>("Float64", data.name, data.components, count,
+                                   [count, &data](const auto& put) {
+                                       for (std::uint64_t i = 0; i < count; ++i) put(data.values[i]);
+                                   });
+        }
+    };
     out << "<PointData>\n";
-    for (const vox_io_point_data& data : point_data) {
-        const std::uint64_t values = data.components * vertices;
-        arrays.declare<double>("Float64", data.name, data.components, values,
-                               [values, &data](const auto& put) {
-                                   for (std::uint64_t i = 0; i < values; ++i) put(data.values[i]);
-                               });
-    }
-    out << "</PointData>\n<Points>\n";
+    declare(values.points, vertices);
+    out << "</PointData>\n<CellData>\n";
+    declare(values.cells, triangles + tets);
+    out << "</CellData>\n<Points>\n";
     arrays.declare<double>("Float64", "Points", 3, 3 * vertices, [&](const auto& put) {
         for (const double x : mesh.positions) put(x);
     });

@@ -1,4 +1,4 @@
-// The writers, one for each format, turn a mesh and numbers on its vertices into bytes.
+// The writers, one for each format, turn a mesh and numbers on its vertices and cells into bytes.
 #pragma once
 
 #include "io/mesh_data.hpp"
@@ -62,11 +62,14 @@ private:
     std::string buffer_;
 };
 
-using PointData = std::span<const vox_io_point_data>;
+// Numbers on the vertices and on the cells: the triangles, then the tets.
+struct Values {
+    std::span<const vox_io_point_data> points, cells;
+};
 
 // `version` is VOX_IO_WRITE_MSH_22 or VOX_IO_WRITE_MSH_41.
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, PointData point_data, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, const Values& values, bool binary,
                Output& out);
-void write_vtu(const MeshArrays& mesh, PointData point_data, bool binary, Output& out);
+void write_vtu(const MeshArrays& mesh, const Values& values, bool binary, Output& out);
 
 } // namespace vox::io

@@ -31,7 +31,8 @@ private:
                               const vox::sim::Shape& b) const;
     vox_mesh_desc mesh_desc(int body, const Frame& frame) const;
     void make_grid(const vox_grid_desc* given);
-    void step(const Frame& frame);
+    // Returns the share of the step in which its thread had a processor; 1 if it had several threads.
+    double step(const Frame& frame);
 
     vox::sim::Shape shapes_[2];
     double distance_ = 0;
@@ -39,4 +40,5 @@ private:
     std::vector<double> shares_;
     vox::sim::GridHandle grid_; // whose steps are measured
     vox_mesh meshes_[2] = {};
+    bool one_thread_ = false;
 };

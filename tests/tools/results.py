@@ -1,0 +1,163 @@
+"""Files of results: collide -o, --csv and --no-depth, and the series of replay -o."""
+
+import csv
+import os
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+from command_line import TETS, TWO_TETS, msh
+from vox import run, run_json
+
+STATES = ["surface", "propagated", "enclosed", "crossing", "coincident", "unknown"]
+
+
+class Results(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.two = self.write("two.msh", msh(TWO_TETS[:5], TETS))
+        self.one = self.write("one.msh", msh(TWO_TETS[:4], TETS[:1]))
+        self.surface = self.write("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
+        self.placed = ["collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3]
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            file.write(text)
+        return self.path(name)
+
+    def arrays(self, path):
+        """The arrays of a .vtu file of text, by section and name."""
+        root = xml.etree.ElementTree.parse(path).getroot()
+        return {(section.tag, array.get("Name")): [float(x) for x in array.text.split()]
+                for section in root.find("UnstructuredGrid/Piece") for array in section}
+
+    def check_drawing(self, path, found):
+        """The file has the contacts and penetrations that the JSON has."""
+        arrays = self.arrays(path)
+        mesh, vertex = arrays["PointData", "mesh"], arrays["PointData", "vertex"]
+        at = {(int(m), int(v)): i for i, (m, v) in enumerate(zip(mesh, vertex))}
+        cell_at = {(int(m), int(t)): i for i, (m, t) in
+                   enumerate(zip(arrays["CellData", "mesh"], arrays["CellData", "tet"]))}
+        points, cells = [0] * len(mesh), [0] * len(cell_at)
+        for contact in found["contacts"]:
+            points[at[contact["mesh_a"], contact["vertex"]]] += 1
+            cells[cell_at[contact["mesh_b"], contact["tet"]]] += 1
+        self.assertEqual(arrays["PointData", "contacts"], points)
+        self.assertEqual(arrays["CellData", "contacts"], cells)
+        depth, state, direction = [0] * len(mesh), [-1] * len(mesh), [0] * 3 * len(mesh)
+        for p in found["penetrations"]:
+            i = at[p["mesh_a"], p["vertex"]]
+            if state[i] < 0 or p["depth"] > depth[i]:
+                depth[i], state[i] = p["depth"], STATES.index(p["state"])
+                direction[3 * i:3 * i + 3] = p["direction"]
+        self.assertEqual(arrays["PointData", "state"], state)
+        for name, expected in ("depth", depth), ("direction", direction):
+            for x, y in zip(arrays["PointData", name], expected):
+                self.assertAlmostEqual(x, y, 6)
+        return arrays
+
+    def test_drawing(self):
+        out = self.path("out.vtu")
+        found = run_json(*self.placed, "-o", out)
+        self.assertEqual(found["contact_count"], 1)
+        arrays = self.check_drawing(out, found)
+        # The second body is where it was put.
+        corner = arrays["PointData", "mesh"].index(1)
+        for x, y in zip(arrays["Points", "Points"][3 * corner:3 * corner + 3], (0.1, 0.2, 0.3)):
+            self.assertAlmostEqual(x, y, 6)
+        self.check_drawing(out, run_json(*self.placed, "--repeat", 5, "--double", "-o", out))
+        self.check_drawing(out, run_json("collide", self.two, self.two, "--self", "-o", out))
+        written = run_json("info", out)["meshes"][0]
+        self.assertEqual((written["vertices"], written["tets"]), (10, 4))
+
+    def test_drawing_of_a_surface(self):
+        out = self.path("out.vtu")
+        found = run_json("collide", self.one, self.surface, "--offset", 0.1, 0.1, 0.1, "-o", out)
+        self.assertEqual(found["contact_count"], 1)
+        arrays = self.check_drawing_with_triangles(out)
+        self.assertEqual(sum(arrays["PointData", "contacts"]), 1)
+        self.assertEqual(arrays["CellData", "contacts"], [0, 0, 1])
+
+    def check_drawing_with_triangles(self, path):
+        arrays = self.arrays(path)
+        self.assertEqual(arrays["CellData", "mesh"], [1, 1, 0])  # triangles come first
+        self.assertEqual(arrays["CellData", "tet"], [-1, -1, 0])
+        return arrays
+
+    def test_gmsh(self):
+        out = self.path("out.msh")
+        run_json(*self.placed, "-o", out)
+        with open(out, encoding="ascii") as file:
+            text = file.read()
+        self.assertEqual((text.count("$NodeData"), text.count("$ElementData")), (6, 3))
+        self.assertEqual(run_json("info", out)["meshes"][0]["tets"], 3)
+
+    def test_table(self):
+        out = self.path("out.csv")
+        found = run_json("collide", self.two, self.two, "--csv", out)
+        with open(out, encoding="ascii", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), found["contact_count"])
+        depths = {(p["mesh_a"], p["vertex"], p["mesh_b"]): p for p in found["penetrations"]}
+        for row, contact in zip(rows, found["contacts"]):
+            for key in "mesh_a", "vertex", "mesh_b", "tet":
+                self.assertEqual(int(row[key]), contact[key])
+            for i in range(4):
+                self.assertAlmostEqual(float(row[f"weight_{i}"]), contact["barycentric"][i], 8)
+            p = depths[contact["mesh_a"], contact["vertex"], contact["mesh_b"]]
+            self.assertAlmostEqual(float(row["depth"]), p["depth"], 6)
+            self.assertEqual(row["state"], p["state"])
+
+    def test_no_depth(self):
+        table, drawing = self.path("out.csv"), self.path("out.vtu")
+        found = run_json(*self.placed, "--no-depth", "--csv", table, "-o", drawing)
+        self.assertIsNone(found["penetrations"])
+        self.assertEqual(found["profile"]["depth_ns"], 0)
+        self.assertEqual(found["contacts"], run_json(*self.placed)["contacts"])
+        with open(table, encoding="ascii") as file:
+            self.assertEqual(file.readline(), "mesh_a,vertex,mesh_b,tet,weight_0,weight_1,weight_2,weight_3\n")
+        self.assertNotIn(("PointData", "depth"), self.arrays(drawing))
+        self.assertNotIn("penetrating", run(*self.placed, "--no-depth").stdout.decode())
+
+    def test_series(self):
+        snapshots = []
+        for i, x in enumerate((0.1, 0.3, 5)):
+            snapshots.append(self.path(f"{i}.vox"))
+            found = run_json("collide", self.two, self.one, "--offset", x, 0.2, 0.3, "--repeat", i + 1, "--save",
+                             snapshots[-1], "-o", self.path(f"{i}.vtu"))
+        out = self.path("run.pvd")
+        listed = run_json("replay", *snapshots, "-o", out)["snapshots"]
+        self.assertEqual([s["file"] for s in listed], snapshots)
+        files = xml.etree.ElementTree.parse(out).getroot().findall("Collection/DataSet")
+        self.assertEqual([f.get("file") for f in files], ["run_0000.vtu", "run_0001.vtu", "run_0002.vtu"])
+        self.assertEqual([int(f.get("timestep")) for f in files], [s["saved_epoch"] for s in listed])
+        for i, file in enumerate(files):  # what the snapshot holds is what collide has drawn
+            self.assertEqual(self.arrays(self.path(file.get("file"))), self.arrays(self.path(f"{i}.vtu")))
+        run_json("replay", snapshots[0], snapshots[0], "-o", out)
+        files = xml.etree.ElementTree.parse(out).getroot().findall("Collection/DataSet")
+        self.assertEqual([f.get("timestep") for f in files], ["0", "1"])
+        single = self.path("single.vtu")
+        run_json("replay", snapshots[1], "-o", single)
+        self.assertEqual(self.arrays(single), self.arrays(self.path("1.vtu")))
+        self.assertEqual(found["contact_count"], 0)
+
+    def test_refused(self):
+        for code, words, *arguments in (
+            (1, "out.stl: expected a name that ends with .vtu or .msh", *self.placed, "-o", self.path("out.stl")),
+            (1, "cannot be written: No such file", *self.placed, "-o", self.path("no/out.vtu")),
+            (1, "cannot be written: No such file", *self.placed, "--csv", self.path("no/out.csv")),
+            (1, "cannot be written: Is a directory", *self.placed, "--csv", self.folder.name),
+            (2, "expected a name that ends with .pvd", "replay", self.one, self.one, "-o", self.path("out.vtu")),
+        ):
+            done = run(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (code, b""))
+            self.assertIn(words, done.stderr.decode())
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["one.msh", "surface.obj", "two.msh"])
+
+
+if __name__ == "__main__":
+    unittest.main()

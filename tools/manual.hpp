@@ -1,0 +1,17 @@
+// The manual page and the completions of shells, made from the usage of the command line.
+#pragma once
+
+#include "command_line.hpp"
+
+#include <string>
+
+namespace tool {
+
+// In troff with the macros of man(7).
+std::string manual_page(const Usage& usage, const std::string& version);
+
+std::string bash_completion(const Usage& usage);
+std::string zsh_completion(const Usage& usage);
+std::string fish_completion(const Usage& usage);
+
+} // namespace tool

@@ -1,0 +1,55 @@
+#include "output_file.hpp"
+
+#include "failure.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace tool {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+    throw Failure(path + ": cannot be written: " + why);
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+} // namespace
+
+void check_output(const std::string& path, std::initializer_list<const char*> endings) {
+    const std::string name = lower_case(path);
+    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+    if (endings.size() > 0 && std::none_of(endings.begin(), endings.end(), ends)) {
+        std::string words;
+        for (const char* ending : endings) words += (words.empty() ? "" : " or ") + std::string(ending);
+        throw Failure(path + ": expected a name that ends with " + words);
+    }
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) fail(path, std::strerror(EISDIR));
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return; // a pipe, a terminal
+    // Nothing but opening a file tells whether one can be made; one that is there is opened and not changed.
+    const bool existed = std::filesystem::exists(status);
+    std::FILE* const file = std::fopen(path.c_str(), "ab");
+    if (!file) fail(path, std::strerror(errno));
+    std::fclose(file);
+    if (!existed) std::filesystem::remove(path, error);
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const bool closed = file && std::fclose(file) == 0;
+    if (!written || !closed) fail(path, std::strerror(errno));
+}
+
+} // namespace tool
