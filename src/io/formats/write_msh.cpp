@@ -21,7 +21,7 @@ class MshWriter {
 public:
     MshWriter(const MeshArrays& mesh, bool binary, Output& out) : mesh_(mesh), binary_(binary), out_(out) {}
 
-    void write(vox_io_write_format version, const Values& values) {
+    void write(vox_io_write_format version, const WrittenData& values) {
         const bool version_41 = version == VOX_IO_WRITE_MSH_41;
         out_ << "$MeshFormat\n" << (version_41 ? "4.1" : "2.2") << (binary_ ? " 1 8\n" : " 0 8\n");
         if (binary_) out_.binary<std::uint32_t>(1) << '\n';
@@ -165,7 +165,7 @@ private:
 
 } // namespace
 
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, const Values& values, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, const WrittenData& values, bool binary,
                Output& out) {
     MshWriter(mesh, binary, out).write(version, values);
 }

@@ -70,7 +70,7 @@ private:
 
 } // namespace
 
-void write_vtu(const MeshArrays& mesh, const Values& values, bool binary, Output& out) {
+void write_vtu(const MeshArrays& mesh, const WrittenData& values, bool binary, Output& out) {
     const std::uint64_t vertices = mesh.positions.size() / 3;
     const std::uint64_t triangles = mesh.triangles.size() / 3, tets = mesh.tets.size() / 4;
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""

@@ -63,13 +63,13 @@ private:
 };
 
 // Numbers on the vertices and on the cells: the triangles, then the tets.
-struct Values {
+struct WrittenData {
     std::span<const vox_io_point_data> points, cells;
 };
 
 // `version` is VOX_IO_WRITE_MSH_22 or VOX_IO_WRITE_MSH_41.
-void write_msh(const MeshArrays& mesh, vox_io_write_format version, const Values& values, bool binary,
+void write_msh(const MeshArrays& mesh, vox_io_write_format version, const WrittenData& values, bool binary,
                Output& out);
-void write_vtu(const MeshArrays& mesh, const Values& values, bool binary, Output& out);
+void write_vtu(const MeshArrays& mesh, const WrittenData& values, bool binary, Output& out);
 
 } // namespace vox::io
