@@ -1,5 +1,6 @@
-// vox through its C interface, as a user would call it: the default grid and all that its step does, the same as
-// a machine without AVX-512 runs it, the same without the depth stage, and the paper's algorithm without it.
+// vox through its C interface, as a user would call it: the default grid and all that its step does, the same
+// as a machine without AVX-512 runs it, the same without the depth stage, and the paper's algorithm without
+// it.
 #include "entrant.hpp"
 
 #include "base/simd.hpp"

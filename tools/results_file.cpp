@@ -155,7 +155,8 @@ std::string pvd_series(std::span<const std::string> files, std::span<const std::
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (std::size_t i = 0; i < files.size(); ++i) {
-        text += "<DataSet timestep=\"" + std::to_string(times[i]) + "\" file=\"" + xml_text(files[i]) + "\"/>\n";
+        text +=
+            "<DataSet timestep=\"" + std::to_string(times[i]) + "\" file=\"" + xml_text(files[i]) + "\"/>\n";
     }
     return text + "</Collection>\n</VTKFile>\n";
 }

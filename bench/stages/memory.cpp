@@ -50,8 +50,8 @@ double room(const Vectors&... vectors) {
 
 // The parts of a grid of the fast engine, which steps as vox_grid::step does.
 struct Parts {
-    CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_trees,
-        of_penetrations, of_events;
+    CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_trees, of_penetrations,
+        of_events;
     std::vector<vox::Mesh> meshes;
     std::vector<vox::fast::MeshState> states;
     std::vector<vox::Topology> topologies;
@@ -143,9 +143,9 @@ void report(bench::Scene& scene, const Options& options) {
     const double tets = static_cast<double>(scene.tet_count());
     const double copy = options.borrow ? 0 : tets * sizeof(vox::Tet);
     double sum = copy;
-    for (const CountingMemory* memory : {&parts.of_topology, &parts.of_meshes, &parts.of_states,
-                                         &parts.of_engine, &parts.of_hits, &parts.of_depth,
-                                         &parts.of_trees, &parts.of_penetrations, &parts.of_events})
+    for (const CountingMemory* memory :
+         {&parts.of_topology, &parts.of_meshes, &parts.of_states, &parts.of_engine, &parts.of_hits,
+          &parts.of_depth, &parts.of_trees, &parts.of_penetrations, &parts.of_events})
         sum += held(*memory);
     const double real = real_bytes(scene, options);
     std::printf("\n%s: %zu tets, %zu vertices, %zu bodies, %zu contacts; bytes a tetrahedron:\n",
@@ -182,7 +182,8 @@ void report(bench::Scene& scene, const Options& options) {
     if (options.depth) {
         table.add("topology", held(parts.of_topology));
         double across = 0;
-        for (const vox::Topology& topology : parts.topologies) across += static_cast<double>(topology.across.bytes());
+        for (const vox::Topology& topology : parts.topologies)
+            across += static_cast<double>(topology.across.bytes());
         table.add("- tetrahedra across facets", across);
         table.add("depth stage", held(parts.of_depth));
         table.add("trees of surfaces", held(parts.of_trees));

@@ -111,9 +111,7 @@ public:
 
 private:
     Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
-    LinkRange neighbours(const Point& point) const {
-        return pair_.topology_a->neighbours_of(point.vertex);
-    }
+    LinkRange neighbours(const Point& point) const { return pair_.topology_a->neighbours_of(point.vertex); }
     std::uint32_t wave_of(std::uint32_t place) const { return waves_[points_[place].vertex].wave; }
     void set_wave(std::uint32_t place, std::uint32_t wave) { waves_.set_wave(points_[place].vertex, wave); }
     void push(std::uint32_t place, std::uint32_t wave) {

@@ -24,9 +24,9 @@ inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
 // A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
-// the two bodies, the box around those blocks of a that meet these (of a single block: its vertices that are in
-// both), and the box around those tiles of b that meet what is left, with the box of a super-tile in place of its tiles where that is inside. Empty where no
-// tile of b meets it.
+// the two bodies, the box around those blocks of a that meet these (of a single block: its vertices that are
+// in both), and the box around those tiles of b that meet what is left, with the box of a super-tile in place
+// of its tiles where that is inside. Empty where no tile of b meets it.
 struct PairRegion {
     std::uint32_t a, b;
     Box region;

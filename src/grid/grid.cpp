@@ -656,8 +656,8 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
         if (!mesh.topology().triangles.empty()) reading.topology = &mesh.topology();
         reading.is_as_stepped = mesh.topology_version() == meshes_[id].topology_version;
     }
-    const std::uint64_t left_out = readings_.prepare(desc.what, desc.closest_budget, contacts_,
-                                                     penetrations_, trees_, workers_);
+    const std::uint64_t left_out =
+        readings_.prepare(desc.what, desc.closest_budget, contacts_, penetrations_, trees_, workers_);
     if (left_out > 0 && log_.write) { // without memory, as the call has succeeded
         char text[160];
         std::snprintf(text, sizeof text,

@@ -56,7 +56,8 @@ vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) 
 void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
            std::function<void(std::string_view)> sink) {
     Output out(std::move(sink));
-    const WrittenData values{{desc.point_data, desc.point_data_count}, {desc.cell_data, desc.cell_data_count}};
+    const WrittenData values{{desc.point_data, desc.point_data_count},
+                             {desc.cell_data, desc.cell_data_count}};
     const bool binary = desc.binary != 0;
     if (desc.format == VOX_IO_WRITE_VTU)
         write_vtu(mesh.arrays, values, binary, out);

@@ -74,9 +74,9 @@ private:
                      const Lattice& lattice, const Address& address);
     void narrow_phase(Step& step, std::uint32_t body);
 
-    std::pmr::vector<Particle> particles_;   // of all bodies, one after the other
-    std::pmr::vector<Vec3d> exact_;          // their positions; empty where floats are enough
-    std::pmr::vector<std::uint32_t> first_;  // each body's first particle, and the end
+    std::pmr::vector<Particle> particles_;    // of all bodies, one after the other
+    std::pmr::vector<Vec3d> exact_;           // their positions; empty where floats are enough
+    std::pmr::vector<std::uint32_t> first_;   // each body's first particle, and the end
     std::pmr::vector<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
     std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
