@@ -47,12 +47,19 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
 
     penetrations.reserve(hits.size());
     penetrations.carry(bodies, hits, count);
-    for (const Point& point : points_) {
-        const vox_contact& contact = contacts[point.hit];
-        penetrations.set(point.place,
-                         {contact.mesh_a, contact.vertex, contact.mesh_b, point.state, point.hit, 0, {}},
-                         point.depth, point.direction, point.closest);
-    }
+    const auto write = [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (const Point& point : std::span(points_).subspan(begin, end - begin)) {
+            const vox_contact& contact = contacts[point.hit];
+            penetrations.set(point.place,
+                             {contact.mesh_a, contact.vertex, contact.mesh_b, point.state, point.hit, 0, {}},
+                             point.depth, point.direction, point.closest);
+        }
+    };
+    constexpr std::size_t least_written = 4096; // that are worth a task
+    if (workers && points_.size() > least_written)
+        workers->for_ranges(points_.size(), least_written, write);
+    else
+        write(0, points_.size(), 0);
     counters.closest_searches = searches;
     counters.closest_tests = fallback_counts.closest_tests;
     counters.unknown_penetrations = unknown;
