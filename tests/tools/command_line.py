@@ -3,11 +3,10 @@ the paper on the lattice spheres that the demo makes."""
 
 import os
 import re
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from vox import run, run_json
+from vox import Files, run, run_json
 
 # Two tetrahedra on one face, and a vertex 6 that no element uses.
 TWO_TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (9, 9, 9)]
@@ -28,20 +27,13 @@ def msh(points, tets):
     return "\n".join(map(str, lines + ["$EndElements", ""]))
 
 
-class CommandLine(unittest.TestCase):
+class CommandLine(Files):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.two = self.file("two.msh", msh(TWO_TETS[:5], TETS))
-        self.one = self.file("one.msh", msh(TWO_TETS[:4], TETS[:1]))
-        self.far = self.file("far.msh", msh([(x + 100, y, z) for x, y, z in TWO_TETS[:4]], TETS[:1]))
-        self.surface = self.file("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
-
-    def file(self, name, text):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "w", encoding="ascii") as file:
-            file.write(text)
-        return path
+        super().setUp()
+        self.two = self.write("two.msh", msh(TWO_TETS[:5], TETS))
+        self.one = self.write("one.msh", msh(TWO_TETS[:4], TETS[:1]))
+        self.far = self.write("far.msh", msh([(x + 100, y, z) for x, y, z in TWO_TETS[:4]], TETS[:1]))
+        self.surface = self.write("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
 
     def refused(self, code, pattern, *arguments):
         """vox ends with `code`, says nothing on standard output and one thing on standard error."""
@@ -104,11 +96,11 @@ class CommandLine(unittest.TestCase):
                 self.refused(2, "--help", *arguments)
 
     def test_bad_input(self):
-        missing = os.path.join(self.folder.name, "missing.msh")
-        index = self.file("index.msh", msh(TWO_TETS[:4], [(1, 2, 3, 900)]))
-        garbage = self.file("garbage.msh", "neither a mesh nor anything else\n")
-        empty = self.file("empty.msh", "")
-        flat = self.file("flat.msh", msh([(2, 2, 2)] * 4, TETS[:1]))
+        missing = self.path("missing.msh")
+        index = self.write("index.msh", msh(TWO_TETS[:4], [(1, 2, 3, 900)]))
+        garbage = self.write("garbage.msh", "neither a mesh nor anything else\n")
+        empty = self.write("empty.msh", "")
+        flat = self.write("flat.msh", msh([(2, 2, 2)] * 4, TETS[:1]))
         for command in ["info"], ["suggest"], ["collide", self.two], ["collide", "--self"]:
             self.refused(1, re.escape(missing), *command, missing)
             self.refused(1, re.escape(index) + ".*900", *command, index)
@@ -119,7 +111,7 @@ class CommandLine(unittest.TestCase):
         self.refused(1, ".", "suggest", flat)            # none that has a size
 
     def test_coordinates_beyond_float(self):
-        far = self.file("far.msh", msh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0), (0, 0, 1)], TETS[:1]))
+        far = self.write("far.msh", msh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0), (0, 0, 1)], TETS[:1]))
         self.refused(1, re.escape(far) + ".*vertex 1 .*1e\\+39", "collide", far, self.two)
         self.refused(1, "one.msh.*vertex", "collide", self.two, self.one, "--offset", "1e300", 0, 0)
         self.refused(1, "one.msh.*vertex", "collide", self.two, self.one, "--scale", "1e200", "--offset", 0, 0, 1)
@@ -127,7 +119,7 @@ class CommandLine(unittest.TestCase):
         found = run_json("collide", self.two, far, "--scale", "1e-39")
         self.assertEqual(found["counters"]["vertices"], 9)
         # info describes the file, and a mean of squares that overflows is null, never Infinity.
-        huge = self.file("huge.msh", msh([(0, 0, 0), (1e300, 0, 0), (0, 1e300, 0), (0, 0, 1e300)], TETS[:1]))
+        huge = self.write("huge.msh", msh([(0, 0, 0), (1e300, 0, 0), (0, 1e300, 0), (0, 0, 1e300)], TETS[:1]))
         self.assertIsNone(run_json("info", huge)["meshes"][0]["mean_volume"])
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
@@ -144,7 +136,7 @@ class CommandLine(unittest.TestCase):
 
     def test_info(self):
         points = TWO_TETS + [TWO_TETS[0]]
-        odd = self.file("odd.msh", msh(points, TETS + [(1, 2, 3, 3)]))
+        odd = self.write("odd.msh", msh(points, TETS + [(1, 2, 3, 3)]))
         meshes = run_json("info", self.two, odd)["meshes"]
         self.assertEqual(len(meshes), 2)
         for mesh in meshes:
@@ -173,16 +165,16 @@ class CommandLine(unittest.TestCase):
                     "kids 1\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n"
                     "0 0 0\n1 0 0\n2 0 0\nkids 0\n")
         unknown = r"neither known content nor a known extension"
-        self.refused(1, unknown + r"[^;]*$", "info", self.file("a.xyz", triangle[9:]))
+        self.refused(1, unknown + r"[^;]*$", "info", self.write("a.xyz", triangle[9:]))
         if not int(os.environ["VOX_ASSIMP"]):
-            return self.refused(1, unknown, "info", self.file("a.ac", triangle))
-        found = run_json("info", self.file("a.ac", triangle))["meshes"][0]
+            return self.refused(1, unknown, "info", self.write("a.ac", triangle))
+        found = run_json("info", self.write("a.ac", triangle))["meshes"][0]
         self.assertEqual((found["format"], found["vertices"], found["surface_triangles"]), ("surface, by assimp", 3, 1))
         # assimp 5.2.5 reads beyond its memory here; whatever another version does, the tool lives to say it.
         damaged = ("*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*MESH {\n*MESH_NUMVERTEX 3\n"
                    "*MESH_NUMFACES 1\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0 0 0\n*MESH_VERTEX 1 1 0 0\n*X 2 0 1 0\n}\n"
                    "*MESH_FACE_LIST {\n*-1MESH_FACE 0: A: 0 B: 1 C: 2 AB: 1 BC: 1 CA: 1\n}\n}\n}\n")
-        self.refused(1, unknown + ".*; assimp, in a process of its own: ", "info", self.file("a.ase", damaged))
+        self.refused(1, unknown + ".*; assimp, in a process of its own: ", "info", self.write("a.ase", damaged))
 
     def test_info_as_text(self):
         text = run("info", self.two).stdout.decode()
@@ -207,7 +199,7 @@ class CommandLine(unittest.TestCase):
 
     def test_info_of_huge_coordinates(self):
         huge = [tuple(1e300 * x for x in point) for point in TWO_TETS[:5]]
-        path = self.file("huge.msh", msh(huge, TETS))
+        path = self.write("huge.msh", msh(huge, TETS))
         text = run("info", path).stdout.decode()
         self.assertNotRegex(text, r"nan|inf\b")
         self.assertRegex(text, r"mean volume +too large for a double\n")
@@ -226,7 +218,7 @@ class CommandLine(unittest.TestCase):
             self.assertFalse(found["collides"])
             self.assertEqual(found["zone"], {"min": None, "max": None})
         self.refused(1, "nothing collides", "suggest", self.one, "--model", "fast", "--svg",
-                     os.path.join(self.folder.name, "none.svg"))
+                     self.path("none.svg"))
         for model in "paper", "reference":  # these cost something even then
             self.assertIsNotNone(run_json("suggest", self.one, "--model", model)["zone"]["min"])
 
@@ -264,7 +256,7 @@ class CommandLine(unittest.TestCase):
         run_json("suggest", self.two, "--self", "--model", "reference", "--calibrate")
 
     def test_suggest_picture(self):
-        path = os.path.join(self.folder.name, "curve.svg")
+        path = self.path("curve.svg")
         run_json("suggest", self.two, "--svg", path)
         root = xml.etree.ElementTree.parse(path).getroot()
         self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
@@ -274,7 +266,7 @@ class CommandLine(unittest.TestCase):
         words = " | ".join(text.text for text in root.iter("{http://www.w3.org/2000/svg}text"))
         for expected in "two.msh", "cost model of the paper", "cell size", "cost, in units of the least":
             self.assertIn(expected, words)
-        odd = self.file("a&b <c>.msh", msh(TWO_TETS[:5], TETS))
+        odd = self.write("a&b <c>.msh", msh(TWO_TETS[:5], TETS))
         run_json("suggest", odd, "--svg", path)
         self.assertIn("a&b <c>.msh", "".join(xml.etree.ElementTree.parse(path).getroot().itertext()))
         self.refused(1, "cannot be written", "suggest", self.two, "--svg", os.path.join(self.folder.name, "no", "such.svg"))
@@ -364,7 +356,7 @@ class CommandLine(unittest.TestCase):
     def test_self_collision(self):
         # A second tetrahedron whose corner pokes into the first, in one mesh.
         points = TWO_TETS[:4] + [(0.1, 0.1, 0.1), (-1, 0, 0), (-1, 1, 0), (-1, 0, 1)]
-        folded = self.file("folded.msh", msh(points, [(1, 2, 3, 4), (5, 6, 7, 8)]))
+        folded = self.write("folded.msh", msh(points, [(1, 2, 3, 4), (5, 6, 7, 8)]))
         found = run_json("collide", folded, "--self")
         self.assertIn((0, 4, 0, 0), [(c["mesh_a"], c["vertex"], c["mesh_b"], c["tet"]) for c in found["contacts"]])
         alone = found["contact_count"]
@@ -405,7 +397,7 @@ class CommandLine(unittest.TestCase):
         corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
         faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
         lines = ["v %d %d %d" % corner for corner in corners] + ["f %d %d %d %d" % face for face in faces]
-        cube = self.file("cube.obj", "\n".join(lines) + "\n")
+        cube = self.write("cube.obj", "\n".join(lines) + "\n")
         for out, more in ("cube.msh", []), ("cube.vtu", ["--binary"]), ("cubes.msh", ["--kind", "cubes"]):
             out = os.path.join(self.folder.name, out)
             found = run_json("tetrahedralize", cube, "-o", out, "--cell", 0.1, *more)
@@ -421,7 +413,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(written["inverted"], 0)
         # Filled on the way in it gives what the written file gives.
         filled = run_json("collide", cube, self.one, "--fill", "--fill-cell", 0.1, "--offset", 0.4, 0.4, 0.4)
-        out = os.path.join(self.folder.name, "cube.msh")
+        out = self.path("cube.msh")
         read = run_json("collide", out, self.one, "--offset", 0.4, 0.4, 0.4)
         self.assertGreater(filled["contact_count"], 0)
         self.assertEqual(filled["contacts"], read["contacts"])
@@ -438,7 +430,7 @@ class CommandLine(unittest.TestCase):
             path = os.path.join(self.folder.name, out)
             self.refused(1, words, "tetrahedralize", "missing.obj", "-o", path)
             self.assertNotIn(b".part", run("tetrahedralize", "missing.obj", "-o", path).stderr)
-        kept = self.file("kept.msh", "kept")
+        kept = self.write("kept.msh", "kept")
         self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept)
         self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept + ".vtu")
         self.assertFalse(os.path.exists(kept + ".vtu"))
@@ -446,7 +438,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(file.read(), "kept")
 
     def test_surfaces_that_cannot_be_filled(self):
-        out = os.path.join(self.folder.name, "out.msh")
+        out = self.path("out.msh")
         self.refused(1, "open|closed", "tetrahedralize", self.surface, "-o", out)
         self.assertFalse(os.path.exists(out))
 

@@ -1,21 +1,16 @@
 """vox collide --save and vox replay: the same contacts whatever the engine, and files that are refused."""
 
-import os
-import tempfile
 import unittest
 
 from command_line import TETS, TWO_TETS, msh
-from vox import run, run_json
+from vox import Files, run, run_json
 
 
-class Replay(unittest.TestCase):
+class Replay(Files):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.mesh = os.path.join(self.folder.name, "two.msh")
-        with open(self.mesh, "w", encoding="ascii") as file:
-            file.write(msh(TWO_TETS[:5], TETS))
-        self.snapshot = os.path.join(self.folder.name, "grid.vox")
+        super().setUp()
+        self.mesh = self.write("two.msh", msh(TWO_TETS[:5], TETS))
+        self.snapshot = self.path("grid.vox")
         self.collided = run_json("collide", self.mesh, self.mesh, "--offset", 0.1, 0.1, 0.1, "--save", self.snapshot)
 
     def refused(self, code, pattern, *arguments):

@@ -2,32 +2,22 @@
 
 import csv
 import os
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
 from command_line import TETS, TWO_TETS, msh
-from vox import run, run_json
+from vox import Files, run, run_json
 
 STATES = ["surface", "propagated", "enclosed", "crossing", "coincident", "unknown"]
 
 
-class Results(unittest.TestCase):
+class Results(Files):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
         self.two = self.write("two.msh", msh(TWO_TETS[:5], TETS))
         self.one = self.write("one.msh", msh(TWO_TETS[:4], TETS[:1]))
         self.surface = self.write("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 3 4\n")
         self.placed = ["collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3]
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(text)
-        return self.path(name)
 
     def arrays(self, path):
         """The arrays of a .vtu file of text, by section and name."""

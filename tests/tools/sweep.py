@@ -4,29 +4,16 @@ import csv
 import os
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from vox import TOOL, run, run_json
+from vox import TOOL, Files, run, run_json
 
 BALL = ["--ball", 1500, "--count", 6, "--frames", 3]  # small: times are the machine's and not tested
 RULES = {"suggestion", "traditional", "mean_edge_multiple", "object_512", "mean_volume", "median_box_side"}
 
 
-class Sweep(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(text)
-        return self.path(name)
-
+class Sweep(Files):
     def lines(self, path):
         with open(path, encoding="ascii") as file:
             return file.read().splitlines()

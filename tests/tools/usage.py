@@ -4,22 +4,18 @@ import os
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 from command_line import TETS, TWO_TETS, msh
-from vox import TOOL, run
+from vox import TOOL, Files, run
 
 COMMANDS = ["demo", "info", "suggest", "collide", "replay", "sweep", "tetrahedralize", "generate"]
 
 
-class Usage(unittest.TestCase):
+class Usage(Files):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.mesh = os.path.join(self.folder.name, "two.msh")
-        with open(self.mesh, "w", encoding="ascii") as file:
-            file.write(msh(TWO_TETS[:5], TETS))
+        super().setUp()
+        self.mesh = self.write("two.msh", msh(TWO_TETS[:5], TETS))
 
     def generated(self, what):
         done = run("generate", what)

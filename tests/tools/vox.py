@@ -4,6 +4,8 @@ import json
 import math
 import os
 import subprocess
+import tempfile
+import unittest
 
 TOOL = os.environ["VOX_TOOL"]
 
@@ -17,6 +19,22 @@ def run(*arguments, **variables):
     lines = done.stderr.splitlines(keepends=True)
     done.stderr = b"".join(line for line in lines if not line.startswith(b"vox: warning: the machine is busy"))
     return done
+
+
+class Files(unittest.TestCase):
+    """Tests with a folder of their own."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            file.write(text)
+        return self.path(name)
 
 
 def _no_constant(name):
