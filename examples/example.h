@@ -41,7 +41,9 @@ static inline cube cube_at(float x, float y, float z) {
 }
 
 /* The positions are borrowed: after a move the next step reads the new ones. */
-static inline vox_mesh_desc cube_desc(const cube* c) { return array_desc(c->positions[0], 8, c->tets[0], 5); }
+static inline vox_mesh_desc cube_desc(const cube* c) {
+    return vox_mesh_desc_floats(c->positions[0], 8, c->tets[0], 5);
+}
 
 static inline vox_mesh insert_cube(vox_grid* grid, const cube* c) {
     const vox_mesh_desc desc = cube_desc(c);

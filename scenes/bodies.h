@@ -113,20 +113,9 @@ static inline void move_body(body* b, double x, double y, double z) {
     }
 }
 
-/* A desc over plain arrays. */
-static inline vox_mesh_desc array_desc(const float* positions, uint64_t vertices, const uint32_t* tets,
-                                       uint64_t tet_count) {
-    vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions;
-    desc.vertex_count = vertices;
-    desc.tets = tets;
-    desc.tet_count = tet_count;
-    return desc;
-}
-
 /* The desc of a body whose positions are borrowed. */
 static inline vox_mesh_desc body_desc(const body* b) {
-    return array_desc(b->positions, b->vertex_count, b->tets, b->tet_count);
+    return vox_mesh_desc_floats(b->positions, b->vertex_count, b->tets, b->tet_count);
 }
 
 /* The tet with corners at the origin and at 1 on each axis. */

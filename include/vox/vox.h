@@ -415,12 +415,9 @@ static inline vox_mesh_desc vox_mesh_desc_floats(const float* positions, uint64_
 /* The same for doubles. */
 static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint64_t vertex_count, const uint32_t* tets,
                                                   uint64_t tet_count) {
-    vox_mesh_desc desc = vox_default_mesh_desc();
+    vox_mesh_desc desc = vox_mesh_desc_floats(NULL, vertex_count, tets, tet_count);
     desc.positions = positions;
     desc.position_format = VOX_FORMAT_DOUBLE3;
-    desc.vertex_count = vertex_count;
-    desc.tets = tets;
-    desc.tet_count = tet_count;
     return desc;
 }
 

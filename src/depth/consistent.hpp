@@ -52,8 +52,9 @@ struct ConsistentScratch {
     auto buffers() { return std::tuple_cat(std::tie(waves.buffer(), queue), normals.buffers()); }
 };
 
-// Sets the states of `points`, which are in the order of their vertices, and depth and direction of all that
-// do not end as ENCLOSED or CROSSING. Throws what the memory throws.
+// Sets the states of `points`, which are in the order of their vertices, and depth and direction of all but
+// those that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps (has_answer() of
+// points.hpp). Throws what the memory throws.
 void find_consistent_depths(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch,
                             Counts& counts);
 

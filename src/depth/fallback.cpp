@@ -167,7 +167,7 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
         tree && (!item.self    ? tree->find(p, SurfaceTree::no_vertex, state, closest)
                  : is_crossing ? tree->find_in_part(p, point.vertex, point.tet, state, closest)
                                : tree->find_in_fold(p, point.vertex, point.tet, state, closest));
-    // Readings search the fold.
+    // A reading of a vertex in its own mesh wants the point of the fold, which this one need not be.
     if (found && !(item.self && is_crossing)) point.closest = closest.at.triangle;
     point.depth = found ? length(closest.way) : 0;
     point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};

@@ -24,8 +24,9 @@ class Fallback {
 public:
     Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees);
 
-    // Depth and direction of all points that are ENCLOSED or CROSSING, or, where there are more than
-    // `budget`, of the first ones by their place; the others become UNKNOWN. A budget of 0 is no limit.
+    // Depth and direction of all points that are ENCLOSED, or CROSSING without an answer, or, where there are
+    // more than `budget`, of the first ones by their place; the others become UNKNOWN. A budget of 0 is no
+    // limit.
     // Counts searches and tests. `workers` may be null; the result does not depend on them. Throws what the
     // memory throws.
     struct Searched {

@@ -11,7 +11,7 @@
 /* ---- statistics ------------------------------------------------------------------------------- */
 
 START_TEST(one_regular_tet) {
-    const vox_mesh_desc mesh = array_desc(regular_positions, 4, unit_tet, 1);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(regular_positions, 4, unit_tet, 1);
     const vox_suggestion found = suggest_ok(NULL, &mesh, 1);
     const vox_geometry_stats* stats = &found.stats;
     ck_assert_uint_eq(stats->vertices, 4);
@@ -48,7 +48,7 @@ END_TEST
 START_TEST(shared_facets_count_once) {
     static const float positions[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     static const uint32_t tets[8] = {0, 1, 2, 3, 3, 4, 2, 1};
-    const vox_mesh_desc mesh = array_desc(positions, 5, tets, 2);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(positions, 5, tets, 2);
     const vox_suggestion found = suggest_ok(NULL, &mesh, 1);
     const double half = 0.5, slanted = sqrt(3) / 2;
     ck_assert_uint_eq(found.stats.edges, 9);
@@ -85,9 +85,9 @@ START_TEST(bodies_are_measured_together) {
     static const float big[12] = {0, 0, 0, 3, 3, 0, 3, 0, 3, 0, 3, 3};
     static const float points[6] = {-5, 0, 0, 0, 7, 0};
     vox_mesh_desc meshes[3];
-    meshes[0] = array_desc(regular_positions, 4, unit_tet, 1);
-    meshes[1] = array_desc(big, 4, unit_tet, 1);
-    meshes[2] = array_desc(points, 2, NULL, 0);
+    meshes[0] = vox_mesh_desc_floats(regular_positions, 4, unit_tet, 1);
+    meshes[1] = vox_mesh_desc_floats(big, 4, unit_tet, 1);
+    meshes[2] = vox_mesh_desc_floats(points, 2, NULL, 0);
     const vox_suggestion found = suggest_ok(NULL, meshes, 3);
     ck_assert_uint_eq(found.stats.vertices, 10);
     ck_assert_uint_eq(found.stats.edges, 12);
@@ -108,7 +108,7 @@ END_TEST
 
 START_TEST(unused_vertices_do_not_widen_the_bounds) {
     float positions[15] = {0, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 1, 900, 900, 900};
-    const vox_mesh_desc mesh = array_desc(positions, 5, unit_tet, 1);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(positions, 5, unit_tet, 1);
     const vox_suggestion found = suggest_ok(NULL, &mesh, 1);
     ck_assert_uint_eq(found.stats.vertices, 5);
     ck_assert_double_eq(found.stats.bounds_max[2], 1);
@@ -123,7 +123,7 @@ START_TEST(degenerate_tets_are_counted) {
     positions[15] = 0.25f;
     positions[16] = 0.25f;
     positions[17] = FLT_MIN * FLT_EPSILON; /* the smallest float above 0 */
-    const vox_mesh_desc mesh = array_desc(positions, 7, tets, 4);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(positions, 7, tets, 4);
     const vox_geometry_stats stats = suggest_ok(NULL, &mesh, 1).stats;
     ck_assert_uint_eq(stats.tets, 4);
     ck_assert_uint_eq(stats.degenerate_tets, 2);
@@ -333,7 +333,7 @@ START_TEST(extremes_stay_finite) {
         for (size_t r = 0; r < sizeof ratios / sizeof ratios[0]; ++r) {
             float positions[12];
             for (int c = 0; c < 12; ++c) positions[c] = (regular_positions[c] > 0 ? 1.0f : -1.0f) * sizes[i];
-            const vox_mesh_desc mesh = array_desc(positions, 4, unit_tet, 1);
+            const vox_mesh_desc mesh = vox_mesh_desc_floats(positions, 4, unit_tet, 1);
             vox_suggest_desc desc = vox_default_suggest_desc();
             desc.cost_ratio = ratios[r];
             const vox_suggestion found = suggest_ok(&desc, &mesh, 1);

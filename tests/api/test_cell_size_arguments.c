@@ -20,7 +20,7 @@ static void fails(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uin
     ck_assert_mem_eq(&out, &before, sizeof out);
 }
 
-static vox_mesh_desc good_mesh(void) { return array_desc(regular_positions, 4, unit_tet, 1); }
+static vox_mesh_desc good_mesh(void) { return vox_mesh_desc_floats(regular_positions, 4, unit_tet, 1); }
 
 /* ---- settings --------------------------------------------------------------------------------- */
 
@@ -125,7 +125,7 @@ START_TEST(bad_mesh) {
 #undef BAD
 
     static const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 900, 3};
-    *bad = array_desc(regular_positions, 4, tets, 2);
+    *bad = vox_mesh_desc_floats(regular_positions, 4, tets, 2);
     fails(NULL, meshes, 2, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 1 names vertex 900 of 4");
 
     *bad = good_mesh();
@@ -145,7 +145,7 @@ END_TEST
 START_TEST(non_finite_positions) {
     static const float values[] = {NAN, INFINITY, -INFINITY};
     float positions[15] = {0, 0, 0, 1, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0, 0}; /* the last vertex is in no tet */
-    vox_mesh_desc meshes[2] = {good_mesh(), array_desc(positions, 5, unit_tet, 1)};
+    vox_mesh_desc meshes[2] = {good_mesh(), vox_mesh_desc_floats(positions, 5, unit_tet, 1)};
     for (int c = 0; c < 15; ++c)
         for (int v = 0; v < 3; ++v) {
             char words[40];
@@ -166,19 +166,19 @@ START_TEST(nothing_to_measure) {
     vox_suggest_desc desc = vox_default_suggest_desc();
 
     fails(NULL, NULL, 0, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 0 vertices");
-    vox_mesh_desc mesh = array_desc(NULL, 0, NULL, 0);
+    vox_mesh_desc mesh = vox_mesh_desc_floats(NULL, 0, NULL, 0);
     fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 0 vertices");
-    mesh = array_desc(regular_positions, 4, NULL, 0);
+    mesh = vox_mesh_desc_floats(regular_positions, 4, NULL, 0);
     fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 4 vertices");
-    mesh = array_desc(one_place, 4, unit_tet, 1);
+    mesh = vox_mesh_desc_floats(one_place, 4, unit_tet, 1);
     fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size: mean edge 0");
-    mesh = array_desc(on_a_line, 4, unit_tet, 1);
+    mesh = vox_mesh_desc_floats(on_a_line, 4, unit_tet, 1);
     fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "mean facet area 0");
-    mesh = array_desc(regular_positions, 4, twice, 1);
+    mesh = vox_mesh_desc_floats(regular_positions, 4, twice, 1);
     fails(NULL, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size");
 
     /* Two tets over the same corners have no boundary, but every other reading has its number. */
-    mesh = array_desc(regular_positions, 4, closed, 2);
+    mesh = vox_mesh_desc_floats(regular_positions, 4, closed, 2);
     ck_assert_uint_eq(suggest_ok(NULL, &mesh, 1).stats.boundary_facets, 0);
     desc.area_reading = VOX_AREA_BOUNDARY_FACETS;
     fails(&desc, &mesh, 1, VOX_ERROR_INVALID_ARGUMENT, "mean boundary facet area 0");

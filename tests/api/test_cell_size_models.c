@@ -570,7 +570,7 @@ START_TEST(bad_functions_and_bounds) {
 
     vox_cost_prediction prediction;
     prediction.struct_size = sizeof prediction;
-    const vox_mesh_desc mesh = array_desc(regular_positions, 4, unit_tet, 1);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(regular_positions, 4, unit_tet, 1);
     ck_fails(vox_cost_predict(NULL, &mesh, 1, 0, &prediction), argument, "cell_size is 0");
     ck_fails(vox_cost_predict(NULL, &mesh, 1, NAN, &prediction), argument, "cell_size is");
     ck_fails(vox_cost_predict(NULL, &mesh, 1, 1, NULL), argument, "out is null");

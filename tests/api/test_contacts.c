@@ -51,7 +51,8 @@ static void check_order(vox_contact_view view) {
 /* One point against the unit tet: the weights expected, or none. */
 static uint64_t point_in_tet(const float point[3], const float corners[12], const uint32_t tet[4],
                              vox_contact* contact) {
-    const vox_mesh_desc points = array_desc(point, 1, NULL, 0), body = array_desc(corners, 4, tet, 1);
+    const vox_mesh_desc points = vox_mesh_desc_floats(point, 1, NULL, 0),
+                        body = vox_mesh_desc_floats(corners, 4, tet, 1);
     scene s = new_scene(&points, &body, 0.3);
     const vox_contact_view view = stepped(s.grid);
     if (view.count) *contact = view.data[0];
@@ -121,7 +122,8 @@ START_TEST(overlapping_tets) {
     const float corners[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, -1, -1, 5, 0, 0, 0, 5, 0, 0, 0, 5};
     const uint32_t tets[12] = {0, 1, 2, 3, 4, 5, 6, 7, 1, 0, 2, 3};
     const float points[6] = {0.25f, 0.25f, 0.25f, 0.25f, 0.25f, 0};
-    const vox_mesh_desc a = array_desc(points, 2, NULL, 0), b = array_desc(corners, 8, tets, 3);
+    const vox_mesh_desc a = vox_mesh_desc_floats(points, 2, NULL, 0),
+                        b = vox_mesh_desc_floats(corners, 8, tets, 3);
     scene s = new_scene(&a, &b, 0.7);
     const vox_contact_view view = stepped(s.grid);
     ck_assert_uint_eq(view.count, 4);
@@ -139,7 +141,7 @@ START_TEST(self_contact) {
     /* Two tets of one mesh, apart in topology: vertex 7 pokes into tet 0. Own vertices never count. */
     float corners[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 3, 3, 4, 3, 3, 3, 4, 3, 0.25f, 0.25f, 0.25f};
     const uint32_t tets[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    vox_mesh_desc desc = array_desc(corners, 8, tets, 2);
+    vox_mesh_desc desc = vox_mesh_desc_floats(corners, 8, tets, 2);
     scene without = new_scene(&desc, NULL, 0);
     ck_assert_uint_eq(stepped(without.grid).count, 0);
     vox_grid_destroy(without.grid);
@@ -304,7 +306,7 @@ START_TEST(strided_copied_rebound) {
 END_TEST
 
 START_TEST(unbound_positions) {
-    vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
+    vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     scene s = new_scene(&desc, NULL, 0);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "no positions");
     ck_ok(vox_mesh_bind_positions(s.grid, s.a, unit_tet_positions, VOX_FORMAT_FLOAT3, 0));
@@ -352,10 +354,10 @@ START_TEST(nothing_at_all) {
     const vox_mesh_desc empty = vox_default_mesh_desc();
     ck_ok(vox_mesh_insert(s.grid, &empty, &s.a));
     ck_assert_uint_eq(stepped(s.grid).count, 0); /* an empty mesh */
-    const vox_mesh_desc one = array_desc(unit_tet_positions, 1, NULL, 0);
+    const vox_mesh_desc one = vox_mesh_desc_floats(unit_tet_positions, 1, NULL, 0);
     ck_ok(vox_mesh_insert(s.grid, &one, &s.a));
     ck_assert_uint_eq(stepped(s.grid).count, 0); /* one vertex */
-    const vox_mesh_desc tet = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    const vox_mesh_desc tet = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(s.grid, &tet, &s.b));
     ck_assert_uint_eq(stepped(s.grid).count, 1); /* that vertex on the corner of one tet */
     vox_grid_destroy(s.grid);
@@ -390,7 +392,7 @@ END_TEST
 START_TEST(sliver_a_thousand_edges_long) {
     body box = make_box(8, 0.125f, 0, 0, 0);
     const float sliver[12] = {0, 0, 0, 125, 125, 125, 125.1f, 125, 125, 125, 125.1f, 125};
-    const vox_mesh_desc a = body_desc(&box), b = array_desc(sliver, 4, unit_tet, 1);
+    const vox_mesh_desc a = body_desc(&box), b = vox_mesh_desc_floats(sliver, 4, unit_tet, 1);
     uint64_t expected = 0;
     for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
         scene s = {NULL, 0, 0};
@@ -462,7 +464,8 @@ START_TEST(flat_and_repeated_tets_hold_nothing) {
     const float corners[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 1, 4};
     const float point[3] = {0.25f, 0.25f, 0};
-    const vox_mesh_desc a = array_desc(point, 1, NULL, 0), b = array_desc(corners, 5, tets, 2);
+    const vox_mesh_desc a = vox_mesh_desc_floats(point, 1, NULL, 0),
+                        b = vox_mesh_desc_floats(corners, 5, tets, 2);
     scene s = new_scene(&a, &b, 0.5);
     ck_assert_uint_eq(stepped(s.grid).count, 0);
     vox_counters counters = counters_of(s.grid);

@@ -175,7 +175,7 @@ END_TEST
 START_TEST(off_and_on) {
     body box = make_box(2, 1, 0, 0, 0);
     const float point[3] = {0.5f, 0.5f, 0.5f}; /* in the middle tet of the first cube */
-    vox_mesh_desc desc = body_desc(&box), sensor = array_desc(point, 1, NULL, 0);
+    vox_mesh_desc desc = body_desc(&box), sensor = vox_mesh_desc_floats(point, 1, NULL, 0);
     vox_touch_view events;
     vox_grid* grid = engine_grid();
     vox_mesh solid = insert_mesh(grid, &desc);
@@ -362,7 +362,8 @@ END_TEST
 
 START_TEST(positions_of_its_own) {
     /* An empty mesh that copies positions: the array given with the first vertices is not read any more. */
-    vox_mesh_desc desc = vox_default_mesh_desc(), solid = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_mesh_desc desc = vox_default_mesh_desc(),
+                  solid = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_vertices_desc vertices = vox_default_vertices_desc();
     uint32_t first = 0, copy_of = 0;
     uint64_t stride = 0;
@@ -464,7 +465,7 @@ START_TEST(cell_size_follows_a_cut) {
     for (uint32_t i = 0; i < 4 * small.tet_count; ++i)
         corners[4 * large.tet_count + i] = small.tets[i] + large.vertex_count;
     for (uint32_t i = 0; i < small.tet_count; ++i) fine[i] = large.tet_count + i;
-    vox_mesh_desc desc = array_desc(positions, vertices, corners, tets);
+    vox_mesh_desc desc = vox_mesh_desc_floats(positions, vertices, corners, tets);
     double before = 0, after = 0;
     vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_SELF_COLLISION;

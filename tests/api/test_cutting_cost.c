@@ -188,7 +188,7 @@ START_TEST(compact_body) {
         uint32_t count = 0;
         for (uint32_t t = 0; t < box.tet_count; ++t)
             if (!off[t]) memcpy(kept + 4 * count++, box.tets + 4 * t, 4 * sizeof(uint32_t));
-        vox_mesh_desc rest = array_desc(box.positions, box.vertex_count, kept, count);
+        vox_mesh_desc rest = vox_mesh_desc_floats(box.positions, box.vertex_count, kept, count);
         vox_grid_desc other_desc = vox_default_grid_desc();
         rest.flags = VOX_MESH_SELF_COLLISION;
         other_desc.engine = round % 2 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;

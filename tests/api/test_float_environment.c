@@ -90,7 +90,7 @@ static void insert(vox_grid* grid, const float_mode* mode, vox_mesh_desc desc) {
 }
 static void insert_doubles(vox_grid* grid, const float_mode* mode, const double* positions, uint64_t vertices,
                            int has_tet) {
-    vox_mesh_desc desc = array_desc(NULL, vertices, has_tet ? unit_tet : NULL, has_tet ? 1 : 0);
+    vox_mesh_desc desc = vox_mesh_desc_floats(NULL, vertices, has_tet ? unit_tet : NULL, has_tet ? 1 : 0);
     desc.positions = positions;
     desc.position_format = VOX_FORMAT_DOUBLE3;
     insert(grid, mode, desc);
@@ -104,10 +104,10 @@ static void insert_odd_floats(vox_grid* grid, const float_mode* mode) {
     for (int i = 0; i < 12; ++i) tiny[i] = unit_tet_positions[i] * 8 * s;
     for (int i = 0; i < 6; ++i) inside[i] = s;
     inside[3] = 9 * s;
-    insert(grid, mode, array_desc(tiny, 4, unit_tet, 1));
-    insert(grid, mode, array_desc(inside, 2, NULL, 0));
-    insert(grid, mode, array_desc(big, 4, unit_tet, 1));
-    insert(grid, mode, array_desc(far_away, 3, NULL, 0));
+    insert(grid, mode, vox_mesh_desc_floats(tiny, 4, unit_tet, 1));
+    insert(grid, mode, vox_mesh_desc_floats(inside, 2, NULL, 0));
+    insert(grid, mode, vox_mesh_desc_floats(big, 4, unit_tet, 1));
+    insert(grid, mode, vox_mesh_desc_floats(far_away, 3, NULL, 0));
 }
 
 static void insert_odd_doubles(vox_grid* grid, const float_mode* mode) {

@@ -134,7 +134,7 @@ END_TEST
 
 START_TEST(null_arguments) {
     vox_grid* grid = grid_of(NULL);
-    vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_mesh other = 77;
     double number = 5;
     uint64_t count = 5;
@@ -203,7 +203,7 @@ START_TEST(mesh_desc_fields) {
     uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
 #define REFUSED(change, code, words)                                                                         \
     do {                                                                                                     \
-        vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);                                 \
+        vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);                       \
         change;                                                                                              \
         ck_fails(vox_mesh_insert(grid, &desc, &mesh), code, words);                                          \
         ck_assert_uint_eq(mesh, 77);                                                                         \
@@ -231,7 +231,7 @@ END_TEST
 START_TEST(ids) {
     vox_grid* grid = grid_of(NULL);
     vox_grid* foreign = grid_of(NULL);
-    const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_mesh elsewhere = 0;
     vox_mesh a = insert_mesh(grid, &desc);
     vox_mesh b = insert_mesh(grid, &desc);
@@ -356,10 +356,10 @@ START_TEST(cell_size_without_extent) {
     grid_desc.engine = VOX_ENGINE_REFERENCE;
     vox_grid* grid = grid_of(&grid_desc);
     ck_ok(vox_grid_step(grid));
-    vox_mesh_desc desc = array_desc(point, 4, NULL, 0);
+    vox_mesh_desc desc = vox_mesh_desc_floats(point, 4, NULL, 0);
     vox_mesh mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
-    desc = array_desc(point, 4, unit_tet, 1);
+    desc = vox_mesh_desc_floats(point, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
     ck_ok(vox_grid_step(grid));
     vox_counters counters = counters_of(grid);

@@ -70,7 +70,7 @@ END_TEST
 START_TEST(cells_of_dense_storage) {
     for (int more = 0; more < 2; ++more) {
         vox_grid_desc desc = vox_default_grid_desc();
-        const vox_mesh_desc body = array_desc(unit_tet_positions, 4, unit_tet, 1);
+        const vox_mesh_desc body = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
         desc.engine = VOX_ENGINE_REFERENCE;
         desc.storage = VOX_STORAGE_DENSE;
         desc.cell_size = 1;

@@ -260,7 +260,7 @@ END_TEST
 START_TEST(many_meshes) {
     /* Insertion stays cheap and ids stay unique when meshes come by the thousand. */
     vox_mesh meshes[3000];
-    const vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_grid* grid = grid_of(NULL);
     for (int i = 0; i < 3000; ++i) {
         ck_ok(vox_mesh_insert(grid, &desc, &meshes[i]));

@@ -169,7 +169,7 @@ START_TEST(self_filters_by_definition) {
             shapes[m].rest_distance =
                 random_below(&random, 2) ? (double)random_float(&random, 0.01f, 2.5f) : 0;
             const shape* s = &shapes[m];
-            vox_mesh_desc desc = array_desc(s->positions, s->vertex_count, s->tets, s->tet_count);
+            vox_mesh_desc desc = vox_mesh_desc_floats(s->positions, s->vertex_count, s->tets, s->tet_count);
             vox_filter filter = vox_default_filter();
             filter.self_collision = 1;
             filter.self_rings = s->rings;
@@ -218,7 +218,7 @@ START_TEST(lowest_tet_that_is_left) {
     /* 0: away, joins the vertex to corner 3; 1: above the face, 2: below it */
     const uint32_t tets[] = {5, 6, 7, 3, 0, 1, 2, 3, 0, 1, 2, 4};
     vox_grid* grid = new_grid();
-    vox_mesh_desc desc = array_desc(positions, 8, tets, 3);
+    vox_mesh_desc desc = vox_mesh_desc_floats(positions, 8, tets, 3);
     vox_filter filter = vox_default_filter();
     desc.flags = VOX_MESH_SELF_COLLISION;
     const vox_mesh mesh = insert(grid, &desc);
@@ -254,7 +254,7 @@ START_TEST(overlap_in_the_rest_pose) {
         tets[4 * m + i] = high.tets[i] + n;
     }
     vox_grid* grid = new_grid();
-    vox_mesh_desc desc = array_desc(positions, 2 * n, tets, 2 * m);
+    vox_mesh_desc desc = vox_mesh_desc_floats(positions, 2 * n, tets, 2 * m);
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     const vox_mesh mesh = insert(grid, &desc);
@@ -337,7 +337,7 @@ START_TEST(rest_pose_far_away) {
         uint64_t size = 0;
         far_apart(offsets[i], rest, now);
         vox_grid *grid = new_grid(), *loaded;
-        vox_mesh_desc desc = array_desc(NULL, 8, two_tets, 2);
+        vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 8, two_tets, 2);
         vox_filter filter = vox_default_filter();
         filter.self_collision = 1;
         filter.self_rest_distance = 0.5;
@@ -369,7 +369,7 @@ START_TEST(rest_pose_that_grows) {
     far_apart(1e8 + 3, rest, now);
     for (int i = 0; i < 12; ++i) now[i] = rest[i] = (double)(float)rest[i]; /* all one point */
     vox_grid* grid = new_grid();
-    vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
+    vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     filter.self_rest_distance = 0.5;
@@ -424,7 +424,7 @@ START_TEST(steps_with_filters_allocate_nothing) {
     vox_grid* grid = counted_grid(&l);
     shape s = crumpled(4, 0, &random);
     body others[3] = {make_box(3, 1, 0, 0, 0), make_box(3, 1, 0.5f, 0.5f, 0.5f), make_box(3, 1, 1, 1, 1)};
-    vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count);
+    vox_mesh_desc desc = vox_mesh_desc_floats(s.positions, s.vertex_count, s.tets, s.tet_count);
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     filter.self_rings = 2;
@@ -461,7 +461,7 @@ START_TEST(failing_filters_change_nothing) {
     uint64_t random = 2;
     shape s = crumpled(2, 1, &random);
     body box = make_box(2, 1, 0, 0, 0);
-    const vox_mesh_desc desc = array_desc(s.positions, s.vertex_count, s.tets, s.tet_count),
+    const vox_mesh_desc desc = vox_mesh_desc_floats(s.positions, s.vertex_count, s.tets, s.tet_count),
                         other = body_desc(&box);
     vox_grid* grid = counted_grid(&l);
     const vox_mesh mesh = insert(grid, &desc), second = insert(grid, &other);

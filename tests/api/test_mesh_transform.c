@@ -157,7 +157,7 @@ END_TEST
 START_TEST(what_does_not_fit) {
     double m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     vox_grid* grid = engine_grid();
-    vox_mesh_desc desc = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     const vox_mesh mesh = insert(grid, &desc);
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 12; ++i)
@@ -246,7 +246,7 @@ START_TEST(cloth_falls_through_a_body) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     float* cloth = make_cloth(n, 2);
     vox_grid* grid = engine_grid();
-    vox_mesh_desc points = array_desc(cloth, n * n, NULL, 0), solid = body_desc(&box);
+    vox_mesh_desc points = vox_mesh_desc_floats(cloth, n * n, NULL, 0), solid = body_desc(&box);
     points.flags = VOX_MESH_SELF_COLLISION; /* nothing to collide with */
     const vox_mesh sheet = insert(grid, &points);
     const vox_mesh body_mesh = insert(grid, &solid);
@@ -310,7 +310,7 @@ END_TEST
 START_TEST(points_alone) {
     float* cloth = make_cloth(5, 0);
     vox_grid* grid = engine_grid();
-    vox_mesh_desc points = array_desc(cloth, 25, NULL, 0);
+    vox_mesh_desc points = vox_mesh_desc_floats(cloth, 25, NULL, 0);
     points.flags = VOX_MESH_SELF_COLLISION;
     (void)insert(grid, &points);
     (void)insert(grid, &points);

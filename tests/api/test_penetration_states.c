@@ -11,7 +11,7 @@ static vox_mesh insert(vox_grid* grid, const body* b, uint32_t flags) {
 
 static vox_mesh insert_arrays(vox_grid* grid, const float* positions, uint64_t vertices, const uint32_t* tets,
                               uint64_t tet_count) {
-    const vox_mesh_desc desc = array_desc(positions, vertices, tets, tet_count);
+    const vox_mesh_desc desc = vox_mesh_desc_floats(positions, vertices, tets, tet_count);
     return insert_mesh(grid, &desc);
 }
 

@@ -87,7 +87,7 @@ START_TEST(points_in_double) {
     const double in[3] = {0.25, 0.25, 1e-300}, out[3] = {0.25, 0.25, -1e-300}, on[3] = {0.25, 0.25, 0};
     vox_grid_desc desc = engine_desc();
     vox_grid* grid = grid_of(&desc);
-    const vox_mesh_desc tet = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    const vox_mesh_desc tet = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     insert_mesh(grid, &tet);
     ck_ok(vox_grid_prepare_queries(grid));
     uint64_t count = 9;

@@ -491,7 +491,7 @@ START_TEST(normals_without_volume) {
                  {line, beside, {0, 0, -1}}, {line, on, {0, 0, 1}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         vox_grid* grid = engine_grid();
-        const vox_mesh_desc mesh = array_desc(cases[i].positions, 4, unit_tet, 1);
+        const vox_mesh_desc mesh = vox_mesh_desc_floats(cases[i].positions, 4, unit_tet, 1);
         insert_mesh(grid, &mesh);
         ck_ok(vox_grid_prepare_queries(grid));
         vox_closest_desc desc = vox_default_closest_desc();

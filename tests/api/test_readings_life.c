@@ -12,9 +12,9 @@ static const float one_point[3] = {0.5f, 0.75f, 0.5f};
 
 START_TEST(no_surface) {
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
-    vox_mesh_desc desc = array_desc(closed_positions, 5, closed_tets, 5);
+    vox_mesh_desc desc = vox_mesh_desc_floats(closed_positions, 5, closed_tets, 5);
     insert_mesh(grid, &desc);
-    desc = array_desc(one_point, 1, NULL, 0);
+    desc = vox_mesh_desc_floats(one_point, 1, NULL, 0);
     desc.user_data = 7;
     insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
@@ -95,11 +95,11 @@ START_TEST(after_cuts_of_some) {
     for (uint32_t i = 0; i < 8; ++i) tets[i] = i;
     memcpy(tets + 8, probe, sizeof probe);
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
-    vox_mesh_desc desc = array_desc(positions, self ? 12 : 8, tets, self ? 3 : 2);
+    vox_mesh_desc desc = vox_mesh_desc_floats(positions, self ? 12 : 8, tets, self ? 3 : 2);
     vox_mesh second = 0;
     if (self) desc.flags = VOX_MESH_SELF_COLLISION;
     vox_mesh mesh = insert_mesh(grid, &desc);
-    desc = array_desc(positions + 24, 1, NULL, 0);
+    desc = vox_mesh_desc_floats(positions + 24, 1, NULL, 0);
     if (!self) ck_ok(vox_mesh_insert(grid, &desc, &second));
     ck_ok(vox_grid_step(grid));
     vox_reading_view readings;

@@ -132,7 +132,7 @@ END_TEST
 START_TEST(generations_and_retired_slots) {
     vox_grid_desc desc = engine_desc();
     vox_mesh mesh = 0;
-    const vox_mesh_desc tet = array_desc(unit_tet_positions, 4, unit_tet, 1);
+    const vox_mesh_desc tet = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_grid* grid = grid_of(&desc);
     vox_mesh kept = insert_mesh(grid, &tet);
     vox_mesh first = insert_mesh(grid, &tet);
@@ -162,7 +162,7 @@ START_TEST(positions_keep_their_bits) {
                                       0,           0x3f800000u, 0,           0,           0, 0x3f800000u};
     float positions[12];
     memcpy(positions, bits, sizeof bits);
-    const vox_mesh_desc desc = array_desc(positions, 4, unit_tet, 1);
+    const vox_mesh_desc desc = vox_mesh_desc_floats(positions, 4, unit_tet, 1);
     vox_grid_desc settings = engine_desc();
     vox_grid* grid = grid_of(&settings);
     insert_mesh(grid, &desc);
@@ -192,7 +192,7 @@ START_TEST(an_empty_grid_and_one_without_positions) {
     vox_grid_destroy(again);
     free(f.bytes);
 
-    const vox_mesh_desc desc = array_desc(NULL, 4, unit_tet, 1);
+    const vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     vox_mesh mesh = insert_mesh(grid, &desc);
     f = save(grid);
     again = load(f, VOX_ENGINE_AUTO);

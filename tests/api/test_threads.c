@@ -286,7 +286,7 @@ START_TEST(trees_of_many_bodies_are_few_tasks) {
         points[3 * i + 1] = 20.4f;
         points[3 * i + 2] = 2.0f * (float)i + 0.25f;
     }
-    const vox_mesh_desc point_desc = array_desc(points, plates, NULL, 0);
+    const vox_mesh_desc point_desc = vox_mesh_desc_floats(points, plates, NULL, 0);
     ck_ok(vox_mesh_insert(grid, &point_desc, &mesh));
     s.enqueued = 0;
     ck_ok(vox_grid_step(grid));

@@ -151,7 +151,7 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
     static const double turn[12] = {0.8, -0.6, 0, 0.2, 0.6, 0.8, 0, 0.1, 0, 0, 1, 0.05};
     ck_ok(vox_mesh_set_transform(s->grid, s->ids[3], turn));
 
-    vox_mesh_desc mesh = array_desc(NULL, 4, unit_tet, 1);
+    vox_mesh_desc mesh = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[6]));
     for (int v = 0; v < 4; ++v) memcpy(s->strided + 5 * v, unit_tet_positions + 3 * v, 3 * sizeof(float));
     ck_ok(vox_mesh_bind_positions(s->grid, s->ids[6], s->strided, VOX_FORMAT_FLOAT3, 5 * sizeof(float)));

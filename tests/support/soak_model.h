@@ -101,7 +101,8 @@ static inline void never_seen_before(soak* s, vox_mesh id) {
 }
 
 static inline vox_mesh_desc member_desc(const member* m) {
-    vox_mesh_desc desc = array_desc(m->positions, m->shape.vertex_count, m->shape.tets, m->shape.tet_count);
+    vox_mesh_desc desc =
+        vox_mesh_desc_floats(m->positions, m->shape.vertex_count, m->shape.tets, m->shape.tet_count);
     desc.position_byte_stride = m->stride * sizeof(float);
     desc.rest_positions = m->shape.positions;
     desc.user_data = m->user_data;
