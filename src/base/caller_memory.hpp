@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 
 #include <vox/vox.h>
 
@@ -26,15 +27,15 @@ public:
 private:
     void* do_allocate(std::size_t size, std::size_t alignment) override {
         if (!allocator_.allocate) return std::pmr::new_delete_resource()->allocate(size, alignment);
+        const CallersFloats floats;
         void* memory = allocator_.allocate(size, alignment, allocator_.user);
         if (!memory) throw std::bad_alloc();
         return memory;
     }
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-        if (allocator_.release)
-            allocator_.release(memory, size, alignment, allocator_.user);
-        else
-            std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+        if (!allocator_.release) return std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+        const CallersFloats floats;
+        allocator_.release(memory, size, alignment, allocator_.user);
     }
     bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 

@@ -225,6 +225,13 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     if (scene == scene_of_boxes) {
         ck_in_mode(mode, vox_grid_suggest_cell_size(grid, NULL, &suggestion));
         put(&r, &suggestion, sizeof suggestion);
+        vox_suggest_desc suggest = vox_default_suggest_desc();
+        const vox_mesh_desc described[2] = {body_desc(&boxes[0]), body_desc(&boxes[1])};
+        const uint32_t calls = c->calls[in_allocator];
+        suggest.allocator = desc.allocator;
+        ck_in_mode(mode, vox_suggest_cell_size(&suggest, described, 2, &suggestion));
+        ck_assert_uint_gt(c->calls[in_allocator], calls);
+        put(&r, &suggestion, sizeof suggestion);
     }
     put_queries(&r, grid, mode);
     ck_in_mode(mode, vox_grid_save(grid, NULL, 0, &size));
