@@ -53,9 +53,10 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vec
                         format("meshes[%u].struct_size is %u, that of meshes[0] is %u", i,
                                element->struct_size, stride));
         const vox_mesh_desc desc = read_struct(element, defaults, "mesh");
-        const auto user_data = static_cast<unsigned long long>(desc.user_data);
-        Body body = check_mesh(desc, format("mesh %u (user data %llu): ", i, user_data).c_str(),
-                               NullPositions::rejected);
+        Body named; // a mesh of an array: it has no slot
+        named.mesh_id = i;
+        named.user_data = desc.user_data;
+        Body body = check_mesh(desc, (name_of(named) + ": ").c_str(), NullPositions::rejected);
         body.mesh_id = i;
         check_not_doubles(body);
         bodies.push_back(body);

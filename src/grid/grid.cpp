@@ -4,6 +4,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
+#include "base/llu.hpp"
 #include "base/room.hpp"
 #include "base/structs.hpp"
 #include "cell_size/suggest.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -36,8 +38,8 @@ void check_grid_desc(const vox_grid_desc& desc) {
             refuse(format("grid world is [%g, %g] on axis %d, expected finite min < max", min, max, axis));
     }
     if (desc.hash_table_size > VOX_MAX_VERTICES)
-        refuse(format("grid hash_table_size is %llu, expected at most %u",
-                      static_cast<unsigned long long>(desc.hash_table_size), VOX_MAX_VERTICES));
+        refuse(format("grid hash_table_size is %llu, expected at most %u", llu(desc.hash_table_size),
+                      VOX_MAX_VERTICES));
     if (!desc.allocator.allocate != !desc.allocator.release)
         refuse("grid allocator has one of allocate and release, expected both or none");
     check_workers(desc.tasks, desc.worker_count);
@@ -121,23 +123,21 @@ vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
 // What is allowed, but collides with less than one may think: each once, as a program may mean it.
 void vox_grid::warn_of_traps(const Mesh& mesh, vox_mesh id) {
     if (!log_.write) return;
-    const auto warn = [&](const char* text) noexcept { // cannot fail, as all is done
-        char line[400];
-        std::snprintf(line, sizeof line, "mesh %u (slot %u, user data %llu) %s", id, slot_of(id),
-                      static_cast<unsigned long long>(mesh.user_data()), text);
-        write_log(VOX_LOG_WARNING, line);
+    const auto warn_of = [&](const char* text) noexcept {
+        warn("mesh %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
     };
     const vox_filter& filter = mesh.filter();
     if (!warned_of_filter_ && filter.group <= 0 && (filter.category == 0 || filter.mask == 0)) {
         warned_of_filter_ = true;
-        warn(filter.mask == 0
-                 ? "collides with no other mesh: the mask of its filter is 0 (said once for a grid)"
-                 : "collides with no other mesh: the category of its filter is 0 (said once for a grid)");
+        warn_of(filter.mask == 0
+                    ? "collides with no other mesh: the mask of its filter is 0 (said once for a grid)"
+                    : "collides with no other mesh: the category of its filter is 0 (said once for a grid)");
     }
     if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
-    warn("has no tetrahedra: its vertices collide with those of other meshes, its edges and faces with "
-         "nothing (said once for a grid; vox_counters.meshes_without_tets counts such meshes)");
+    warn_of("has no tetrahedra: its vertices collide with the tetrahedra of other meshes, its edges and "
+            "faces with nothing (said once for a grid; vox_counters.meshes_without_tets counts such "
+            "meshes)");
 }
 
 // The last step of the fast engine does not describe the meshes any more.
@@ -235,6 +235,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     trees_.topology_changed(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
+    warn_of_traps(meshes_[id].mesh, id);
 }
 
 std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
@@ -401,15 +402,9 @@ void vox_grid::step() {
     profile_ = profile;
     contacts_hold_ = fast_;
     meshes_hold_ = fast_ && left_out_.empty();
-    if (counters.unknown_penetrations > 0 && log_.write) { // without memory, as the step has succeeded
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
-                      static_cast<unsigned long long>(counters.unknown_penetrations),
-                      static_cast<unsigned long long>(counters.penetrations),
-                      static_cast<unsigned long long>(closest_budget_));
-        write_log(VOX_LOG_WARNING, text);
-    }
+    if (counters.unknown_penetrations > 0)
+        warn("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
+             llu(counters.unknown_penetrations), llu(counters.penetrations), llu(closest_budget_));
 }
 
 void vox_grid::forget_contacts() noexcept {
@@ -444,15 +439,13 @@ void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile)
 // Marks those that gather_bodies() leaves out, from now until they are well again.
 void vox_grid::leave_out_bad_meshes() {
     meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
-        if (slot.body == MeshSlot::none || !is_bad(slot.mesh.body(id))) return;
+        if (slot.body == MeshSlot::none) return;
+        const Body body = slot.mesh.body(id);
+        const std::uint32_t vertex = first_bad_vertex(body);
+        if (vertex == VOX_NO_VERTEX) return;
         slot.left_out = true;
         slot.state.invalidate_positions(); // a later step must not take it for one at rest
-        if (!log_.write) return;
-        try {
-            check_finite(slot.mesh.body(id));
-        } catch (const MeshError& error) {
-            write_log(VOX_LOG_WARNING, format("left out of the step: %s", error.what()).c_str());
-        }
+        if (log_.write) warn("left out of the step: %s", position_error(body, vertex).what());
     });
 }
 
@@ -574,9 +567,9 @@ void vox_grid::choose_cell_size() {
     for (std::size_t l = 1; l < settings_.levels.size(); ++l)
         text += format(", %.9g", settings_.levels[l].cell_size);
     text += before > 0 ? format(" after %.9g,", before) : " chosen";
-    write_log(VOX_LOG_INFO, format("%s for %llu tets in %zu meshes", text.c_str(),
-                                   static_cast<unsigned long long>(meshes_.tet_count()), bodies_.size())
-                                .c_str());
+    write_log(VOX_LOG_INFO,
+              format("%s for %llu tets in %zu meshes", text.c_str(), llu(meshes_.tet_count()), bodies_.size())
+                  .c_str());
 }
 
 // The most bytes that cells of dense storage may take: the budget less what the grid holds beside them, and
@@ -629,6 +622,16 @@ void vox_grid::write_log(vox_log_level level, const char* text) const {
     log_.write(level, text, log_.user);
 }
 
+void vox_grid::warn(const char* pattern, ...) const noexcept {
+    if (!log_.write) return;
+    char text[400];
+    va_list arguments;
+    va_start(arguments, pattern);
+    std::vsnprintf(text, sizeof text, pattern, arguments);
+    va_end(arguments);
+    write_log(VOX_LOG_WARNING, text);
+}
+
 // ---- readings --------------------------------------------------------------------------------------
 
 void vox_grid::prepare_readings(const vox_readings_desc& desc) {
@@ -658,14 +661,9 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
     }
     const std::uint64_t left_out =
         readings_.prepare(desc.what, desc.closest_budget, contacts_, penetrations_, trees_, workers_);
-    if (left_out > 0 && log_.write) { // without memory, as the call has succeeded
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "%llu vertices have no surface in the readings: the closest_budget of %llu was used up",
-                      static_cast<unsigned long long>(left_out),
-                      static_cast<unsigned long long>(desc.closest_budget));
-        write_log(VOX_LOG_WARNING, text);
-    }
+    if (left_out > 0)
+        warn("%llu vertices have no surface in the readings: the closest_budget of %llu was used up",
+             llu(left_out), llu(desc.closest_budget));
 }
 
 // ---- queries ---------------------------------------------------------------------------------------
@@ -680,7 +678,7 @@ void vox_grid::list_query_bodies() {
             throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before the queries");
         mesh.check_format_once(id);
         if (is_left_out(body)) return;
-        check_finite(body);
+        if (!skips_bad_meshes_) check_finite(body); // else that has looked at it
         if (!slot.query_tets) {
             mesh.make_topology();
             mesh.make_tiles(); // the reference engine needs none

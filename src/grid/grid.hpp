@@ -125,6 +125,12 @@ private:
     void choose_cell_size();
     double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
+    // A warning about a call that has succeeded: it takes no memory, so that it cannot fail.
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    void
+    warn(const char* pattern, ...) const noexcept;
     void list_query_bodies();
 
     vox::MemoryShare share_; // first, as all else is released to it

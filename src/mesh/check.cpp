@@ -35,19 +35,19 @@ Positions check_positions(const void* data, vox_format position_format, std::uin
                     format("%sposition_component_byte_stride is %" PRIu64 ", too large for %" PRIu64
                            " vertices %" PRIu64 " bytes apart",
                            where, component, vertex_count, stride));
-    if (together && stride < 3 * number)
+    const std::uint64_t least = together ? 3 * number : number;
+    if (stride < least && (together || vertex_count > 1))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, where,
-                           stride, 3 * number));
+                           stride, least));
     const bool rows = stride >= 2 * component + number;
-    const bool columns =
-        vertex_count <= 1 || (stride >= number && component >= (vertex_count - 1) * stride + number);
+    const bool columns = vertex_count <= 1 || component >= (vertex_count - 1) * stride + number;
     if (component < number || (!rows && !columns))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sposition_component_byte_stride is %" PRIu64
                            ": with a position_byte_stride of %" PRIu64 ", %" PRIu64
                            " positions would overlap; columns need at least %" PRIu64,
-                           where, component, stride, vertex_count, vertex_count * std::max(stride, number)));
+                           where, component, stride, vertex_count, vertex_count * stride));
     return {.data = static_cast<const std::byte*>(data),
             .byte_stride = static_cast<std::size_t>(stride),
             .doubles = position_format == VOX_FORMAT_DOUBLE3,
@@ -115,7 +115,7 @@ std::string name_of(const Body& body) {
 
 namespace {
 
-bool all_finite(const Vec3f& p) noexcept {
+bool all_finite(const auto& p) noexcept {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
@@ -130,26 +130,27 @@ std::uint32_t first_bad_vertex(const Body& body) noexcept {
 }
 
 vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept {
-    const Vec3d p = body.positions.exact(vertex);
-    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    return finite ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE;
+    return all_finite(body.positions.exact(vertex)) ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE;
 }
 
 void check_finite(const Body& body) {
     if (const std::uint32_t vertex = first_bad_vertex(body); vertex != VOX_NO_VERTEX)
-        check_finite(body, vertex);
+        throw position_error(body, vertex);
+}
+
+MeshError position_error(const Body& body, std::uint32_t vertex) {
+    const Vec3d p = body.positions.exact(vertex);
+    const vox_result result = bad_position(body, vertex);
+    return MeshError(result, body,
+                     format(", vertex %" PRIu32 ": position (%g, %g, %g) is %s", vertex, p.x, p.y, p.z,
+                            result == VOX_ERROR_LIMIT
+                                ? "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38"
+                                : "not finite"),
+                     vertex);
 }
 
 void check_finite(const Body& body, std::uint32_t vertex) {
-    if (is_finite(body, vertex)) return;
-    const Vec3d p = body.positions.exact(vertex);
-    const vox_result result = bad_position(body, vertex);
-    throw MeshError(result, body,
-                    format(", vertex %" PRIu32 ": position (%g, %g, %g) is %s", vertex, p.x, p.y, p.z,
-                           result == VOX_ERROR_LIMIT
-                               ? "too large: coordinates are below 2^128 - 2^103 = 3.4028236e+38"
-                               : "not finite"),
-                    vertex);
+    if (!is_finite(body, vertex)) throw position_error(body, vertex);
 }
 
 namespace {
@@ -185,24 +186,23 @@ void count_words(const std::byte* data, std::size_t first, std::size_t last, Wor
 // Three numbers make a position, so x, y and z would change with the parity of the vertex; no mesh of floats
 // does that. Doubles with short mantissas, e.g. whole numbers, have low words of 0 and are not told apart
 // here.
-void check_not_doubles(const Body& body) {
+bool check_not_doubles(const Body& body) {
     constexpr std::uint32_t least_vertices = 16, most_vertices = 4096;
     const Positions& given = body.positions;
-    if (given.doubles || body.vertex_count < least_vertices || given.byte_stride != sizeof(Vec3f) ||
-        given.component_gap != 0)
-        return;
+    if (given.doubles || given.byte_stride != sizeof(Vec3f) || given.component_gap != 0) return true;
+    if (body.vertex_count < least_vertices) return false;
     // A look at some of them clears almost every mesh of floats.
     WordCounts some, all;
     constexpr std::size_t run = 3 * std::size_t{least_vertices};
     const std::size_t end = 3 * std::size_t{body.vertex_count};
     for (const std::size_t at : {std::size_t{0}, (end - run) / 2, end - run})
         count_words(given.data, at & ~std::size_t{1}, (at & ~std::size_t{1}) + run, some);
-    if (!some.ordinary || some.tiny + some.huge == 0) return;
+    if (!some.ordinary || some.tiny + some.huge == 0) return true;
 
     const std::size_t numbers = 3 * std::size_t{std::min(body.vertex_count, most_vertices)} & ~std::size_t{1};
     count_words(given.data, 0, numbers, all);
     const std::size_t enough = numbers / 64 + 1; // one low word in 32
-    if (!all.ordinary || all.tiny < enough || all.huge < enough) return;
+    if (!all.ordinary || all.tiny < enough || all.huge < enough) return true;
     throw MeshError(
         VOX_ERROR_INVALID_ARGUMENT, body,
         format(": its positions are doubles, but position_format is VOX_FORMAT_FLOAT3 (of %zu numbers, "

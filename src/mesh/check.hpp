@@ -49,6 +49,9 @@ std::uint32_t first_bad_vertex(const Body& body) noexcept;
 // Why: NON_FINITE, or LIMIT where the coordinates are finite.
 vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept;
 
+// The error about such a vertex.
+MeshError position_error(const Body& body, std::uint32_t vertex);
+
 // Throws MeshError with NON_FINITE for the first vertex whose position is not finite, with LIMIT when it is
 // finite but rounds to no finite float.
 void check_finite(const Body& body);
@@ -57,6 +60,7 @@ void check_finite(const Body& body);
 void check_finite(const Body& body, std::uint32_t vertex);
 
 // Throws MeshError with INVALID_ARGUMENT for positions that are read as floats, but can only be doubles.
-void check_not_doubles(const Body& body);
+// Returns false where there are too few of them to tell.
+bool check_not_doubles(const Body& body);
 
 } // namespace vox

@@ -186,7 +186,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     } else if (has_rest) {
         Positions poses = given;
         if (owns)
-            poses = {.data = news.data(), .byte_stride = size, .doubles = positions_.doubles};
+            poses = packed(news.data());
         else if (given.data)
             poses.data += before * given.byte_stride;
         else
@@ -203,8 +203,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     vertex_count_ = count;
     if (owns) {
         owned_.resize(doubles);
-        positions_.data = reinterpret_cast<const std::byte*>(owned_.data());
-        positions_.byte_stride = size;
+        positions_ = packed(owned_.data());
         std::memcpy(reinterpret_cast<std::byte*>(owned_.data()) + before * size, news.data(), news.size());
     } else if (given.data) {
         bind(given);

@@ -5,7 +5,6 @@
 #include "mesh/ids.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace vox {
@@ -82,9 +81,13 @@ void Mesh::bind(const Positions& positions) noexcept {
 }
 
 void Mesh::check_format_once(vox_mesh id) {
-    if (format_checked_) return;
-    check_not_doubles(body(id));
-    format_checked_ = true;
+    if (!format_checked_) format_checked_ = check_not_doubles(body(id));
+}
+
+Positions Mesh::packed(const void* data) const noexcept {
+    return {.data = static_cast<const std::byte*>(data),
+            .byte_stride = position_size(),
+            .doubles = positions_.doubles};
 }
 
 void* Mesh::map_positions() {
@@ -96,7 +99,7 @@ void* Mesh::map_positions() {
         if (positions_.data)
             for (std::size_t v = 0; v < vertex_count_; ++v) positions_.copy(v, to + v * size);
         owned_ = std::move(owned);
-        positions_ = {.data = to, .byte_stride = size, .doubles = positions_.doubles};
+        positions_ = packed(to);
     }
     owns_positions_ = true;
     return owned_.data();

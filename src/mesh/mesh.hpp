@@ -89,7 +89,7 @@ public:
     void* map_positions();
 
     // Throws MeshError(INVALID_ARGUMENT) where the positions are not of their format, which is looked at once
-    // until another format is bound.
+    // there are enough of them, and again when another format is bound.
     void check_format_once(vox_mesh id);
     bool is_format_checked() const noexcept { return format_checked_; }
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
@@ -121,6 +121,9 @@ public:
 
 private:
     friend class Snapshot;
+
+    // One after the other, in the mesh's format.
+    Positions packed(const void* data) const noexcept;
 
     // For a rest pose. Throws Error(NON_FINITE or LIMIT).
     RestPose rest_pose(const Positions& positions, std::uint32_t count) const;

@@ -65,6 +65,53 @@ static void is_failure(vox_failure failure, const scene* s, int b, uint32_t vert
     }
 }
 
+typedef struct messages {
+    int count;
+    char last[400];
+} messages;
+
+static void write_message(vox_log_level level, const char* text, void* user) {
+    messages* to = (messages*)user;
+    if (level != VOX_LOG_WARNING || !strstr(text, "left out of the step")) return;
+    ++to->count;
+    snprintf(to->last, sizeof to->last, "%s", text);
+}
+
+/* Once a mesh, until it is well again. */
+START_TEST(what_is_left_out_is_logged_once) {
+    messages log = {0, ""};
+    vox_grid_desc desc = engine_desc();
+    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    desc.log.write = write_message;
+    desc.log.user = &log;
+    vox_grid* grid = grid_of(&desc);
+    body bodies[2];
+    for (int b = 0; b < 2; ++b) {
+        bodies[b] = make_box(3, 0.5f, (float)b, 0, 0);
+        const vox_mesh_desc mesh = body_desc(&bodies[b]);
+        (void)insert_mesh(grid, &mesh);
+    }
+    float kept[2];
+    for (int b = 0; b < 2; ++b) kept[b] = bodies[b].positions[7];
+    bodies[1].positions[7] = NAN;
+    for (int i = 0; i < 3; ++i) ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(log.count, 1);
+    ck_assert_ptr_nonnull(strstr(log.last, "mesh 4097 (slot 1, user data 0), vertex 2: position ("));
+    bodies[0].positions[7] = INFINITY;
+    for (int i = 0; i < 3; ++i) ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(log.count, 2);
+    ck_assert_ptr_nonnull(strstr(log.last, "slot 0"));
+    bodies[1].positions[7] = kept[1];
+    ck_ok(vox_grid_step(grid));
+    bodies[1].positions[7] = NAN;
+    ck_ok(vox_grid_step(grid));
+    ck_assert_int_eq(log.count, 3);
+    ck_assert_ptr_nonnull(strstr(log.last, "slot 1"));
+    vox_grid_destroy(grid);
+    for (int b = 0; b < 2; ++b) free_body(&bodies[b]);
+}
+END_TEST
+
 START_TEST(which_mesh_failed) {
     scene s = new_scene(0, NULL);
     const double huge[12] = {1e300, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
@@ -271,7 +318,7 @@ START_TEST(failing_allocations) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, which_mesh_failed, bad_meshes_are_left_out, all_are_bad,
+    tcase_add_each(tests, which_mesh_failed, what_is_left_out_is_logged_once, bad_meshes_are_left_out, all_are_bad,
                    events_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
 }
 

@@ -347,6 +347,36 @@ START_TEST(suggested_and_asked) {
 }
 END_TEST
 
+/* A mesh that begins without vertices and owns those that it gets: they are packed, whatever was said of none. */
+START_TEST(columns_of_nothing) {
+    for (int maps = 0; maps < 2; ++maps) {
+        body box = make_box(2, 0.5f, 0, 0, 0);
+        vox_mesh_desc desc = vox_mesh_desc_floats(box.positions, 0, NULL, 0);
+        desc.position_component_byte_stride = 4000;
+        desc.flags = maps ? 0 : VOX_MESH_COPY_POSITIONS;
+        vox_grid* grid = engine_grid();
+        const vox_mesh grown = insert_mesh(grid, &desc);
+        void* memory;
+        uint64_t stride;
+        if (maps) ck_ok(vox_mesh_map_positions(grid, grown, &memory, &stride));
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        uint32_t first;
+        vertices.count = box.vertex_count;
+        vertices.positions = box.positions;
+        ck_ok(vox_mesh_append_vertices(grid, grown, &vertices, &first));
+        ck_ok(vox_mesh_append_tets(grid, grown, box.tets, box.tet_count, &first));
+        const vox_mesh_desc usual = body_desc(&box);
+        (void)insert_mesh(grid, &usual);
+        ck_ok(vox_grid_step(grid));
+        vox_contact_view contacts;
+        ck_ok(vox_grid_contacts(grid, &contacts));
+        ck_assert_uint_eq(contacts.count, 2 * (uint64_t)box.vertex_count); /* each in the other */
+        vox_grid_destroy(grid);
+        free_body(&box);
+    }
+}
+END_TEST
+
 START_TEST(strides_that_are_refused) {
     static const struct {
         vox_format format;
@@ -356,7 +386,7 @@ START_TEST(strides_that_are_refused) {
                {VOX_FORMAT_FLOAT3, 0, 1, 100, "position_component_byte_stride is 1"},
                {VOX_FORMAT_DOUBLE3, 0, 4, 100, "position_component_byte_stride is 4"},
                {VOX_FORMAT_DOUBLE3, 16, 16, 100, "overlap"},
-               {VOX_FORMAT_DOUBLE3, 4, 800, 100, "overlap"},
+               {VOX_FORMAT_DOUBLE3, 4, 800, 100, "is 4, expected 0 or at least 8"},
                {VOX_FORMAT_DOUBLE3, 0, 1ull << 62, 100, "too large"},
                {VOX_FORMAT_DOUBLE3, 1ull << 57, 0, 100, "too large"},
                {VOX_FORMAT_DOUBLE3, 0, UINT64_MAX, 1, "too large"},
@@ -392,6 +422,7 @@ static void add_tests(TCase* tests) {
     tcase_add_loop_test(tests, same_as_packed, 0, layout_count);
     tcase_add_loop_test(tests, copied, 0, layout_count);
     tcase_add_loop_test(tests, rest_poses_and_growth, 0, layout_count);
+    tcase_add_test(tests, columns_of_nothing);
 }
 
 int main(void) {

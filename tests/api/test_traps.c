@@ -88,6 +88,29 @@ START_TEST(doubles_under_floats_are_refused) {
 }
 END_TEST
 
+/* A mesh that is too small to tell is looked at again when it has grown. */
+START_TEST(doubles_that_come_later) {
+    body box = make_box(4, 0.3f, 0.1f, 0.2f, 0.3f);
+    double* positions = doubles_of(&box, 0.1);
+    for (uint64_t before = 0; before <= 8; before += 8) {
+        vox_grid* grid = engine_grid();
+        vox_mesh_desc desc = vox_mesh_desc_floats((const float*)(const void*)positions, before, NULL, 0);
+        desc.flags = VOX_MESH_COPY_POSITIONS;
+        const vox_mesh mesh = insert_mesh(grid, &desc);
+        ck_ok(vox_grid_step(grid));
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        uint32_t first;
+        vertices.count = box.vertex_count - before;
+        vertices.positions = (const float*)(const void*)positions + 3 * before;
+        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+        vox_grid_destroy(grid);
+    }
+    free(positions);
+    free_body(&box);
+}
+END_TEST
+
 /* Floats of any size are taken: alike, of every size at once, tiny, huge, zeros. */
 START_TEST(floats_are_never_refused) {
     body box = make_box(4, 0.25f, 0, 0, 0);
@@ -95,8 +118,6 @@ START_TEST(floats_are_never_refused) {
     float* positions = (float*)malloc(3 * sizeof(float) * box.vertex_count);
     vox_grid* grid = engine_grid();
     const vox_mesh_desc desc = vox_mesh_desc_floats(positions, box.vertex_count, box.tets, box.tet_count);
-    memcpy(positions, box.positions, 3 * sizeof(float) * box.vertex_count);
-    const vox_mesh mesh = insert_mesh(grid, &desc);
     uint64_t random = 5;
     for (int axes = 1; axes < 8; ++axes) /* scaled or wild along some axes, as they are along the others */
         for (size_t s = 0; s < sizeof scales / sizeof *scales + 2; ++s) {
@@ -111,8 +132,9 @@ START_TEST(floats_are_never_refused) {
                         memcpy(&positions[i], (char*)&random + 4, sizeof(float));
                     while (!isfinite(positions[i]));
             }
-            ck_ok(vox_mesh_bind_floats(grid, mesh, positions));
+            const vox_mesh mesh = insert_mesh(grid, &desc); /* another one, as each is looked at once */
             ck_ok(vox_grid_step(grid));
+            ck_ok(vox_mesh_remove(grid, mesh));
         }
     vox_grid_destroy(grid);
     free(positions);
@@ -323,7 +345,7 @@ START_TEST(interior_and_boundary) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, doubles_under_floats_are_refused, floats_are_never_refused,
+    tcase_add_each(tests, doubles_under_floats_are_refused, doubles_that_come_later, floats_are_never_refused,
                    what_the_memory_held_before_does_not_matter, zeroed_filter, edges_collide_with_nothing,
                    interior_and_boundary);
 }
