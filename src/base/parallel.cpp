@@ -37,9 +37,9 @@ void Workers::set_count(std::uint32_t worker_count) {
 
 namespace {
 
-// From one end of a range to the other. Such ways add up to the one from 0 to `items` if the ranges follow
-// each other from there to there. No other ranges do, but by a chance of 2^-64: ranges only lead forwards, so
-// each end but the last has to be the beginning of another range, and these are numbers that look random.
+// A hash of the end less one of the beginning. Of ranges that follow each other from 0 to `items`, all but
+// the hashes of 0 and `items` cancel in the sum. Of any other set of ranges some end is the beginning of
+// none, as each range goes forwards; then the sum is another one, but for a chance of 2^-64.
 std::uint64_t way(std::uint64_t begin, std::uint64_t end) noexcept {
     return next_random(end) - next_random(begin);
 }

@@ -103,7 +103,8 @@ struct Lookup {
     double lo[3], hi[3];
     std::uint32_t first_read, last_read;     // [first, last)
     std::uint32_t first_passed, last_passed; // [first, last)
-    bool may_meet = true; // whether points that it tests may be near it: such lookups are sampled separately
+    bool may_meet = true; // whether points of bodies that may collide with its own may be near it: such
+                          // lookups are sampled separately
     bool jumps = false;   // whether it is apart from the lookup before, which then read other points
 };
 

@@ -52,9 +52,10 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
         }
         if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0 &&
             std::abs(weight[0] + weight[1] + weight[2] - 1) < 0x1p-26) {
-            const double length = squared(b - a) + squared(c - a);
+            const double squared_length = squared(b - a) + squared(c - a);
             const double height = dot(p - a, normal);
-            if (area > 0x1p-90 * (length * length))
+            // Of a triangle still thinner, 2^-45 of its length, `height` is little but rounding.
+            if (area > 0x1p-90 * (squared_length * squared_length))
                 return {height * height > small ? height * height / area : height * (height / area),
                         {weight[0], weight[1], weight[2]}};
         }

@@ -15,7 +15,8 @@ struct ClosestPoint {
 };
 
 // The point of the closed triangle abc that is closest to p. The triangle may be a segment or a point, and of
-// any size that doubles have. The weights are not negative, and add up to 1 within 2^-26.
+// any size that positions have, down to denormals. The weights are not negative, and add up to 1 within
+// 2^-26.
 ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 
 // The same, computed relative to p, so that rounding errors are in proportion to the distance and not to the

@@ -19,12 +19,12 @@ namespace vox::fast {
 
 namespace {
 
-// Tests of the sweep for each box beyond which the join is faster: by bench_stages, it takes as long as 250
-// to 800.
+// Tests of the sweep for each box beyond which the join takes over. In the arrangements of bench_pairs_worst
+// the two take equally long at 250 to 800, so the number matters little.
 constexpr std::uint64_t most_tests = 400;
-// The join is given up when so many pairs that it found for each box are excluded.
+// The join is given up when it has found more excluded pairs than this for each box.
 constexpr std::uint64_t most_excluded = 64;
-constexpr std::uint64_t few_boxes = 64; // that all of this is not worth the trouble for
+constexpr std::uint64_t few_boxes = 64; // up to so many, the sweep is always used
 
 int widest_axis(std::span<const Box> boxes) {
     double sum[3] = {}, squares[3] = {}, count = 0;
@@ -58,6 +58,11 @@ void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair
     for (const Pair& pair : from) to[first[pair.*key]++] = pair;
 }
 
+// Whether a pair of bodies is wanted; PairRules says when.
+bool is_wanted(const Body& a, bool a_moved, const Body& b, bool b_moved) {
+    return (a_moved || b_moved) && !(a.tets.empty() && b.tets.empty()) && collide(a, b);
+}
+
 // Collects the pairs that are wanted, and counts those that are not.
 class PairCollector {
 public:
@@ -73,7 +78,8 @@ public:
 
     // Two boxes overlap.
     void add(std::uint32_t a, std::uint32_t b) {
-        if (!is_wanted(a, b)) {
+        if (!rules_.bodies.empty() &&
+            !is_wanted(rules_.bodies[a], rules_.has_moved(a), rules_.bodies[b], rules_.has_moved(b))) {
             ++excluded_;
             return;
         }
@@ -85,13 +91,6 @@ public:
     std::uint64_t looks() const noexcept { return looks_; }
 
 private:
-    bool is_wanted(std::uint32_t a, std::uint32_t b) const {
-        if (rules_.bodies.empty()) return true;
-        if (!rules_.of.empty() && !rules_.of[a].moved && !rules_.of[b].moved) return false;
-        const Body &body_a = rules_.bodies[a], &body_b = rules_.bodies[b];
-        return !(body_a.tets.empty() && body_b.tets.empty()) && collide(body_a, body_b);
-    }
-
     const PairRules& rules_;
     std::pmr::vector<Pair>& found_;
     std::uint64_t most_excluded_ = 0, excluded_ = 0, looks_ = 0;
@@ -273,7 +272,7 @@ std::size_t find_classes(const PairRules& rules, std::span<RankedBox> ranked,
     std::size_t count = 0;
     for (RankedBox& box : ranked) {
         const Body& body = rules.bodies[box.box];
-        const bool moved = rules.of.empty() || rules.of[box.box].moved;
+        const bool moved = rules.has_moved(box.box);
         std::size_t c = 0;
         while (c < count && (classes[c].body.filter != body.filter || classes[c].moved != moved ||
                              classes[c].body.tets.empty() != body.tets.empty()))
@@ -302,8 +301,7 @@ void join_classes(const PairRules& rules, PairBuffers& buffers, PairCollector& o
         return std::span<const RankedBox>(buffers.ranked).subspan(c.first, c.count);
     };
     const auto meet = [](const RuleClass& a, const RuleClass& b) {
-        return (a.moved || b.moved) && !(a.body.tets.empty() && b.body.tets.empty()) &&
-               collide(a.body, b.body);
+        return is_wanted(a.body, a.moved, b.body, b.moved);
     };
     for (std::size_t c = 0; c < count; ++c) {
         const std::span<const RankedBox> own = of_class(classes[c]);

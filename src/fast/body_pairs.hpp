@@ -22,6 +22,8 @@ struct Pair {
 struct PairRules {
     std::span<const Body> bodies{};
     std::span<const StepBody> of{};
+
+    bool has_moved(std::uint32_t body) const noexcept { return of.empty() || of[body].moved; }
 };
 
 // A box by ranks: an axis at a time, the low corners of all boxes are numbered in ascending order, and a high

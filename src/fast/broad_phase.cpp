@@ -143,7 +143,7 @@ Box box_of_vertices(const StepBody& body, const Box& region) {
 }
 
 // Pairs of bodies that may collide, with the region where their boxes overlap. Where many small bodies are in
-// one place, their vertices show that most pairs are none.
+// one place, their vertices show that most pairs are none: here already, so that these take no memory.
 void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
     find_pairs(boxes.bodies, {step.bodies, step.of}, out.pair_buffers, out.pairs);
     out.regions.clear();
@@ -163,6 +163,7 @@ void list_regions(const Step& step, const StepBoxes& boxes, BroadPhase& out) {
 void shrink_to_blocks(const Step& step, const StepBoxes& boxes, PairRegion& pair) {
     Box reached = empty_box;
     const StepBody& body = step.of[pair.a];
+    if (body.tiles->block_count() == 1) return; // list_regions() has looked at its vertices
     const Box* blocks = boxes.blocks.data() + body.first_block;
     const std::uint32_t count = body.tiles->block_count();
     for (std::uint32_t i = 0; i < count; i += most_boxes) {

@@ -103,7 +103,7 @@ void Across::build_far(std::uint32_t tet, std::uint32_t facet, std::uint32_t val
             return;
         }
     }
-    unsorted_.push_back({place, value});
+    unsorted_.push_back({static_cast<std::uint32_t>(place), value});
     if (unsorted_.size() > 2 * size_) widen(); // which takes less memory then
 }
 

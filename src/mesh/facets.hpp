@@ -181,7 +181,7 @@ private:
         std::uint32_t first_triangle = nothing, first_far = 0;
     };
     struct Far {
-        std::uint64_t place; // 4 * tetrahedron + facet
+        std::uint32_t place; // 4 * tetrahedron + facet
         std::uint32_t value;
     };
 

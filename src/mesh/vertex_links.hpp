@@ -117,7 +117,7 @@ private:
     // A record begins with a word: 7 bits for the number of neighbours, 7 for that of triangles. Then come
     // the ring and the neighbours, each as its first number and the differences between the others. The first
     // neighbour is a difference, too, from the vertex. Where all this does not fit, the first word is the bit
-    // for wide records, and all that follows has 32 bits: the numbers of both, and what is said above. The
+    // for wide records, and all that follows has 32 bits: the two numbers, the ring and the neighbours. The
     // differences are modulo 2^32 then.
     static constexpr std::uint32_t wide_record = 0x8000u, few_bits = 7, few = 1u << few_bits;
 
