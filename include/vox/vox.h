@@ -186,8 +186,9 @@ typedef enum vox_grid_flags {
                                   than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
     VOX_GRID_SKIP_BAD_MESHES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too
-                                     large) takes no part in a step, in vox_grid_prepare_queries and in
-                                     vox_grid_take_query_view, as if it were disabled; without this flag they fail.
+                                     large) takes no part in a step, in vox_grid_prepare_queries, in
+                                     vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were
+                                     disabled; without this flag they fail.
                                      Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the
                                      mesh is well again */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
@@ -197,8 +198,8 @@ typedef enum vox_grid_flags {
 typedef struct vox_grid vox_grid;
 
 /* Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
- * penetrations, no byte budget and a thread per core. vox_grid_create writes a warning to the log then, unless
- * there is none. */
+ * penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
+ * one. */
 typedef struct vox_grid_desc {
     uint32_t struct_size;
     vox_engine engine;
@@ -230,11 +231,11 @@ typedef struct vox_grid_desc {
      * own, so its built-in scheduler is serial, too. */
     uint32_t worker_count;
     uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
-    /* Most searches for a closest point that the depth stage makes in one step: for penetrations that would be ENCLOSED,
-     * or CROSSING with nothing but a closest point to go by. The first ones, in the order of the penetrations, get
-     * them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of meshes at
-     * rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0 (the
-     * default): no limit. */
+    /* Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
+     * ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
+     * penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
+     * written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
+     * stay UNKNOWN where they are. 0 (the default): no limit. */
     uint64_t closest_budget;
 } vox_grid_desc;
 
@@ -355,7 +356,7 @@ static inline vox_filter vox_default_filter(void) {
 
 /* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
  * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
- * without a contact. The first such mesh of a grid is written to its log as a warning;
+ * without a contact. The first such mesh that a grid gets is written to its log as a warning;
  * vox_counters.meshes_without_tets counts them.
  * Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v * position_byte_stride +
  * c * position_component_byte_stride. Two layouts are possible: positions one after the other (x y z, x y z, ...), and
@@ -424,7 +425,7 @@ static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint6
 /* Adds a mesh, which takes part from the next step on.
  * Packed positions in VOX_FORMAT_FLOAT3 that can only be doubles are refused: from 16 vertices on, every other number
  * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
- * are looked at once for each format, here if they are copied, else when a step or suggestion reads them first.
+ * are looked at once for each format, here if they are copied, else when a step, suggestion or query reads them first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh);
 
@@ -1004,8 +1005,9 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_gri
  * bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the tetrahedra alone,
  * are made by the first call after a mesh was inserted or edited, and are shared with query views. From now on a grid
  * of the reference engine also keeps tiles, as those of the fast engine do. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT
- * (see vox_task_system); after that nothing is prepared. */
+ * positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert), BUDGET,
+ * OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a defective task system (see
+ * vox_task_system); after that nothing is prepared. */
 VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
 
 /* Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
@@ -1177,7 +1179,8 @@ typedef struct vox_query_view vox_query_view;
 
 /* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
  * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (see also vox_task_system). */
+ * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3; see also
+ * vox_task_system). */
 VOX_API vox_result vox_grid_take_query_view(vox_grid* grid, vox_query_view** out_view);
 
 /* One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not released
