@@ -24,7 +24,7 @@
  *   Floats    Whatever floating-point environment the calling thread has (rounding, denormals flushed to zero, as
  *             -ffast-math does, traps), the library computes in the default one, gives the same bits, and leaves the
  *             thread's own as it was, flags included. Callbacks run in that of the thread that made the call; those of
- *             a grid inside a vox_sim or an experiment, in the default one.
+ *             a grid inside a vox_sim, an experiment or vox_grids_step, in the default one.
  *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
  */
 #ifndef VOX_VOX_H
@@ -96,6 +96,9 @@ VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
 VOX_API uint32_t vox_version(void);
 /* The same as "major.minor.patch". Static text. Cannot fail. */
 VOX_API const char* vox_version_string(void);
+/* VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time compares it
+ * with that of the header it was written for. Cannot fail. */
+VOX_API uint32_t vox_abi_version(void);
 /* Compiler, language level, instruction sets and options of this build, in one line. Static text. Cannot fail. */
 VOX_API const char* vox_build_info(void);
 
@@ -438,6 +441,42 @@ VOX_API uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh);
 /* The user_data the mesh was inserted with. */
 VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data);
 
+/* Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how many
+ * there are, which may be more than were copied. `meshes` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grid_meshes(const vox_grid* grid, vox_mesh* meshes, uint64_t capacity, uint64_t* out_count);
+
+/* A mesh as it is now, e.g. after vox_grid_load. */
+typedef struct vox_mesh_info {
+    uint32_t struct_size;
+    uint32_t slot;         /* from 0 */
+    uint64_t user_data;    /* as given at insertion */
+    uint64_t vertex_count; /* with the removed ones: indices of vertices are below it */
+    uint64_t tet_count;    /* with those that are disabled or removed: indices of tetrahedra are below it */
+    uint64_t enabled_tet_count;
+    uint32_t enabled;      /* 1, or 0 (see vox_mesh_set_enabled) */
+    uint32_t flags;        /* vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the
+                              mesh's own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's */
+    vox_format position_format;
+    uint32_t has_transform; /* 1 if vox_mesh_set_transform gave it one */
+    /* The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
+     * other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed. */
+    const void* positions;
+    uint64_t position_byte_stride;           /* of these, never 0 unless `positions` is null; see vox_mesh_desc */
+    uint64_t position_component_byte_stride;
+    double transform[12]; /* as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
+} vox_mesh_info;
+
+/* Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see vox_mesh_info.
+ * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+VOX_API vox_result vox_mesh_get_info(const vox_grid* grid, vox_mesh mesh, vox_mesh_info* out_info);
+
+/* Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4 * t]
+ * to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may be null,
+ * and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count).
+ * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh, uint32_t* corners, uint8_t* enabled,
+                                      uint64_t capacity, uint64_t* out_count);
+
 /* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
  * of vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory
  * between steps need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
@@ -608,6 +647,19 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const
  * vox_grid_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
+/* Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small scenes
+ * that have nothing to do with each other. The grids are split among `worker_count` threads (0: one per core; at most
+ * VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its own,
+ * so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on the others. Its callbacks
+ * are called on the thread that steps it. One thread at a time may change each of the grids, so none of them may be
+ * used until the call returns.
+ * results: null, or `count` results, of the grids in their order. If grids fail, the others are stepped nevertheless,
+ * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
+ * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
+ * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
+VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task_system* tasks,
+                                  uint32_t worker_count, vox_result* results);
+
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
     uint32_t struct_size;
@@ -654,6 +706,12 @@ typedef struct vox_contact_view {
 
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
 VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
+
+/* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
+ * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
+ * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
+                                           uint64_t capacity, uint64_t* offsets);
 
 /* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
  * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact

@@ -6,7 +6,9 @@
 #include "base/memory.hpp"
 #include "base/structs.hpp"
 #include "mesh/check.hpp"
+#include "mesh/ids.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory_resource>
 
@@ -24,6 +26,8 @@ uint32_t vox_version(void) {
 const char* vox_version_string(void) {
     return VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH);
 }
+
+uint32_t vox_abi_version(void) { return VOX_ABI_VERSION; }
 
 const char* vox_build_info(void) {
     // clang-format off
@@ -159,6 +163,36 @@ uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh) {
 
 vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data) {
     return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->mesh(mesh).user_data(); });
+}
+
+vox_result vox_grid_meshes(const vox_grid* grid, vox_mesh* meshes, uint64_t capacity, uint64_t* out_count) {
+    return border(grid, "grid", out_count, "out_count", [&] {
+        if (capacity > 0) require(meshes, "meshes");
+        std::uint64_t count = 0;
+        grid->meshes().for_each([&](vox_mesh id, const MeshSlot&) {
+            if (count < capacity) meshes[count] = id;
+            ++count;
+        });
+        return count;
+    });
+}
+
+vox_result vox_mesh_get_info(const vox_grid* grid, vox_mesh mesh, vox_mesh_info* out_info) {
+    return border(grid, "grid",
+                  [&] { write_struct(out_info, grid->mesh(mesh).info(slot_of(mesh)), "out_info"); });
+}
+
+vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh, uint32_t* corners, uint8_t* enabled,
+                              uint64_t capacity, uint64_t* out_count) {
+    return border(grid, "grid", out_count, "out_count", [&] {
+        const Mesh& from = grid->mesh(mesh);
+        const std::uint64_t count = std::min(capacity, from.tet_count());
+        for (std::uint32_t t = 0; t < count; ++t) {
+            if (corners) std::copy_n(from.given(t).v, 4, corners + 4 * std::size_t{t});
+            if (enabled) enabled[t] = from.is_off(t) ? 0 : 1;
+        }
+        return from.tet_count();
+    });
 }
 
 vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions, vox_format format,

@@ -70,6 +70,7 @@ public:
     bool is_valid(vox_mesh mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
     vox::Mesh& mesh(vox_mesh mesh) { return meshes_[mesh].mesh; }
     const vox::Mesh& mesh(vox_mesh mesh) const { return meshes_[mesh].mesh; }
+    const vox::MeshTable& meshes() const noexcept { return meshes_; }
 
     void step();
 

@@ -110,6 +110,31 @@ void Mesh::set_transform(const double* matrix) noexcept {
     if (matrix) std::copy_n(matrix, transform_.size(), transform_.begin());
 }
 
+vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
+    vox_mesh_info info{};
+    info.struct_size = sizeof info;
+    info.slot = slot;
+    info.user_data = user_data_;
+    info.vertex_count = vertex_count_;
+    info.tet_count = tet_count();
+    info.enabled_tet_count = tet_count() - off_.count();
+    info.enabled = enabled_ ? 1 : 0;
+    if (filter_.self_collision) info.flags |= VOX_MESH_SELF_COLLISION;
+    if (owns_positions_) info.flags |= VOX_MESH_COPY_POSITIONS;
+    if (!borrowed_.empty()) info.flags |= VOX_MESH_BORROW_TETS;
+    info.position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+    if (positions_.data) {
+        const std::size_t number = position_size() / 3;
+        info.positions = positions_.data;
+        info.position_byte_stride = positions_.byte_stride;
+        info.position_component_byte_stride = number + positions_.component_gap;
+    }
+    info.has_transform = has_transform_ ? 1 : 0;
+    for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
+    if (has_transform_) std::copy(transform_.begin(), transform_.end(), info.transform);
+    return info;
+}
+
 Body Mesh::body(vox_mesh id) const noexcept {
     Positions positions = positions_;
     if (has_transform_) positions.transform = transform_.data();

@@ -101,6 +101,11 @@ public:
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
     std::uint64_t tet_count() const noexcept { return tets().size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
+    vox_mesh_info info(std::uint32_t slot) const noexcept;
+
+    // Corners as given by the caller, also of a tet that is off.
+    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets()[tet] : given_[tet]; }
+    bool is_off(std::uint32_t tet) const noexcept { return off_[tet]; }
 
     // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
     // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and changes nothing then.
@@ -131,7 +136,6 @@ private:
     // Edits.
     std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }
     std::span<const Tet> tets() const noexcept { return borrowed_.empty() ? std::span(tets_) : borrowed_; }
-    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets()[tet] : given_[tet]; }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
     void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;

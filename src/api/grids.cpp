@@ -1,0 +1,96 @@
+// The C border of calls for many grids at once.
+
+#include "base/border.hpp"
+#include "base/llu.hpp"
+#include "base/parallel.hpp"
+#include "grid/grid.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+using namespace vox;
+
+namespace {
+
+void check_grids(const vox_grid* const* grids, std::uint64_t count) {
+    if (count > 0) require(grids, "grids");
+    for (std::uint64_t i = 0; i < count; ++i)
+        if (!grids[i]) refuse(format("grids[%llu] is null", llu(i)));
+}
+
+// Two threads must not step the same grid.
+void check_different(vox_grid* const* grids, std::uint64_t count) {
+    std::vector<std::uint64_t> order(count);
+    for (std::uint64_t i = 0; i < count; ++i) order[i] = i;
+    std::ranges::sort(order, [&](std::uint64_t a, std::uint64_t b) {
+        return grids[a] != grids[b] ? std::less<>()(grids[a], grids[b]) : a < b;
+    });
+    for (std::uint64_t i = 1; i < count; ++i)
+        if (grids[order[i - 1]] == grids[order[i]])
+            refuse(format("grids[%llu] and grids[%llu] are the same", llu(order[i - 1]), llu(order[i])));
+}
+
+// The failed grid of the lowest index. Texts of failures are per thread, so it is kept here.
+class FirstFailure {
+public:
+    void add(std::uint64_t grid, vox_result result, const char* text) {
+        const std::lock_guard lock(mutex_);
+        if (result_ != VOX_OK && grid_ < grid) return;
+        grid_ = grid;
+        result_ = result;
+        (void)std::snprintf(text_, sizeof text_, "%s", text);
+    }
+    void rethrow() const {
+        if (result_ != VOX_OK) throw Error(result_, format("grid %llu: %s", llu(grid_), text_));
+    }
+
+private:
+    std::mutex mutex_;
+    std::uint64_t grid_ = 0;
+    vox_result result_ = VOX_OK;
+    char text_[1024]; // as long as a text can be
+};
+
+} // namespace
+
+vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task_system* tasks,
+                          uint32_t worker_count, vox_result* results) {
+    return border([&] {
+        check_grids(grids, count);
+        check_different(grids, count);
+        const vox_task_system system = tasks ? *tasks : vox_task_system{};
+        check_workers(system, worker_count);
+        FirstFailure failure;
+        Workers(system, worker_count)
+            .for_ranges(count, 1, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const vox_result result = vox_grid_step(grids[i]);
+                    if (results) results[i] = result;
+                    if (result != VOX_OK) failure.add(i, result, vox_last_error());
+                }
+            });
+        failure.rethrow();
+    });
+}
+
+vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
+                                   uint64_t capacity, uint64_t* offsets) {
+    return border([&] {
+        check_grids(grids, count);
+        require(offsets, "offsets");
+        if (capacity > 0) require(contacts, "contacts");
+        std::uint64_t offset = 0;
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const vox_contact_view view = grids[i]->contacts();
+            offsets[i] = offset;
+            if (offset < capacity)
+                std::copy_n(view.data, std::min(view.count, capacity - offset), contacts + offset);
+            offset += view.count;
+        }
+        offsets[count] = offset;
+    });
+}
