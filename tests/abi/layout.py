@@ -8,9 +8,10 @@ import subprocess
 import sys
 import tempfile
 
-import header
-
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", "..", "bindings", "generator"))
+import header  # noqa: E402
+
 INCLUDE = os.path.join(HERE, "..", "..", "include")
 HEADERS = ["vox", "vox_io", "vox_sim"]
 

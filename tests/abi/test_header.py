@@ -7,9 +7,9 @@ import re
 import sys
 import unittest
 
-import header
-
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.append(os.path.join(ROOT, "bindings", "generator"))
+import header  # noqa: E402
 sys.path.append(os.path.join(ROOT, "tests", "layout"))
 import plain_words  # noqa: E402
 INCLUDE = os.path.join(ROOT, "include", "vox")
