@@ -1,8 +1,21 @@
-"""Reads a public header: its functions, types and constants, each with the comment right above it. Knows the C that
-these headers use, and fails on any other."""
+"""Reads a public header: its functions, types and constants, each with the comment right above or beside it, and with the
+marks that tell a program what C's types do not (the conventions of vox.h list them). Knows the C that these headers use,
+and fails on any other."""
 
 import re
 from dataclasses import dataclass, field
+
+MARKS = {"VOX_OPTIONAL": False, "VOX_ARRAY": True, "VOX_UNTIL": True, "VOX_ONE_THREAD": False,
+         "VOX_ANY_THREAD": False}  # whether they have arguments
+
+
+class Member(tuple):
+    """(type, name) of a parameter, a field or a result, which has no name. `marks` by name, with their arguments."""
+
+    def __new__(cls, type_text, name, marks=None, comment=""):
+        member = super().__new__(cls, (type_text, name))
+        member.marks, member.comment = marks or {}, comment
+        return member
 
 
 @dataclass
@@ -13,9 +26,11 @@ class Declaration:
     line: int
     section: str
     stable: bool = True  # VOX_API, not VOX_EXPERIMENTAL
-    result: str = ""  # of a function or callback
-    parameters: list = field(default_factory=list)  # (type, name)
-    fields: list = field(default_factory=list)  # (type, name), of a struct; names alone, of an enum
+    result: str = ""  # of a function or callback; what an alias stands for
+    parameters: list = field(default_factory=list)  # Members
+    fields: list = field(default_factory=list)  # Members of a struct; names alone, of an enum
+    values: list = field(default_factory=list)  # (name, number, comment) of an enum
+    marks: dict = field(default_factory=dict)  # of the result, or of an opaque type
     inside: str = ""  # the comments of its fields or enumerators
     inherited: str = ""  # comments of those before it, where its own says "The same ..."
 
@@ -26,6 +41,7 @@ class Header:
     sections: dict  # name: the comments that stand by themselves in it
     declarations: list
     constants: dict  # numbers that are #defined, by name: the comment above or beside
+    numbers: dict = field(default_factory=dict)  # the same: (number, line, section)
 
     def of_kind(self, *kinds):
         return [d for d in self.declarations if d.kind in kinds]
@@ -47,20 +63,67 @@ def words_of(comment):
     return " ".join(re.sub(r"^\s*\* ?", "", comment[2:-2], flags=re.M).split())
 
 
-def split_parameter(text):
-    """(type, name) of a parameter or field; the name of a function pointer is inside its type."""
-    text = text.strip()
+def take_marks(text):
+    """The marks that a declaration begins with, and the rest of it."""
+    marks, text = {}, text.strip()
+    while True:
+        match = re.match(r"(VOX_\w+)\b(?:\(((?:[^()]|\([^()]*\))*)\))?\s*", text)
+        if not match or match[1] not in MARKS:
+            return marks, text
+        if (match[2] is not None) != MARKS[match[1]] or match[1] in marks:
+            raise ValueError(f"a wrong mark in '{text}'")
+        marks[match[1]] = " ".join(match[2].split()) if match[2] is not None else True
+        text = text[match.end():]
+
+
+def split_parameter(text, comment=""):
+    """The name of a function pointer is inside its type."""
+    marks, text = take_marks(text)
     pointer = re.fullmatch(r"(.*\(\*)(\w+)(\)\s*\(.*\))", text)
     if pointer:
-        return (pointer[1] + pointer[3], pointer[2])
+        return Member(pointer[1] + pointer[3], pointer[2], marks, comment)
     match = re.fullmatch(r"(.*?[\s*])(\w+)((?:\[\w+\])*)", text)
-    if not match:
+    if not match or "VOX_" in match[1]:
         raise ValueError(f"cannot read the declaration '{text}'")
-    return (match[1].strip() + match[3], match[2])
+    return Member(match[1].strip() + match[3], match[2], marks, comment)
+
+
+def split_list(text):
+    """At the commas that are in no parentheses."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += {"(": 1, ")": -1}.get(letter, 0)
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return parts
 
 
 def parameters_of(text):
-    return [] if text.strip() in ("", "void") else [split_parameter(p) for p in text.split(",")]
+    return [] if text.strip() in ("", "void") else [split_parameter(p) for p in split_list(text)]
+
+
+def members_of(body, separator):
+    """(text, comment) of each field or enumerator: the comment above it, or beside it on its line."""
+    members, text, above = [], "", ""
+    at, last_end = 0, 0
+    for token in re.finditer(rf"/\*.*?\*/|{separator}", body, flags=re.S):
+        text += body[at:token.start()]
+        at = token.end()
+        if token[0] == separator:
+            members.append([text, above])
+            text, above, last_end = "", "", token.end()
+        elif text.strip():  # behind the last enumerator, which has no comma
+            above = (above + " " + words_of(token[0])).strip()
+        elif members and "\n" not in body[last_end:token.start()]:
+            members[-1][1] = (members[-1][1] + " " + words_of(token[0])).strip()
+        else:
+            above = words_of(token[0])
+    text += body[at:]
+    if text.strip():
+        members.append([text, above])
+    return [(" ".join(text.split()), comment) for text, comment in members if text.strip()]
 
 
 def statements(text):
@@ -116,32 +179,40 @@ def parse(text):
                 header.sections[section] += " " + words_of(above)
             continue
         code = plain(statement)
-        constant = re.match(r"#define (VOX_\w+) \(?-?[0-9.x]+\w*\)?", code)
+        constant = re.match(r"#define (VOX_\w+) \(?(-?[0-9.x]\w*)\)?", code)
         if constant and not constant[1].startswith("VOX_VERSION"):
             header.constants[constant[1]] = (words_of(above) if above else "") + comments_in(statement)
+            header.numbers[constant[1]] = (int(constant[2].rstrip("u"), 0), line, section)
         if code.startswith("#"):
             continue
         comment = words_of(above) if above else ""
+        marks = {}
+        leading = re.match(r"(VOX_API|VOX_EXPERIMENTAL|typedef) ", code)
+        if leading:
+            marks, rest = take_marks(code[leading.end():])
+            code = leading[0] + rest
         new = None
         function = re.fullmatch(r"(VOX_API|VOX_EXPERIMENTAL) (.+?[ *])(\w+)\((.*)\);", code)
         struct = re.fullmatch(r"typedef (struct|enum) (\w+) \{(.*)\} (\w+);", code)
         callback = re.fullmatch(r"typedef (.+?[ *])(vox_\w+)\((.*)\);", code)
+        body = statement[statement.find("{") + 1: statement.rfind("}")]
         if function:
             new = Declaration("function", function[3], comment, line, section, function[1] == "VOX_API",
-                              function[2].strip(), parameters_of(function[4]))
+                              function[2].strip(), parameters_of(function[4]), marks=marks)
         elif struct and struct[1] == "struct":
-            fields = [split_parameter(f) for f in struct[3].split(";") if f.strip()]
+            fields = [split_parameter(*member) for member in members_of(body, ";")]
             new = Declaration("struct", struct[2], comment, line, section, fields=fields)
         elif struct:
-            names = [e.split("=")[0].strip() for e in struct[3].split(",") if e.strip()]
-            new = Declaration("enum", struct[2], comment, line, section, fields=names)
+            values = [(*(part.strip() for part in text.split("=")), words) for text, words in members_of(body, ",")]
+            values = [(name, int(number, 0), words) for name, number, words in values]
+            new = Declaration("enum", struct[2], comment, line, section, fields=[v[0] for v in values], values=values)
         elif re.fullmatch(r"typedef struct (\w+) \1;", code):
-            new = Declaration("opaque", code.split()[2], comment, line, section)
+            new = Declaration("opaque", code.split()[2], comment, line, section, marks=marks)
         elif callback:
             new = Declaration("callback", callback[2], comment, line, section, result=callback[1].strip(),
                               parameters=parameters_of(callback[3]))
         elif re.fullmatch(r"typedef \w+ \w+;", code):
-            new = Declaration("alias", code[:-1].split()[2], comment, line, section)
+            new = Declaration("alias", code[:-1].split()[2], comment, line, section, result=code.split()[1])
         elif code.startswith("static inline"):
             new = Declaration("inline", re.search(r"(\w+)\(", code)[1], comment, line, section)
         else:

@@ -1,0 +1,3364 @@
+// Written by bindings/generate.py from bindings/api.json. Do not edit.
+using System;
+using System.Collections.Generic;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+    // Names and layouts are those of vox.h, vox_io.h and vox_sim.h.
+
+    public enum Result : int
+    {
+        Ok = 0,
+        /// <summary>a null pointer, an unknown enum, a bad number</summary>
+        ErrorInvalidArgument = -1,
+        /// <summary>a mesh id that is null, stale or from another grid</summary>
+        ErrorInvalidHandle = -2,
+        /// <summary>a tetrahedron names a vertex that does not exist</summary>
+        ErrorInvalidMesh = -3,
+        /// <summary>the call does not fit the state, e.g. no positions bound</summary>
+        ErrorInvalidState = -4,
+        /// <summary>a position is NaN or infinite</summary>
+        ErrorNonFinite = -5,
+        /// <summary>a documented limit would be passed</summary>
+        ErrorLimit = -6,
+        /// <summary>the grid's byte budget would be passed</summary>
+        ErrorBudget = -7,
+        /// <summary>the allocator returned null</summary>
+        ErrorOutOfMemory = -8,
+        /// <summary>recognised, but not supported by this build or version</summary>
+        ErrorUnsupported = -9,
+        /// <summary>a file cannot be opened, read or written</summary>
+        ErrorFile = -10,
+        /// <summary>a file is malformed</summary>
+        ErrorFormat = -11,
+        /// <summary>a defect of the library: please report it</summary>
+        ErrorInternal = -12,
+    }
+
+    /// <summary>Severity of a log line.</summary>
+    public enum LogLevel : int
+    {
+        Info = 0,
+        Warning = 1,
+    }
+
+    /// <summary>How the reference engine stores cells; the fast engine ignores it.</summary>
+    public enum Storage : int
+    {
+        /// <summary>the engine's choice</summary>
+        Auto = 0,
+        /// <summary>unbounded space: cells hashed into a table of prime size</summary>
+        Hashed = 1,
+        /// <summary>one list per cell of a box: linear id k*nx*ny + j*nx + i</summary>
+        Dense = 2,
+    }
+
+    /// <summary>Hash of a cell (i, j, k) for hashed storage.</summary>
+    public enum Hash : int
+    {
+        /// <summary>a well-mixed 64-bit hash: the default</summary>
+        Mixed = 0,
+        /// <summary>i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1)</summary>
+        Paper = 1,
+    }
+
+    /// <summary>Which algorithm runs.</summary>
+    public enum Engine : int
+    {
+        /// <summary>fast, or reference if a storage is requested</summary>
+        Auto = 0,
+        /// <summary>the paper's algorithm as printed (Sect. 3)</summary>
+        Reference = 1,
+        /// <summary>tiles of tets against dense windows of cells, with SIMD</summary>
+        Fast = 2,
+    }
+
+    [Flags]
+    public enum GridFlags : uint
+    {
+        /// <summary>run the depth stage in a step (vox_grid_penetrations); on by default.</summary>
+        Penetrations = 1,
+        /// <summary>also report events of single vertices (vox_grid_contact_events)</summary>
+        ContactEvents = 2,
+        /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no
+        /// part in a step, in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size,
+        /// as if it were disabled; without this flag they fail.</summary>
+        SkipBadMeshes = 4,
+    }
+
+    public enum Format : int
+    {
+        /// <summary>three IEEE 754 singles x, y, z</summary>
+        Float3 = 0,
+        /// <summary>three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38)</summary>
+        Double3 = 1,
+    }
+
+    [Flags]
+    public enum MeshFlags : uint
+    {
+        /// <summary>also report vertices of the mesh inside its own tetrahedra</summary>
+        SelfCollision = 1,
+        /// <summary>copy `positions` at insertion instead of borrowing them</summary>
+        CopyPositions = 2,
+        /// <summary>borrow `tets` instead of copying them: 16 bytes less per tetrahedron</summary>
+        BorrowTets = 4,
+    }
+
+    /// <summary>How a penetration's depth and direction were found.</summary>
+    public enum PenetrationState : int
+    {
+        /// <summary>edges lead from p out of mesh_b; mean over the points where they cross the surface</summary>
+        Surface = 0,
+        /// <summary>all neighbours of p collide; mean over those closer to the surface</summary>
+        Propagated = 1,
+        /// <summary>closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges,
+        /// as in meshes without tetrahedra</summary>
+        Enclosed = 2,
+        /// <summary>the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth
+        /// would not be positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold
+        /// facets); or this is the case for all vertices that p is connected with.</summary>
+        Crossing = 3,
+        /// <summary>p lies on the surface; depth is 0, direction the surface's normal at p</summary>
+        Coincident = 4,
+        /// <summary>the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a
+        /// facet of the contact's tetrahedron</summary>
+        Unknown = 5,
+    }
+
+    /// <summary>What an event reports: how the last successful step differs from the successful step before
+    /// it.</summary>
+    public enum Touch : int
+    {
+        /// <summary>touches now, and did not before</summary>
+        Began = 1,
+        /// <summary>touches now, and did before</summary>
+        Persisted = 2,
+        /// <summary>no longer touches, for whatever reason</summary>
+        Ended = 3,
+    }
+
+    /// <summary>Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero.</summary>
+    [Flags]
+    public enum ReadingFlags : uint
+    {
+        /// <summary>missing if the vertex or its mesh was removed after the step</summary>
+        Position = 1,
+        /// <summary>missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its
+        /// tetrahedra that contained the vertex were removed or disabled</summary>
+        Surface = 2,
+        /// <summary>missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it
+        /// out</summary>
+        Depth = 4,
+    }
+
+    public enum Side : int
+    {
+        /// <summary>the tetrahedron has no volume</summary>
+        None = 0,
+        /// <summary>the segment goes into the tetrahedron</summary>
+        Enters = 1,
+        Leaves = 2,
+    }
+
+    public enum CostModel : int
+    {
+        /// <summary>the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits</summary>
+        Paper = 0,
+        /// <summary>the reference engine, counted tet by tet; in nanoseconds of a step</summary>
+        Reference = 1,
+        /// <summary>the fast engine with one cell size in all windows; in nanoseconds of a step</summary>
+        Fast = 2,
+    }
+
+    /// <summary>How s, the size of a tetrahedron in Eq. 4, is measured.</summary>
+    public enum SizeReading : int
+    {
+        /// <summary>mean length of the unique edges; reproduces the paper's tables</summary>
+        Edge = 0,
+        /// <summary>mean over tets of the longest edge; as worded in Sect. 4.2</summary>
+        LongestEdge = 1,
+        /// <summary>mean over tets of the longest side of the bounding box</summary>
+        BoxSide = 2,
+    }
+
+    /// <summary>How A, the facet area in Eqs. 5-7, is measured.</summary>
+    public enum AreaReading : int
+    {
+        /// <summary>mean over all facets, shared ones counted once; reproduces the paper's tables</summary>
+        UniqueFacets = 0,
+        /// <summary>mean over the four facets of every tet</summary>
+        TetFacets = 1,
+        /// <summary>mean over the facets of exactly one tet</summary>
+        BoundaryFacets = 2,
+    }
+
+    public enum IoFormat : int
+    {
+        /// <summary>determined from the content or, failing that, from the name's extension</summary>
+        Auto = 0,
+        /// <summary>.msh 1, 2.2, 4.0, 4.1; ASCII and binary</summary>
+        Gmsh = 1,
+        /// <summary>.node with .ele</summary>
+        Tetgen = 2,
+        /// <summary>.mesh, ASCII</summary>
+        Medit = 3,
+        /// <summary>.veg</summary>
+        Vega = 4,
+        /// <summary>legacy .vtk, 2.0 to 5.1; ASCII and binary</summary>
+        Vtk = 5,
+        /// <summary>XML .vtu: ASCII, base64, appended; raw or zlib</summary>
+        Vtu = 6,
+        /// <summary>.stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets</summary>
+        Surface = 7,
+        /// <summary>Any other surface that assimp reads. assimp is not made for damaged files: they can end the
+        /// process, keep it busy without end and fill its memory.</summary>
+        Assimp = 8,
+    }
+
+    public enum IoSolidKind : int
+    {
+        /// <summary>Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and
+        /// 164.8 degrees.</summary>
+        Stuffed = 0,
+        /// <summary>Every lattice cube that the surface touches or encloses, uncut and split into five tets, so that
+        /// the surface is inside.</summary>
+        Cubes = 1,
+    }
+
+    public enum IoWriteFormat : int
+    {
+        /// <summary>determined by the name's extension: .msh is MSH_41, .vtu is VTU</summary>
+        Auto = 0,
+        /// <summary>Gmsh .msh 2.2</summary>
+        Msh22 = 1,
+        /// <summary>Gmsh .msh 4.1</summary>
+        Msh41 = 2,
+        /// <summary>VTK XML, for ParaView</summary>
+        Vtu = 3,
+    }
+
+    [Flags]
+    public enum SimBodyFlags : uint
+    {
+        /// <summary>collides with itself too</summary>
+        SelfCollision = 1,
+        /// <summary>never moves; others collide with it</summary>
+        Fixed = 2,
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double3
+    {
+        public double x, y, z;
+        public const int Length = 3;
+        public double this[int i]
+        {
+            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (double* p = &x) return p[i]; }
+            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (double* p = &x) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Float4
+    {
+        public float x, y, z, w;
+        public const int Length = 4;
+        public float this[int i]
+        {
+            get { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (float* p = &x) return p[i]; }
+            set { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (float* p = &x) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Float3
+    {
+        public float x, y, z;
+        public const int Length = 3;
+        public float this[int i]
+        {
+            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (float* p = &x) return p[i]; }
+            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (float* p = &x) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Uint3
+    {
+        public uint x, y, z;
+        public const int Length = 3;
+        public uint this[int i]
+        {
+            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (uint* p = &x) return p[i]; }
+            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (uint* p = &x) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Byte24
+    {
+        public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
+        e22, e23;
+        public const int Length = 24;
+        public byte this[int i]
+        {
+            get { if ((uint)i >= 24u) throw new IndexOutOfRangeException(); fixed (byte* p = &e0) return p[i]; }
+            set { if ((uint)i >= 24u) throw new IndexOutOfRangeException(); fixed (byte* p = &e0) p[i] = value; }
+        }
+        public override string ToString()
+        {
+            fixed (byte* p = &e0)
+            {
+                int end = 0;
+                while (end < 24 && p[end] != 0) ++end;
+                return System.Text.Encoding.UTF8.GetString(p, end);
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct CostSample64
+    {
+        public CostSample e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
+        e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31, e32, e33, e34, e35, e36, e37, e38, e39, e40, e41, e42,
+        e43, e44, e45, e46, e47, e48, e49, e50, e51, e52, e53, e54, e55, e56, e57, e58, e59, e60, e61, e62, e63;
+        public const int Length = 64;
+        public CostSample this[int i]
+        {
+            get { if ((uint)i >= 64u) throw new IndexOutOfRangeException(); fixed (CostSample* p = &e0) return p[i]; }
+            set { if ((uint)i >= 64u) throw new IndexOutOfRangeException(); fixed (CostSample* p = &e0) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct CostShare12
+    {
+        public CostShare e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
+        public const int Length = 12;
+        public CostShare this[int i]
+        {
+            get { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (CostShare* p = &e0) return p[i]; }
+            set { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (CostShare* p = &e0) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double4
+    {
+        public double x, y, z, w;
+        public const int Length = 4;
+        public double this[int i]
+        {
+            get { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (double* p = &x) return p[i]; }
+            set { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (double* p = &x) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double9
+    {
+        public double e0, e1, e2, e3, e4, e5, e6, e7, e8;
+        public const int Length = 9;
+        public double this[int i]
+        {
+            get { if ((uint)i >= 9u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) return p[i]; }
+            set { if ((uint)i >= 9u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) p[i] = value; }
+        }
+    }
+
+    /// <summary>Per-grid allocator.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Allocator
+    {
+        public IntPtr allocate;
+        public IntPtr release;
+        public IntPtr user;
+    }
+
+    /// <summary>Receives one line of text (no newline), valid during the call only.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Log
+    {
+        public IntPtr write;
+        public IntPtr user;
+    }
+
+    /// <summary>The caller's scheduler, designed as in Box3D.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct TaskSystem
+    {
+        public IntPtr enqueue;
+        public IntPtr finish;
+        public IntPtr user;
+    }
+
+    /// <summary>Settings of a grid.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct GridDesc
+    {
+        public uint struct_size;
+        public Engine engine;
+        public Storage storage;
+        public Hash hash;
+        /// <summary>Edge length of a cell, &gt; 0. 0 (the default): the library chooses it.</summary>
+        public double cell_size;
+        /// <summary>World box for dense storage, min &lt; max on each axis.</summary>
+        public Double3 world_min;
+        public Double3 world_max;
+        /// <summary>Most bytes the grid may hold at any time.</summary>
+        public ulong byte_budget;
+        /// <summary>Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the
+        /// first prime that is at least twice the number of vertices.</summary>
+        public ulong hash_table_size;
+        public Allocator allocator;
+        public Log log;
+        public TaskSystem tasks;
+        /// <summary>Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling
+        /// thread; 0: one per core.</summary>
+        public uint worker_count;
+        /// <summary>vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS</summary>
+        public GridFlags flags;
+        /// <summary>Most searches for a closest point that the depth stage makes in one step: for penetrations that
+        /// would be ENCLOSED, or CROSSING with nothing but a closest point to go by.</summary>
+        public ulong closest_budget;
+    }
+
+    /// <summary>What a mesh does not collide with.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct Filter
+    {
+        public uint struct_size;
+        /// <summary>Two meshes with the same group other than 0 collide if it is positive, and do not if it is
+        /// negative.</summary>
+        public int group;
+        /// <summary>With group, category, mask and self_collision all 0, as in a struct that was zeroed and not
+        /// initialised, the mesh would collide with nothing: an INVALID_ARGUMENT.</summary>
+        public ulong category;
+        public ulong mask;
+        /// <summary>1: vertices of the mesh inside its own tetrahedra are contacts; default 0</summary>
+        public uint self_collision;
+        /// <summary>Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the
+        /// edges of the mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the
+        /// vertex as a corner.</summary>
+        public uint self_rings;
+        /// <summary>Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the
+        /// caller's unit (distance to the closed tetrahedron, computed in double). 0 (the default): skips
+        /// none.</summary>
+        public double self_rest_distance;
+        /// <summary>Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS.</summary>
+        public ulong penetration_mask;
+    }
+
+    /// <summary>A body: vertices, and tetrahedra over them.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct MeshDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_mesh_flags, combined with |</summary>
+        public MeshFlags flags;
+        /// <summary>vertex_count positions; may be null until vox_mesh_bind_positions.</summary>
+        public IntPtr positions;
+        /// <summary>from one position to the next; 0: tightly packed (columns: one number)</summary>
+        public ulong position_byte_stride;
+        /// <summary>tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set.</summary>
+        public uint* tets;
+        public ulong tet_count;
+        public ulong vertex_count;
+        /// <summary>any number of the caller's, returned by vox_mesh_user_data</summary>
+        public ulong user_data;
+        public Format position_format;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>copied; null: the defaults.</summary>
+        public Filter* filter;
+        /// <summary>vertex_count positions of the rest pose, in position_format, copied; null: see
+        /// vox_filter.self_rest_distance.</summary>
+        public IntPtr rest_positions;
+        /// <summary>0: tightly packed</summary>
+        public ulong rest_position_byte_stride;
+        /// <summary>From one coordinate of a position to the next. 0 (the default): the size of a number.</summary>
+        public ulong position_component_byte_stride;
+        /// <summary>the same for rest_positions</summary>
+        public ulong rest_position_component_byte_stride;
+    }
+
+    /// <summary>Vertices to append, and their positions.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct VerticesDesc
+    {
+        public uint struct_size;
+        /// <summary>0</summary>
+        public uint reserved;
+        public ulong count;
+        /// <summary>For a mesh that borrows its positions: an array of all positions, first those of the vertices it
+        /// has, then those of the new ones.</summary>
+        public IntPtr positions;
+        /// <summary>0: tightly packed</summary>
+        public ulong position_byte_stride;
+        /// <summary>Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy
+        /// of.</summary>
+        public uint* copies_of;
+        /// <summary>For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it,
+        /// copied.</summary>
+        public IntPtr rest_positions;
+        /// <summary>0: tightly packed</summary>
+        public ulong rest_position_byte_stride;
+        /// <summary>As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number.</summary>
+        public ulong position_component_byte_stride;
+        /// <summary>the same for rest_positions</summary>
+        public ulong rest_position_component_byte_stride;
+    }
+
+    /// <summary>A mesh that made a step fail, or that a step left out.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct Failure
+    {
+        public uint struct_size;
+        /// <summary>NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
+        /// positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none</summary>
+        public Result result;
+        /// <summary>VOX_NULL_MESH if there is none</summary>
+        public uint mesh;
+        /// <summary>of the mesh, from 0</summary>
+        public uint slot;
+        /// <summary>of the mesh, as given at insertion</summary>
+        public ulong user_data;
+        /// <summary>the first with such a coordinate; VOX_NO_VERTEX if the failure is about none</summary>
+        public uint vertex;
+        public uint reserved;
+        /// <summary>of that vertex, as it would collide: in double and transformed; else 0</summary>
+        public Double3 position;
+    }
+
+    /// <summary>Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of
+    /// it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct Contact
+    {
+        public uint mesh_a;
+        public uint vertex;
+        public uint mesh_b;
+        public uint tet;
+        public Float4 barycentric;
+    }
+
+    /// <summary>`count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ContactView
+    {
+        public Contact* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>`count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the
+    /// interior of the tetrahedron, 0 if it is on its boundary; decided exactly.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct InteriorView
+    {
+        public byte* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex
+    /// by depth * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as
+    /// edges and neighbours can estimate it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct Penetration
+    {
+        public uint mesh_a;
+        public uint vertex;
+        public uint mesh_b;
+        public PenetrationState state;
+        /// <summary>index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b)</summary>
+        public ulong contact;
+        /// <summary>&gt;= 0, in the caller's unit</summary>
+        public float depth;
+        /// <summary>in the frame of the positions, out of mesh_b</summary>
+        public Float3 direction;
+    }
+
+    /// <summary>`count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in
+    /// that order, unless vox_filter.penetration_mask rules it out.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct PenetrationView
+    {
+        public Penetration* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of
+    /// the vox_penetration.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct Depth
+    {
+        public double depth;
+        public Double3 direction;
+    }
+
+    /// <summary>`count` depths, `byte_stride` apart.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct DepthView
+    {
+        public Depth* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a &lt;= mesh_b;
+    /// they are equal if a mesh touches itself.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct Pair
+    {
+        public uint mesh_a;
+        public uint mesh_b;
+        /// <summary>of mesh_a, as given at insertion</summary>
+        public ulong user_data_a;
+        public ulong user_data_b;
+        public ulong first;
+        public ulong a_in_b;
+        public ulong b_in_a;
+    }
+
+    /// <summary>`count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct PairView
+    {
+        public Pair* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+        public uint* contacts;
+    }
+
+    /// <summary>An event of a pair of meshes, mesh_a &lt;= mesh_b.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct TouchEvent
+    {
+        public uint mesh_a;
+        public uint mesh_b;
+        public ulong user_data_a;
+        public ulong user_data_b;
+        public Touch kind;
+        /// <summary>index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended</summary>
+        public uint pair;
+    }
+
+    /// <summary>All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride`
+    /// apart, each part sorted by (mesh_a, mesh_b).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct TouchView
+    {
+        public TouchEvent* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+        public ulong began;
+        public ulong persisted;
+        public ulong ended;
+    }
+
+    /// <summary>Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct ContactEvent
+    {
+        public uint mesh_a;
+        public uint vertex;
+        public uint mesh_b;
+        /// <summary>VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED</summary>
+        public Touch kind;
+    }
+
+    /// <summary>All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ContactEventView
+    {
+        public ContactEvent* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+        public ulong began;
+        public ulong ended;
+    }
+
+    /// <summary>Geometry of one contact.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 168)]
+    public struct Reading
+    {
+        /// <summary>index of the contact in vox_grid_contacts</summary>
+        public ulong contact;
+        /// <summary>vox_reading_flags, combined with |</summary>
+        public ReadingFlags known;
+        /// <summary>DEPTH: state, depth and direction of the vertex's vox_penetration</summary>
+        public PenetrationState state;
+        public float depth;
+        public Float3 direction;
+        /// <summary>POSITION: the vertex as it collides, in double and transformed</summary>
+        public Double3 position;
+        /// <summary>SURFACE (up to `triangle`): distance from the vertex to surface_position</summary>
+        public double distance;
+        /// <summary>the closest point of `triangle`</summary>
+        public Double3 surface_position;
+        /// <summary>its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding</summary>
+        public Double3 barycentric;
+        /// <summary>A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the
+        /// vertex.</summary>
+        public Double3 normal;
+        /// <summary>vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal
+        /// points to</summary>
+        public Uint3 triangle;
+        public uint reserved;
+        /// <summary>of mesh_a, as given at insertion</summary>
+        public ulong user_data_a;
+        public ulong user_data_b;
+    }
+
+    /// <summary>`count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the
+    /// order of the contacts.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ReadingView
+    {
+        public Reading* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>What to read.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 24)]
+    public struct ReadingsDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_reading_flags, combined with |; default: all.</summary>
+        public ReadingFlags what;
+        /// <summary>VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies</summary>
+        public uint mesh_a;
+        /// <summary>VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and
+        /// it</summary>
+        public uint mesh_b;
+        /// <summary>Most searches for a closest point.</summary>
+        public ulong closest_budget;
+    }
+
+    /// <summary>Point `point` of the query is in the closed tetrahedron `tet` of `mesh`.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 28)]
+    public struct PointHit
+    {
+        public uint point;
+        public uint mesh;
+        public uint tet;
+        public Float4 barycentric;
+    }
+
+    /// <summary>Tetrahedron `tet` of `mesh`.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 8)]
+    public struct TetHit
+    {
+        public uint mesh;
+        public uint tet;
+    }
+
+    /// <summary>A point on facet `facet` of a tetrahedron, which is opposite corner `facet`.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 72)]
+    public struct SurfaceHit
+    {
+        /// <summary>VOX_NULL_MESH if there is no such point; then all fields are zero</summary>
+        public uint mesh;
+        public uint tet;
+        public uint facet;
+        public uint reserved;
+        /// <summary>weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1</summary>
+        public Double3 barycentric;
+        public Double3 position;
+        public double distance;
+    }
+
+    /// <summary>Points for vox_grid_query_closest_points, and the surfaces to search.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ClosestDesc
+    {
+        public uint struct_size;
+        public Format format;
+        /// <summary>point_count of them, read during the call; may be null if there are none</summary>
+        public IntPtr points;
+        /// <summary>from one point to the next; 0: tightly packed</summary>
+        public ulong byte_stride;
+        /// <summary>at most 2^32 - 1</summary>
+        public ulong point_count;
+        /// <summary>default UINT64_MAX: all meshes</summary>
+        public ulong mask;
+        /// <summary>&gt;= 0, in the caller's unit; default infinity</summary>
+        public double max_distance;
+        /// <summary>default VOX_NULL_MESH: none</summary>
+        public uint excluded;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>as vox_mesh_desc.position_component_byte_stride; default 0</summary>
+        public ulong component_byte_stride;
+    }
+
+    /// <summary>The closest point of a surface, as in vox_surface_hit, with a normal and a sign.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 96)]
+    public struct ClosestHit
+    {
+        /// <summary>VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are
+        /// zero</summary>
+        public uint mesh;
+        public uint tet;
+        public uint facet;
+        /// <summary>how many of the meshes that take part have the point in a closed tetrahedron; exact</summary>
+        public uint inside;
+        public Double3 barycentric;
+        public Double3 position;
+        /// <summary>A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the
+        /// point.</summary>
+        public Double3 normal;
+        /// <summary>from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron,
+        /// which is decided exactly</summary>
+        public double distance;
+    }
+
+    /// <summary>What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 64)]
+    public struct RayHit
+    {
+        /// <summary>mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero</summary>
+        public uint mesh;
+        public uint tet;
+        /// <summary>0 if `from` is in the tetrahedron</summary>
+        public double t;
+        /// <summary>The first facet of a surface (see vox_surface_hit).</summary>
+        public uint surface_mesh;
+        public uint surface_tet;
+        public uint surface_facet;
+        public Side surface_side;
+        public double surface_t;
+        public Double3 surface_barycentric;
+    }
+
+    /// <summary>A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct FacetHit
+    {
+        public uint mesh;
+        public uint tet;
+        public uint facet;
+        public Side side;
+        public double t;
+        /// <summary>weights of the facet's corners, as in vox_surface_hit</summary>
+        public Double3 barycentric;
+    }
+
+    /// <summary>What the last successful step did.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 256)]
+    public struct Counters
+    {
+        public uint struct_size;
+        public uint meshes;
+        public ulong vertices;
+        public ulong tets;
+        /// <summary>occupied cells, summed over the cell sizes if there are several</summary>
+        public ulong cells;
+        /// <summary>vertices in those cells</summary>
+        public ulong entries;
+        /// <summary>most vertices in one cell</summary>
+        public ulong fullest_cell;
+        /// <summary>cells visited for tetrahedra (the paper's objective voxels)</summary>
+        public ulong visited_cells;
+        /// <summary>vertices found there</summary>
+        public ulong visited_entries;
+        /// <summary>(vertex, tet) pairs that passed the box test: the narrow phase's input</summary>
+        public ulong candidates;
+        /// <summary>orientations that needed exact arithmetic</summary>
+        public ulong exact_tests;
+        public ulong contacts;
+        public ulong skipped_degenerate;
+        /// <summary>held by the grid now, without the caller's arrays</summary>
+        public ulong bytes;
+        /// <summary>most bytes the grid ever held</summary>
+        public ulong peak_bytes;
+        /// <summary>meshes that were not at rest (see vox_grid_step)</summary>
+        public ulong moved_meshes;
+        /// <summary>part of `contacts` carried over from the step before, between meshes at rest</summary>
+        public ulong carried_contacts;
+        public ulong penetrations;
+        /// <summary>edges from a colliding vertex to one outside mesh_b</summary>
+        public ulong leaving_edges;
+        /// <summary>tetrahedra visited along those edges</summary>
+        public ulong edge_tests;
+        /// <summary>penetrations that needed the closest point of the surface</summary>
+        public ulong closest_searches;
+        /// <summary>triangles whose closest point was computed for that</summary>
+        public ulong closest_tests;
+        /// <summary>not included in `meshes` (see vox_mesh_set_enabled)</summary>
+        public ulong disabled_meshes;
+        /// <summary>(vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out</summary>
+        public ulong filtered;
+        /// <summary>how often the reference engine chose another cell size (see vox_grid_desc)</summary>
+        public ulong cell_size_changes;
+        /// <summary>part of `penetrations` for which closest_budget left no search</summary>
+        public ulong unknown_penetrations;
+        /// <summary>part of `penetrations` carried over with their contacts</summary>
+        public ulong carried_penetrations;
+        /// <summary>left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes`</summary>
+        public ulong skipped_meshes;
+        /// <summary>part of `meshes`: their vertices collide, their edges and faces do not</summary>
+        public ulong meshes_without_tets;
+        /// <summary>Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views
+        /// that each step gave (vox_grid_touch_events, vox_grid_contact_events).</summary>
+        public ulong total_touches_began;
+        public ulong total_touches_ended;
+        public ulong total_contacts_began;
+        public ulong total_contacts_ended;
+    }
+
+    /// <summary>Nanoseconds of the last successful step, in total and by stage.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 112)]
+    public struct Profile
+    {
+        public uint struct_size;
+        public uint reserved;
+        public ulong step_ns;
+        /// <summary>classify the vertices, recompute the boxes: stream + winding + windows</summary>
+        public ulong bin_ns;
+        /// <summary>cells and box tests: broad_phase + lookup</summary>
+        public ulong broad_ns;
+        /// <summary>exact decisions: decide</summary>
+        public ulong narrow_ns;
+        /// <summary>canonical order, barycentric coordinates</summary>
+        public ulong contacts_ns;
+        /// <summary>penetrations</summary>
+        public ulong depth_ns;
+        /// <summary>touching pairs and events</summary>
+        public ulong events_ns;
+        /// <summary>read all positions: boxes, and which meshes moved</summary>
+        public ulong stream_ns;
+        /// <summary>rule out self-contacts by winding numbers; of the worker that took longest over them</summary>
+        public ulong winding_ns;
+        /// <summary>regions in which meshes may be in contact</summary>
+        public ulong broad_phase_ns;
+        /// <summary>bin the vertices that lie there</summary>
+        public ulong windows_ns;
+        /// <summary>tetrahedra against these: box tests, and all that floats can decide</summary>
+        public ulong lookup_ns;
+        /// <summary>decide the rest exactly; of the worker that took longest over it</summary>
+        public ulong decide_ns;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct SuggestDesc
+    {
+        public uint struct_size;
+        public CostModel model;
+        public SizeReading size_reading;
+        public AreaReading area_reading;
+        /// <summary>probability that a tet has no collision, in (0, 1); default 0.99</summary>
+        public double p_nc;
+        /// <summary>the paper's r: cost of a particle test divided by that of a cell visit, &gt; 0; default 5</summary>
+        public double cost_ratio;
+        /// <summary>edge of the cubic world, for cells_per_axis; 0: longest side of the bounds</summary>
+        public double world_edge;
+        /// <summary>the zone is where predicted cost &lt;= (1 + zone_loss) * minimum; in [0, 1e6], default
+        /// 0.05</summary>
+        public double zone_loss;
+        /// <summary>for rules.mean_edge_multiple (Gregory et al. 2000), &gt; 0; default 2</summary>
+        public double mean_edge_factor;
+        /// <summary>for rules.resolution (McNeely et al. 1999): the required detail; 0: none</summary>
+        public double resolution;
+        /// <summary>REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit</summary>
+        public ulong byte_budget;
+        /// <summary>REFERENCE: as in vox_grid_desc, but AUTO means HASHED</summary>
+        public Storage storage;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Where the memory of the call comes from, which it has released at its end; default: the C++
+        /// runtime's heap.</summary>
+        public Allocator allocator;
+    }
+
+    /// <summary>Geometry of all meshes together.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 160)]
+    public struct GeometryStats
+    {
+        public ulong vertices;
+        public ulong tets;
+        /// <summary>unique</summary>
+        public ulong edges;
+        /// <summary>unique triangles</summary>
+        public ulong facets;
+        /// <summary>facets of exactly one tet</summary>
+        public ulong boundary_facets;
+        /// <summary>of exactly zero volume</summary>
+        public ulong degenerate_tets;
+        public double mean_edge;
+        public double mean_longest_edge;
+        public double mean_box_side;
+        /// <summary>median over tets of the longest side of the bounding box</summary>
+        public double median_box_side;
+        public double mean_facet_area;
+        public double mean_tet_facet_area;
+        public double mean_boundary_facet_area;
+        /// <summary>mean over tets of |volume|</summary>
+        public double mean_volume;
+        /// <summary>of the vertices that tets use; of all vertices for a mesh without tets</summary>
+        public Double3 bounds_min;
+        public Double3 bounds_max;
+    }
+
+    /// <summary>Cell sizes that other rules would choose; 0 where a rule does not apply.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct CellSizeRules
+    {
+        /// <summary>Teschner et al. 2003</summary>
+        public double mean_edge;
+        /// <summary>Gregory et al. 2000: a constant times the mean edge</summary>
+        public double mean_edge_multiple;
+        /// <summary>Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a
+        /// volume</summary>
+        public double object_512;
+        /// <summary>McNeely et al. 1999: the required resolution</summary>
+        public double resolution;
+        /// <summary>cube root of the mean tet volume (tried and rejected in Sect. 5)</summary>
+        public double mean_volume;
+        /// <summary>IPC Toolkit: median of the longest box sides</summary>
+        public double median_box_side;
+    }
+
+    /// <summary>A point of a curve of costs.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct CostSample
+    {
+        public double cell_size;
+        public double cost;
+    }
+
+    /// <summary>One term of a cost: a piece of work, how often it is done, and what that costs.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct CostShare
+    {
+        /// <summary>what is done, e.g. "visit a cell"; zero-terminated</summary>
+        public Byte24 name;
+        public double count;
+        /// <summary>count times the weight</summary>
+        public double cost;
+        /// <summary>fraction of the whole cost, 0 to 1</summary>
+        public double share;
+    }
+
+    /// <summary>A cell size and the reasons for it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 1968)]
+    public struct Suggestion
+    {
+        public uint struct_size;
+        public CostModel model;
+        public double cell_size;
+        /// <summary>world edge / cell size, as the paper counts</summary>
+        public double cells_per_axis;
+        /// <summary>smallest and largest cell size of the zone</summary>
+        public double zone_min;
+        public double zone_max;
+        /// <summary>at cell_size</summary>
+        public double predicted_cost;
+        public CellSizeRules rules;
+        public GeometryStats stats;
+        /// <summary>ascending in cell_size, evenly spaced in its logarithm</summary>
+        public CostSample64 curve;
+        public uint curve_count;
+        public uint term_count;
+        /// <summary>at cell_size; their costs add up to predicted_cost</summary>
+        public CostShare12 terms;
+        /// <summary>predicted cost at the cell size of each rule; 0 if the rule does not apply</summary>
+        public CellSizeRules rule_costs;
+        /// <summary>smallest cell size within the byte budget; 0: the budget does not limit it</summary>
+        public double budget_cell_size;
+        /// <summary>REFERENCE: the loss of using one cell size for tetrahedra of all sizes.</summary>
+        public double uniform_loss;
+        /// <summary>level_count cell sizes, that of the smallest tets first</summary>
+        public Double4 levels;
+        public uint level_count;
+        public uint reserved;
+    }
+
+    /// <summary>A cost at one cell size, term by term.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 600)]
+    public struct CostPrediction
+    {
+        public uint struct_size;
+        public uint term_count;
+        public double cell_size;
+        public double cost;
+        public CostShare12 terms;
+    }
+
+    /// <summary>The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a
+    /// machine.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 136)]
+    public struct CostWeights
+    {
+        public uint struct_size;
+        /// <summary>1: on the machine they are for; 0: shipped with the library</summary>
+        public uint measured;
+        public double reference_classify_vertex;
+        /// <summary>its box</summary>
+        public double reference_prepare_tet;
+        /// <summary>whose list is as long as the one before</summary>
+        public double reference_visit_cell;
+        /// <summary>an occupied one, gone through instead of a box that meets more cells</summary>
+        public double reference_scan_cell;
+        public double reference_read_vertex;
+        public double reference_test_box;
+        /// <summary>or its own corner, which is in the box as well</summary>
+        public double reference_test_tet;
+        public double reference_clear_bucket;
+        public double fast_bin_vertex;
+        public double fast_clear_cell;
+        /// <summary>for one window</summary>
+        public double fast_visit_tile;
+        public double fast_visit_row;
+        public double fast_read_vertex;
+        /// <summary>one in a tile's box, against its tets</summary>
+        public double fast_test_vertex;
+        /// <summary>in a visited cell, of another length than the one before</summary>
+        public double reference_changed_list;
+        /// <summary>passed over, and not read just before</summary>
+        public double reference_fetch_vertex;
+    }
+
+    /// <summary>coefficient * cell_size ^ power.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct CostTerm
+    {
+        public double coefficient;
+        public double power;
+    }
+
+    /// <summary>Cell sizes to choose from, and how wide the zone is.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct CostBounds
+    {
+        public uint struct_size;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>0 &lt; min &lt;= max, finite</summary>
+        public double min;
+        public double max;
+        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        public double zone_loss;
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 1064)]
+    public struct CostMinimum
+    {
+        public uint struct_size;
+        public uint curve_count;
+        public double cell_size;
+        public double cost;
+        /// <summary>the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the
+        /// least</summary>
+        public double zone_min;
+        public double zone_max;
+        /// <summary>over the bounds, evenly spaced in the logarithm</summary>
+        public CostSample64 curve;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoLoadDesc
+    {
+        public uint struct_size;
+        public IoFormat format;
+        /// <summary>Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join
+        /// them.</summary>
+        public uint mesh_index;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's
+        /// heap.</summary>
+        public Allocator allocator;
+    }
+
+    /// <summary>One file in memory.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoSource
+    {
+        public IntPtr name;
+        public IntPtr data;
+        public UIntPtr size;
+    }
+
+    /// <summary>Arrays of a mesh; they live until vox_io_mesh_destroy.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoMeshView
+    {
+        /// <summary>3 * vertex_count</summary>
+        public double* positions;
+        public ulong vertex_count;
+        /// <summary>4 * tet_count, corners in the file's order</summary>
+        public uint* tets;
+        public ulong tet_count;
+        /// <summary>3 * triangle_count; the triangles of the file</summary>
+        public uint* triangles;
+        public ulong triangle_count;
+    }
+
+    /// <summary>What was read, what was left out, and what is odd about the mesh.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 208)]
+    public struct IoReport
+    {
+        public uint struct_size;
+        /// <summary>AUTO for a mesh that was not read from a file</summary>
+        public IoFormat format;
+        public ulong vertices;
+        public ulong tets;
+        public ulong triangles;
+        /// <summary>elements of the file that are neither tet nor triangle</summary>
+        public ulong skipped_elements;
+        /// <summary>tets of ten or more nodes, of which only the corners were used</summary>
+        public ulong second_order_tets;
+        /// <summary>of negative volume, decided exactly</summary>
+        public ulong inverted_tets;
+        /// <summary>of exactly zero volume</summary>
+        public ulong degenerate_tets;
+        /// <summary>six times the volume below 1e-9 times the longest edge cubed, but not zero</summary>
+        public ulong nearly_flat_tets;
+        /// <summary>the same four vertices as an earlier tet</summary>
+        public ulong duplicate_tets;
+        /// <summary>triangles that name a vertex twice</summary>
+        public ulong degenerate_triangles;
+        /// <summary>vertices at the position of an earlier one</summary>
+        public ulong duplicate_vertices;
+        /// <summary>in no tet and no triangle</summary>
+        public ulong unused_vertices;
+        /// <summary>facets of exactly one tet; for a surface: its triangles</summary>
+        public ulong boundary_facets;
+        /// <summary>facets of more than two tets; for a surface: edges of more than two triangles</summary>
+        public ulong non_manifold_facets;
+        /// <summary>for a surface: edges of exactly one triangle; 0 when it is closed</summary>
+        public ulong open_edges;
+        /// <summary>for a surface: edges that two triangles run through in the same direction</summary>
+        public ulong misoriented_edges;
+        /// <summary>parts connected by shared vertices; unused vertices are not counted</summary>
+        public ulong components;
+        /// <summary>sum of the tets' volumes, inverted ones counted as positive; for a closed surface the enclosed
+        /// volume, negative if it is inside out; otherwise 0</summary>
+        public double volume;
+        /// <summary>bounding box of the vertices in use, or of all vertices if none is in use</summary>
+        public Double3 bounds_min;
+        public Double3 bounds_max;
+        /// <summary>length of the file's unit; 0 if the file does not state it</summary>
+        public double unit_in_metres;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoTetrahedralizeDesc
+    {
+        public uint struct_size;
+        public IoSolidKind kind;
+        /// <summary>edge of a lattice cube, &gt; 0; 0 (the default): a fiftieth of the surface's longest side</summary>
+        public double cell;
+        /// <summary>more tets fail with LIMIT; default 100000000</summary>
+        public ulong max_tets;
+        /// <summary>STUFFED: largest Hausdorff distance to the surface, as measured by
+        /// vox_io_measure_quality.</summary>
+        public double max_distance;
+        /// <summary>STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the
+        /// default): all tets have the same size.</summary>
+        public uint coarsen;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to
+        /// 1.</summary>
+        public IntPtr progress;
+        public IntPtr progress_user;
+        /// <summary>as vox_io_load_desc.allocator</summary>
+        public Allocator allocator;
+    }
+
+    /// <summary>How good a tet mesh is, and how close its boundary is to a surface.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    public struct IoQuality
+    {
+        public uint struct_size;
+        public uint reserved;
+        public ulong vertices;
+        public ulong tets;
+        public ulong boundary_facets;
+        /// <summary>smallest and largest angle between two facets of a tet, in degrees; 0 without tets</summary>
+        public double min_dihedral;
+        public double max_dihedral;
+        /// <summary>sum of the signed tet volumes</summary>
+        public double volume;
+        /// <summary>volume enclosed by the surface, signed by its orientation; 0 without a surface</summary>
+        public double surface_volume;
+        /// <summary>Largest distance from sample points on the mesh's boundary to the surface, and the
+        /// reverse.</summary>
+        public double mesh_to_surface;
+        public double surface_to_mesh;
+        /// <summary>the larger of the two</summary>
+        public double hausdorff;
+    }
+
+    /// <summary>Numbers attached to the vertices or cells, e.g. contacts or penetration depths.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoPointData
+    {
+        /// <summary>not empty, without control characters and double quotes</summary>
+        public IntPtr name;
+        /// <summary>components * the number of vertices, or of cells; finite</summary>
+        public double* values;
+        /// <summary>1 (scalars), 3 (vectors) or 9 (tensors)</summary>
+        public uint components;
+        /// <summary>0</summary>
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoWriteDesc
+    {
+        public uint struct_size;
+        public IoWriteFormat format;
+        /// <summary>0: text, from which the same doubles are read back; 1: binary, in this machine's byte
+        /// order</summary>
+        public uint binary;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>point_data_count of them; read during the call</summary>
+        public IoPointData* point_data;
+        public ulong point_data_count;
+        /// <summary>cell_data_count of them, with values for each cell</summary>
+        public IoPointData* cell_data;
+        public ulong cell_data_count;
+    }
+
+    /// <summary>Receives `size` bytes of a file, in order, on the thread that writes.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct IoSink
+    {
+        public IntPtr write;
+        public IntPtr user;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct SimDesc
+    {
+        public uint struct_size;
+        /// <summary>Substeps of a step, 1 to 10000; default 10.</summary>
+        public uint substeps;
+        /// <summary>Contacts are detected before the first substep of a step and after every `detect_every` substeps of
+        /// it. 1 (the default): in every substep; the number of substeps or more: once a step; 0: never, so that bodies
+        /// pass through each other.</summary>
+        public uint detect_every;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>acceleration; default 0, 0, -9.81</summary>
+        public Double3 gravity;
+        /// <summary>a longer step is clamped to this, with a log line; 1e-12 to 1e12, default 1/30</summary>
+        public double max_time_step;
+        /// <summary>The floor keeps particles where floor_normal . x &gt;= floor_offset.</summary>
+        public Double3 floor_normal;
+        public double floor_offset;
+        /// <summary>Coulomb's coefficient, between bodies and with the floor; &gt;= 0, default 0.5</summary>
+        public double friction;
+        /// <summary>A penetrating vertex is pushed out by a force of depth / contact_compliance along the direction of
+        /// the depth stage, integrated implicitly, so that any stiffness is stable. &gt;= 0; 0 (the default): the
+        /// greatest stiffness that a substep can handle.</summary>
+        public double contact_compliance;
+        /// <summary>greatest speed at which earlier penetrations are undone, &gt;= 0; default 1.</summary>
+        public double max_push_speed;
+        /// <summary>penetration depth that is tolerated, so that resting contacts persist.</summary>
+        public double contact_slop;
+        /// <summary>settings of the grid inside, read during create; null: defaults</summary>
+        public GridDesc* grid;
+        /// <summary>log of the simulation; the grid has one of its own in its desc</summary>
+        public Log log;
+        /// <summary>Where the simulation and its bodies live, as does its grid unless `grid` names another
+        /// allocator.</summary>
+        public Allocator allocator;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct SimBodyDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_sim_body_flags, combined with |</summary>
+        public SimBodyFlags flags;
+        /// <summary>3 * vertex_count; within 1e15 of the origin on each axis</summary>
+        public double* positions;
+        /// <summary>the undeformed shape; null (the default): `positions`</summary>
+        public double* rest_positions;
+        /// <summary>3 * vertex_count; null (the default): at rest</summary>
+        public double* velocities;
+        /// <summary>4 * tet_count; both windings are accepted</summary>
+        public uint* tets;
+        public ulong vertex_count;
+        /// <summary>at least 1</summary>
+        public ulong tet_count;
+        /// <summary>mass per rest volume, &gt; 0; default 1000.</summary>
+        public double density;
+        /// <summary>Resistance to stretching.</summary>
+        public double youngs_modulus;
+        /// <summary>resistance to change of volume, beyond that of the edges; &gt;= 0, default 1e6</summary>
+        public double bulk_modulus;
+        /// <summary>a time: edges resist the rate of their strain with damping times their stiffness; &gt;= 0, default
+        /// 0.01</summary>
+        public double damping;
+        /// <summary>returned by vox_mesh_user_data on the sim's grid</summary>
+        public ulong user_data;
+    }
+
+    /// <summary>Arrays of a body with its state after the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct SimBodyView
+    {
+        /// <summary>3 * vertex_count</summary>
+        public double* positions;
+        /// <summary>3 * vertex_count</summary>
+        public double* velocities;
+        /// <summary>vertex_count</summary>
+        public double* masses;
+        /// <summary>3 * vertex_count; `positions` rounded to float, which the grid borrows</summary>
+        public float* grid_positions;
+        /// <summary>4 * tet_count</summary>
+        public uint* tets;
+        public ulong vertex_count;
+        public ulong tet_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 96)]
+    public struct SimEnergies
+    {
+        public uint struct_size;
+        public uint reserved;
+        public double kinetic;
+        /// <summary>energy in gravity, 0 at the origin</summary>
+        public double potential;
+        /// <summary>energy of edges and volumes</summary>
+        public double elastic;
+        public double mass;
+        public Double3 momentum;
+        /// <summary>centre of mass</summary>
+        public Double3 centre;
+        /// <summary>speed of the fastest particle</summary>
+        public double max_speed;
+    }
+
+    [StructLayout(LayoutKind.Sequential, Size = 144)]
+    public struct SimCounts
+    {
+        public uint struct_size;
+        public uint bodies;
+        public ulong vertices;
+        public ulong tets;
+        /// <summary>edge constraints</summary>
+        public ulong edges;
+        /// <summary>volume constraints</summary>
+        public ulong volumes;
+        /// <summary>tets of zero rest volume</summary>
+        public ulong flat_tets;
+        /// <summary>tets of negative rest volume</summary>
+        public ulong inverted_tets;
+        /// <summary>vertices that would have been lighter than a hundredth of the body's mean</summary>
+        public ulong raised_masses;
+        /// <summary>constraints that were softened, as the last step's substeps cannot handle their stiffness</summary>
+        public ulong softened;
+        /// <summary>total since the creation, like the next three</summary>
+        public ulong steps;
+        public ulong substeps;
+        public ulong detections;
+        /// <summary>steps that were clamped to max_time_step</summary>
+        public ulong clamped_steps;
+        /// <summary>penetrations of the last detection</summary>
+        public ulong penetrations;
+        /// <summary>particles that the floor held in the last substep</summary>
+        public ulong floor_contacts;
+        /// <summary>nanoseconds of the last step</summary>
+        public ulong step_ns;
+        /// <summary>its part in vox_grid_step</summary>
+        public ulong detect_ns;
+        /// <summary>the rest of it</summary>
+        public ulong solve_ns;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ExperimentDesc
+    {
+        public uint struct_size;
+        /// <summary>detections in a sample, 1 to 1000; default 10</summary>
+        public uint frames;
+        /// <summary>keeps its place</summary>
+        public SimBodyDesc* a;
+        /// <summary>is moved until it touches a; null (the default): a copy of a</summary>
+        public SimBodyDesc* b;
+        /// <summary>settings of the motion; null (the default): vox_sim's defaults, without a floor</summary>
+        public SimDesc* sim;
+        /// <summary>settings of the grid that is measured, except its cell size; null (the default): vox's defaults
+        /// with the reference engine</summary>
+        public GridDesc* grid;
+        /// <summary>direction from a to b.</summary>
+        public Double3 axis;
+        /// <summary>required share of all tets that contain a vertex of the other body, as the mean over the frames, in
+        /// (0, 1); default 0.01</summary>
+        public double contact_share;
+        /// <summary>duration of a frame, &gt; 0; default 1/100</summary>
+        public double time_step;
+        /// <summary>1 (the default): both bodies are first rotated about their centres by fixed angles, which differ,
+        /// so that bodies cut from a lattice align neither with the cells nor with each other; 0: they are not
+        /// rotated</summary>
+        public uint turn;
+        /// <summary>0</summary>
+        public uint reserved;
+    }
+
+    /// <summary>Placement and motion of the two bodies.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ExperimentFacts
+    {
+        public uint struct_size;
+        public uint frames;
+        /// <summary>of both bodies together</summary>
+        public ulong vertices;
+        /// <summary>of both bodies together</summary>
+        public ulong tets;
+        /// <summary>sum over all frames</summary>
+        public ulong contacts;
+        /// <summary>combines vox_grid_hash of all frames; the same for every cell size and engine</summary>
+        public ulong hash;
+        /// <summary>initial distance of the centres, along the axis</summary>
+        public double distance;
+        /// <summary>mean over the frames of the share of tets in contact</summary>
+        public double mean_share;
+        /// <summary>that share in each of the `frames` frames; lives until vox_experiment_destroy</summary>
+        public double* shares;
+        /// <summary>bounding box of all vertices in all frames</summary>
+        public Double3 bounds_min;
+        public Double3 bounds_max;
+    }
+
+    /// <summary>One sample: the detection of all frames at one cell size.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct ExperimentSample
+    {
+        public uint struct_size;
+        public uint reserved;
+        public double cell_size;
+        /// <summary>mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth),
+        /// without the motion.</summary>
+        public double mean_ns;
+        public ulong contacts;
+        public ulong visited_cells;
+        public ulong visited_entries;
+        public ulong candidates;
+    }
+
+    /// <summary>A polynomial fitted to the logarithms of times: ln(time) = sum of coefficients[k] * u^k for k = 0 to
+    /// degree, where u goes from -1 at range_min to 1 at range_max and is linear in ln(cell size).</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 136)]
+    public struct TimeFit
+    {
+        public uint struct_size;
+        /// <summary>2 to VOX_FIT_CAPACITY - 1, the one with the least prediction_error</summary>
+        public uint degree;
+        /// <summary>smallest and largest cell size</summary>
+        public double range_min;
+        public double range_max;
+        public Double9 coefficients;
+        /// <summary>share of the variance of ln(time) that is explained</summary>
+        public double r_squared;
+        /// <summary>root mean square error of predicting each point from a fit to all others, in ln(time), so roughly a
+        /// relative error</summary>
+        public double prediction_error;
+        /// <summary>cell size of the least fitted time</summary>
+        public double cell_size;
+        /// <summary>that time, in the unit of the times given</summary>
+        public double time;
+        /// <summary>1: cell_size is inside the range; 0: it is at one end, so the best may be beyond it</summary>
+        public uint bracketed;
+        public uint reserved;
+    }
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate void Task(ulong begin, ulong end, uint worker, IntPtr context);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate double CostFunction(double cell_size, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate void AllocatorRelease(IntPtr memory, UIntPtr size, UIntPtr alignment, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate void LogWrite(LogLevel level, IntPtr text, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate IntPtr TaskSystemEnqueue(IntPtr task, ulong item_count, ulong min_range, IntPtr context, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate void TaskSystemFinish(IntPtr handle, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate int IoTetrahedralizeDescProgress(double fraction, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate int IoSinkWrite(IntPtr data, UIntPtr size, IntPtr user);
+
+    internal static unsafe class Native
+    {
+        /// <summary>Version of the stable interface.</summary>
+        internal const uint VOX_ABI_VERSION = 1;
+        /// <summary>tasks enqueued in one step</summary>
+        internal const uint VOX_MAX_TASKS = 64;
+        /// <summary>workers of a grid</summary>
+        internal const uint VOX_MAX_WORKERS = 256;
+        /// <summary>Limits.</summary>
+        internal const uint VOX_MAX_MESHES = 1048576;
+        /// <summary>uses of one mesh slot before it is retired</summary>
+        internal const uint VOX_MAX_GENERATIONS = 4095;
+        /// <summary>per grid</summary>
+        internal const uint VOX_MAX_VERTICES = 2147483647;
+        /// <summary>per grid</summary>
+        internal const uint VOX_MAX_TETS = 2147483647;
+        /// <summary>names no mesh</summary>
+        internal const uint VOX_NULL_MESH = 0;
+        /// <summary>vox_filter.self_rings</summary>
+        internal const uint VOX_MAX_RINGS = 8;
+        /// <summary>vox_failure.vertex where a failure is not about a vertex</summary>
+        internal const uint VOX_NO_VERTEX = 4294967295;
+        /// <summary>contacts of one step; a step with more fails with VOX_ERROR_LIMIT</summary>
+        internal const uint VOX_MAX_CONTACTS = 4294967295;
+        /// <summary>vox_touch_event.pair of a pair that ended</summary>
+        internal const uint VOX_NO_PAIR = 4294967295;
+        /// <summary>most samples of a curve</summary>
+        internal const uint VOX_COST_CURVE_CAPACITY = 64;
+        /// <summary>most terms of a cost, in any model</summary>
+        internal const uint VOX_COST_TERM_CAPACITY = 12;
+        /// <summary>most entries of vox_suggestion.levels</summary>
+        internal const uint VOX_CELL_SIZE_LEVEL_CAPACITY = 4;
+        /// <summary>for vox_io_load_desc.mesh_index: joins all meshes of the scene</summary>
+        internal const uint VOX_IO_ALL_MESHES = 4294967295;
+        /// <summary>most coefficients of a fit</summary>
+        internal const uint VOX_FIT_CAPACITY = 9;
+
+#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+        const string vox = "__Internal";
+        const string vox_io = "__Internal";
+        const string vox_sim = "__Internal";
+#else
+        const string vox = "vox";
+        const string vox_io = "vox_io";
+        const string vox_sim = "vox_sim";
+#endif
+
+        /// <summary>Name of a result code, e.g. "VOX_ERROR_BUDGET".</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_result_string(Result result);
+
+        /// <summary>The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has
+        /// failed yet.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_last_error();
+
+        /// <summary>Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
+        /// libraries built on vox (vox_io among them) can report failures the same way.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_fail(Result result, IntPtr text);
+
+        /// <summary>Version of the library that is running: major * 1000000 + minor * 1000 + patch.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint vox_version();
+
+        /// <summary>The same as "major.minor.patch".</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_version_string();
+
+        /// <summary>Compiler, language level, instruction sets and options of this build, in one line.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_build_info();
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_desc_init(GridDesc* desc, uint struct_size);
+
+        /// <summary>Creates a grid. desc null: all defaults.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_create(GridDesc* desc, IntPtr* out_grid);
+
+        /// <summary>Destroys a grid and releases all its memory.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_grid_destroy(IntPtr grid);
+
+        /// <summary>Removes all meshes and contacts and keeps the settings.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_clear(IntPtr grid);
+
+        /// <summary>Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes
+        /// themselves, in advance; never releases any.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_reserve(IntPtr grid, uint mesh_count, ulong contact_count);
+
+        /// <summary>Sets the cell size of the following steps; 0: the library chooses.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_cell_size(IntPtr grid, double cell_size);
+
+        /// <summary>The cell size in use: the one set, or the one chosen for the last step.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_cell_size(IntPtr grid, double* out_cell_size);
+
+        /// <summary>Sets vox_grid_desc.worker_count for the following steps.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_worker_count(IntPtr grid, uint worker_count);
+
+        /// <summary>Sets vox_grid_desc.flags (all of them) for the following steps.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_flags(IntPtr grid, uint flags);
+
+        /// <summary>The flags in use.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_flags(IntPtr grid, uint* out_flags);
+
+        /// <summary>Fills `filter` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_filter_init(Filter* filter, uint struct_size);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_desc_init(MeshDesc* desc, uint struct_size);
+
+        /// <summary>Adds a mesh, which takes part from the next step on.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_insert(IntPtr grid, MeshDesc* desc, uint* out_mesh);
+
+        /// <summary>Removes a mesh.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_remove(IntPtr grid, uint mesh);
+
+        /// <summary>1 when `mesh` names a mesh of the grid, else 0 (also for a null grid).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint vox_mesh_is_valid(IntPtr grid, uint mesh);
+
+        /// <summary>The user_data the mesh was inserted with.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_user_data(IntPtr grid, uint mesh, ulong* out_user_data);
+
+        /// <summary>Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the
+        /// rule of vox_mesh_desc.positions, and releases a copy made at insertion.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint mesh, IntPtr positions, Format format,
+        ulong byte_stride);
+
+        /// <summary>The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for
+        /// columns.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint mesh, IntPtr positions, Format
+        format, ulong byte_stride, ulong component_byte_stride);
+
+        /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_mark_moved(IntPtr grid, uint mesh);
+
+        /// <summary>Sets what the mesh collides with, from the next step on (the filter is copied).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_set_filter(IntPtr grid, uint mesh, Filter* filter);
+
+        /// <summary>Writes the fields of the filter in use that out_filter-&gt;struct_size covers (set it
+        /// first).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_filter(IntPtr grid, uint mesh, Filter* out_filter);
+
+        /// <summary>Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are
+        /// not read, or enables it again (1, as at insertion).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_set_enabled(IntPtr grid, uint mesh, uint enabled);
+
+        /// <summary>With enabled 0, the two meshes do not collide in the following steps, whatever their filters say;
+        /// with 1, their filters decide.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint mesh_a, uint mesh_b, uint enabled);
+
+        /// <summary>Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly
+        /// packed, in the format it was inserted with or bound to last.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint mesh, IntPtr* out_positions, ulong*
+        out_byte_stride);
+
+        /// <summary>Moves a mesh as a whole.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_set_transform(IntPtr grid, uint mesh, double* matrix);
+
+        /// <summary>Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of
+        /// `desc`.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_set_topology(IntPtr grid, uint mesh, MeshDesc* desc);
+
+        /// <summary>Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and
+        /// have no edges and facets, or enables them again (1, as at insertion).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_set_tets_enabled(IntPtr grid, uint mesh, uint* tets, ulong count, uint
+        enabled);
+
+        /// <summary>Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i
+        /// below count.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_replace_tets(IntPtr grid, uint mesh, uint* tets, ulong count, uint*
+        corners);
+
+        /// <summary>Adds `count` tetrahedra with 4 corners each, copied.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_append_tets(IntPtr grid, uint mesh, uint* corners, ulong count, uint*
+        out_first);
+
+        /// <summary>Removes tetrahedra, disabled ones included.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_remove_tets(IntPtr grid, uint mesh, uint* tets, ulong count);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_vertices_desc_init(VerticesDesc* desc, uint struct_size);
+
+        /// <summary>Adds vertices, which belong to no tetrahedron yet.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_append_vertices(IntPtr grid, uint mesh, VerticesDesc* desc, uint*
+        out_first);
+
+        /// <summary>Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_remove_vertices(IntPtr grid, uint mesh, uint* vertices, ulong count);
+
+        /// <summary>Finds all contacts of the positions as they are now.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_step(IntPtr grid);
+
+        /// <summary>The mesh that made the last step fail (index 0), or the meshes that it left out
+        /// (VOX_GRID_SKIP_BAD_MESHES): the index-th of them, in the order of ids.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_failure(IntPtr grid, uint index, Failure* out_failure);
+
+        /// <summary>The contacts of the last step; count 0 before the first, after a failed one and after a
+        /// clear.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_contacts(IntPtr grid, ContactView* out_view);
+
+        /// <summary>Whether each contact of the last step is interior; count 0 before the first, after a failed one and
+        /// after a clear.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_contact_interiors(IntPtr grid, InteriorView* out_view);
+
+        /// <summary>Number of steps, clears, reserves and changes of the flags so far, failed steps included.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_epoch(IntPtr grid, ulong* out_epoch);
+
+        /// <summary>A hash of the contacts: all fields, in order.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_hash(IntPtr grid, ulong* out_hash);
+
+        /// <summary>The penetrations of the last step; count 0 if it found no contacts, before the first step, after a
+        /// failed one and after a clear.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_penetrations(IntPtr grid, PenetrationView* out_view);
+
+        /// <summary>The depths of vox_grid_penetrations, one for each, in that order.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_depths(IntPtr grid, DepthView* out_view);
+
+        /// <summary>The pairs that touched in the last step; count 0 before the first, after a failed one and after a
+        /// clear.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_pairs(IntPtr grid, PairView* out_view);
+
+        /// <summary>Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair
+        /// by pair, in the order of vox_grid_pairs.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_copy_contacts(IntPtr grid, uint mesh, Contact* contacts, ulong capacity,
+        ulong* out_count);
+
+        /// <summary>The same for the contacts between two meshes, given in either order, or of one mesh with itself
+        /// (mesh_a = mesh_b): the contacts of their vox_pair.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_pair_copy_contacts(IntPtr grid, uint mesh_a, uint mesh_b, Contact* contacts,
+        ulong capacity, ulong* out_count);
+
+        /// <summary>What the last step changed; count 0 before the first one.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_touch_events(IntPtr grid, TouchView* out_view);
+
+        /// <summary>The same for single vertices, under the same rules.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_contact_events(IntPtr grid, ContactEventView* out_view);
+
+        /// <summary>Computes the readings of the last step's contacts from the meshes as they are now, so borrowed
+        /// positions must still be those of the step. vox_reading.known shows what is missing because it was removed or
+        /// changed since.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_prepare_readings(IntPtr grid);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_readings_desc_init(ReadingsDesc* desc, uint struct_size);
+
+        /// <summary>As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts
+        /// desc-&gt;what of the readings of some contacts.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_prepare_readings_of(IntPtr grid, ReadingsDesc* desc);
+
+        /// <summary>The prepared readings.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_readings(IntPtr grid, ReadingView* out_view);
+
+        /// <summary>Depth and direction of the prepared readings in double, one for each, in that order; zero where
+        /// vox_reading.known lacks VOX_READING_DEPTH.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_reading_depths(IntPtr grid, DepthView* out_view);
+
+        /// <summary>As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same
+        /// order.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_copy_readings(IntPtr grid, uint mesh, Reading* readings, ulong capacity,
+        ulong* out_count);
+
+        /// <summary>As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same
+        /// order.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_pair_copy_readings(IntPtr grid, uint mesh_a, uint mesh_b, Reading* readings,
+        ulong capacity, ulong* out_count);
+
+        /// <summary>Writes the grid as it is now to `bytes`, in a format that is the same on every machine
+        /// (docs/snapshot.md): settings, meshes with their ids, positions (borrowed ones too, read during the call),
+        /// and the state that the next events are derived from.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_save(IntPtr grid, IntPtr bytes, ulong capacity, ulong* out_size);
+
+        /// <summary>Creates a grid from a snapshot.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_load(IntPtr bytes, ulong size, GridDesc* desc, IntPtr* out_grid);
+
+        /// <summary>Copies the present positions for the queries.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_prepare_queries(IntPtr grid);
+
+        /// <summary>The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_point(IntPtr grid, double* point, ulong mask, PointHit* hits, ulong
+        capacity, ulong* out_count);
+
+        /// <summary>The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by
+        /// (point, mesh, tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_points(IntPtr grid, IntPtr points, Format format, ulong
+        byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>The tetrahedra whose bounding box has a point in common with the closed box from min to max,
+        /// decided exactly and sorted by (mesh, tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_box(IntPtr grid, double* min, double* max, ulong mask, TetHit*
+        hits, ulong capacity, ulong* out_count);
+
+        /// <summary>The closest point to `point` on the surfaces of all meshes, if it is no further away than radius
+        /// (which may be infinite).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_closest(IntPtr grid, double* point, double radius, ulong mask,
+        SurfaceHit* out_hit);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_closest_desc_init(ClosestDesc* desc, uint struct_size);
+
+        /// <summary>The same for many points at once, each no further away than desc-&gt;max_distance: out_hits[i] is
+        /// that of point i.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_closest_points(IntPtr grid, ClosestDesc* desc, ClosestHit*
+        out_hits);
+
+        /// <summary>Finds the first tetrahedron and the first facet in one call. from = to queries a single
+        /// point.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_ray(IntPtr grid, double* from, double* to, ulong mask, RayHit*
+        out_hit);
+
+        /// <summary>All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_ray_hits(IntPtr grid, double* from, double* to, ulong mask, uint
+        excluded, FacetHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>1 if the closed segment hits any tetrahedron that has a volume, else 0; exact.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_query_ray_any(IntPtr grid, double* from, double* to, ulong mask, uint
+        excluded, uint* out_any);
+
+        /// <summary>Takes a view of the grid as it is now.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_take_query_view(IntPtr grid, IntPtr* out_view);
+
+        /// <summary>One more owner of a view, who releases it as well.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_retain(IntPtr view);
+
+        /// <summary>Ends the use of a view by one owner.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_query_view_release(IntPtr view);
+
+        /// <summary>vox_grid_epoch when the view was taken: which step it shows.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_epoch(IntPtr view, ulong* out_epoch);
+
+        /// <summary>The user_data that a mesh of the view was inserted with.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_user_data(IntPtr view, uint mesh, ulong* out_user_data);
+
+        /// <summary>As vox_grid_query_point.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_point(IntPtr view, double* point, ulong mask, PointHit* hits, ulong
+        capacity, ulong* out_count);
+
+        /// <summary>As vox_grid_query_points.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_points(IntPtr view, IntPtr points, Format format, ulong
+        byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>As vox_grid_query_box.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_box(IntPtr view, double* min, double* max, ulong mask, TetHit*
+        hits, ulong capacity, ulong* out_count);
+
+        /// <summary>As vox_grid_query_closest.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_closest(IntPtr view, double* point, double radius, ulong mask,
+        SurfaceHit* out_hit);
+
+        /// <summary>As vox_grid_query_closest_points.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_closest_points(IntPtr view, ClosestDesc* desc, ClosestHit*
+        out_hits);
+
+        /// <summary>As vox_grid_query_ray.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_ray(IntPtr view, double* from, double* to, ulong mask, RayHit*
+        out_hit);
+
+        /// <summary>As vox_grid_query_ray_hits.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_ray_hits(IntPtr view, double* from, double* to, ulong mask, uint
+        excluded, FacetHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>As vox_grid_query_ray_any.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_query_view_ray_any(IntPtr view, double* from, double* to, ulong mask, uint
+        excluded, uint* out_any);
+
+        /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_counters(IntPtr grid, Counters* out_counters);
+
+        /// <summary>Writes the fields that out_profile-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_profile(IntPtr grid, Profile* out_profile);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_suggest_desc_init(SuggestDesc* desc, uint struct_size);
+
+        /// <summary>The cell size that minimises the cost model for these meshes (their positions as they are now).
+        /// desc null: defaults.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_suggest_cell_size(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count,
+        Suggestion* @out);
+
+        /// <summary>The same for the meshes of a grid.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_suggest_cell_size(IntPtr grid, SuggestDesc* desc, Suggestion* @out);
+
+        /// <summary>The cost that desc-&gt;model (desc null: PAPER) predicts for these meshes at one cell
+        /// size.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_predict(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count, double
+        cell_size, CostPrediction* @out);
+
+        /// <summary>Measures the weights by running steps of both engines over a small built-in scene, and puts them
+        /// into use for all suggestions and grids of the process.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_calibrate(CostWeights* @out);
+
+        /// <summary>The weights in use: those calibrated or set last, or else those shipped with the library.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_get_weights(CostWeights* @out);
+
+        /// <summary>Puts saved weights into use.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_set_weights(CostWeights* weights);
+
+        /// <summary>Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and
+        /// must be set.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_bounds_init(CostBounds* bounds, uint struct_size);
+
+        /// <summary>The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is
+        /// even in the logarithm of the cell size, then a golden-section search around its best point.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_minimise(IntPtr cost, IntPtr user, CostBounds* bounds, CostMinimum*
+        @out);
+
+        /// <summary>The same for the sum of `term_count` terms.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_minimise_terms(CostTerm* terms, ulong term_count, CostBounds* bounds,
+        CostMinimum* @out);
+
+        /// <summary>Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min,
+        /// n_max].</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double*
+        out_epsilon);
+
+        /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
+        /// covers.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_load_desc_init(IoLoadDesc* desc, uint struct_size);
+
+        /// <summary>Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must
+        /// files that a .gltf names). desc null: defaults.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_load(IntPtr path, IoLoadDesc* desc, IntPtr* out_mesh);
+
+        /// <summary>The same from memory.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_read(IoSource* sources, UIntPtr source_count, IoLoadDesc* desc, IntPtr*
+        out_mesh);
+
+        /// <summary>Releases a mesh.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_io_mesh_destroy(IntPtr mesh);
+
+        /// <summary>The mesh's arrays.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_mesh_get(IntPtr mesh, IoMeshView* out_view);
+
+        /// <summary>Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format
+        /// (doubles) and strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they
+        /// are.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_mesh_desc(IntPtr mesh, MeshDesc* desc);
+
+        /// <summary>Makes a mesh from arrays (copied) on the C++ runtime's heap.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_mesh_create(IoMeshView* arrays, IntPtr* out_mesh);
+
+        /// <summary>Writes the fields that out_report-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_mesh_report(IntPtr mesh, IoReport* out_report);
+
+        /// <summary>The problems in the report as text, one line each ("3 tets are inverted"); "" if there are
+        /// none.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_io_mesh_warnings(IntPtr mesh);
+
+        /// <summary>Name of a format, e.g. "Gmsh .msh".</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_io_format_string(IoFormat format);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_tetrahedralize_desc_init(IoTetrahedralizeDesc* desc, uint struct_size);
+
+        /// <summary>Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with
+        /// tetrahedra. desc null: defaults.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_tetrahedralize(IntPtr surface, IoTetrahedralizeDesc* desc, IntPtr*
+        out_mesh);
+
+        /// <summary>Measures `mesh` against the triangles of `surface`, which may be null.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_measure_quality(IntPtr mesh, IntPtr surface, IoQuality* out_quality);
+
+        /// <summary>Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size`
+        /// covers.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_write_desc_init(IoWriteDesc* desc, uint struct_size);
+
+        /// <summary>Writes vertices, triangles and tets, in the mesh's order. desc null: defaults.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_write(IntPtr mesh, IntPtr path, IoWriteDesc* desc);
+
+        /// <summary>As vox_io_write, but passes the bytes to `sink`. desc-&gt;format must not be AUTO.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_write_to(IntPtr mesh, IoWriteDesc* desc, IoSink* sink);
+
+        /// <summary>A ball of `radius` around the origin, made of about `tet_count` tetrahedra.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_lattice_ball(ulong tet_count, double radius, IntPtr* out_mesh);
+
+        /// <summary>A ball by isosurface stuffing on a lattice of cubes with edge `cell`.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_ball(double radius, double cell, IntPtr* out_mesh);
+
+        /// <summary>A torus around the z axis.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_torus(double radius, double tube_radius, double cell, IntPtr*
+        out_mesh);
+
+        /// <summary>A capsule along the z axis.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_capsule(double radius, double length, double cell, IntPtr* out_mesh);
+
+        /// <summary>A cylinder along the z axis.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_cylinder(double radius, double length, double cell, IntPtr* out_mesh);
+
+        /// <summary>An exact box of cubes with edges of about `cell`, stretched so that a whole number of them fits
+        /// each side, and split into five tets each.</summary>
+        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_io_make_box(double size_x, double size_y, double size_z, double cell, IntPtr*
+        out_mesh);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_desc_init(SimDesc* desc, uint struct_size);
+
+        /// <summary>Creates a simulation without bodies. desc null: all defaults.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_create(SimDesc* desc, IntPtr* out_sim);
+
+        /// <summary>Destroys a simulation with its bodies and its grid.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_sim_destroy(IntPtr sim);
+
+        /// <summary>The grid inside, for reading the contacts and penetrations of the last detection, counters and
+        /// profile, and for setting the cell size and the number of workers.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_grid(IntPtr sim, IntPtr* out_grid);
+
+        /// <summary>Moves everything forward by `time_step`, or by max_time_step if that is less.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_step(IntPtr sim, double time_step);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_desc_init(SimBodyDesc* desc, uint struct_size);
+
+        /// <summary>Adds a body.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_insert(IntPtr sim, SimBodyDesc* desc, uint* out_body);
+
+        /// <summary>Removes a body from the simulation and from its grid.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_remove(IntPtr sim, uint body);
+
+        /// <summary>The body's arrays.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_get(IntPtr sim, uint body, SimBodyView* out_view);
+
+        /// <summary>Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they
+        /// are.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_set_state(IntPtr sim, uint body, double* positions, double*
+        velocities);
+
+        /// <summary>Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at
+        /// first.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_body_set_acceleration(IntPtr sim, uint body, double* acceleration);
+
+        /// <summary>Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH).</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_energy(IntPtr sim, uint body, SimEnergies* out_energies);
+
+        /// <summary>Writes the fields that out_counts-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_sim_counters(IntPtr sim, SimCounts* out_counts);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_desc_init(ExperimentDesc* desc, uint struct_size);
+
+        /// <summary>Places the bodies, simulates the frames and records them.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_create(ExperimentDesc* desc, IntPtr* out_experiment);
+
+        /// <summary>Destroys an experiment.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_experiment_destroy(IntPtr experiment);
+
+        /// <summary>Writes the fields that out_facts-&gt;struct_size covers (set it first); the shares live as long as
+        /// the experiment.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_get(IntPtr experiment, ExperimentFacts* out_facts);
+
+        /// <summary>vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_suggest(IntPtr experiment, SuggestDesc* desc, Suggestion* @out);
+
+        /// <summary>Measures one sample, after one step that is not timed. frame_ns receives the time of each frame;
+        /// may be null.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_measure(IntPtr experiment, double cell_size, ulong* frame_ns,
+        ExperimentSample* out_sample);
+
+        /// <summary>The order in which a round measures `count` cell sizes: the numbers 0 to count - 1,
+        /// shuffled.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_order(ulong count, ulong seed, ulong round, ulong* out_order);
+
+        /// <summary>The time of one cell size from its rounds: the mean over the frames of the median over the rounds.
+        /// frame_ns holds `frames` times for each round, round after round.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_experiment_time(ulong* frame_ns, ulong rounds, ulong frames, double* out_ns);
+
+        /// <summary>Fits times &gt; 0 (in any unit) to cell sizes &gt; 0, which may repeat.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_fit_times(double* cell_sizes, double* times, ulong count, TimeFit* out_fit);
+
+        /// <summary>The fitted time at a cell size within the range.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_fit_time_at(TimeFit* fit, double cell_size, double* out_time);
+
+        /// <summary>The zone: the range of cell sizes around the best one in which the fitted time is at most
+        /// `limit`.</summary>
+        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_fit_zone(TimeFit* fit, double limit, double* out_min, double* out_max);
+    }
+
+    /// <summary>A size or an offset here, and what it is for the library.</summary>
+    internal struct LayoutEntry
+    {
+        public string Name;
+        public long Here, In64Bits, In32Bits;
+        public long Expected { get { return IntPtr.Size == 8 ? In64Bits : In32Bits; } }
+    }
+
+    internal static unsafe class Layout
+    {
+        static LayoutEntry Entry(string name, long here, long in64Bits, long in32Bits)
+        {
+            return new LayoutEntry { Name = name, Here = here, In64Bits = in64Bits, In32Bits = in32Bits };
+        }
+
+        static void AddAllocator(List<LayoutEntry> entries)
+        {
+            Allocator s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_allocator", sizeof(Allocator), 24, 12));
+            entries.Add(Entry("vox_allocator.allocate", (byte*)&s.allocate - begin, 0, 0));
+            entries.Add(Entry("vox_allocator.release", (byte*)&s.release - begin, 8, 4));
+            entries.Add(Entry("vox_allocator.user", (byte*)&s.user - begin, 16, 8));
+        }
+
+        static void AddLog(List<LayoutEntry> entries)
+        {
+            Log s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_log", sizeof(Log), 16, 8));
+            entries.Add(Entry("vox_log.write", (byte*)&s.write - begin, 0, 0));
+            entries.Add(Entry("vox_log.user", (byte*)&s.user - begin, 8, 4));
+        }
+
+        static void AddTaskSystem(List<LayoutEntry> entries)
+        {
+            TaskSystem s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_task_system", sizeof(TaskSystem), 24, 12));
+            entries.Add(Entry("vox_task_system.enqueue", (byte*)&s.enqueue - begin, 0, 0));
+            entries.Add(Entry("vox_task_system.finish", (byte*)&s.finish - begin, 8, 4));
+            entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
+        }
+
+        static void AddGridDesc(List<LayoutEntry> entries)
+        {
+            GridDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 168, 136));
+            entries.Add(Entry("vox_grid_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_grid_desc.engine", (byte*)&s.engine - begin, 4, 4));
+            entries.Add(Entry("vox_grid_desc.storage", (byte*)&s.storage - begin, 8, 8));
+            entries.Add(Entry("vox_grid_desc.hash", (byte*)&s.hash - begin, 12, 12));
+            entries.Add(Entry("vox_grid_desc.cell_size", (byte*)&s.cell_size - begin, 16, 16));
+            entries.Add(Entry("vox_grid_desc.world_min", (byte*)&s.world_min - begin, 24, 24));
+            entries.Add(Entry("vox_grid_desc.world_max", (byte*)&s.world_max - begin, 48, 48));
+            entries.Add(Entry("vox_grid_desc.byte_budget", (byte*)&s.byte_budget - begin, 72, 72));
+            entries.Add(Entry("vox_grid_desc.hash_table_size", (byte*)&s.hash_table_size - begin, 80, 80));
+            entries.Add(Entry("vox_grid_desc.allocator", (byte*)&s.allocator - begin, 88, 88));
+            entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 112, 100));
+            entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 128, 108));
+            entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 152, 120));
+            entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 156, 124));
+            entries.Add(Entry("vox_grid_desc.closest_budget", (byte*)&s.closest_budget - begin, 160, 128));
+        }
+
+        static void AddFilter(List<LayoutEntry> entries)
+        {
+            Filter s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_filter", sizeof(Filter), 48, 48));
+            entries.Add(Entry("vox_filter.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_filter.group", (byte*)&s.group - begin, 4, 4));
+            entries.Add(Entry("vox_filter.category", (byte*)&s.category - begin, 8, 8));
+            entries.Add(Entry("vox_filter.mask", (byte*)&s.mask - begin, 16, 16));
+            entries.Add(Entry("vox_filter.self_collision", (byte*)&s.self_collision - begin, 24, 24));
+            entries.Add(Entry("vox_filter.self_rings", (byte*)&s.self_rings - begin, 28, 28));
+            entries.Add(Entry("vox_filter.self_rest_distance", (byte*)&s.self_rest_distance - begin, 32, 32));
+            entries.Add(Entry("vox_filter.penetration_mask", (byte*)&s.penetration_mask - begin, 40, 40));
+        }
+
+        static void AddMeshDesc(List<LayoutEntry> entries)
+        {
+            MeshDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_mesh_desc", sizeof(MeshDesc), 104, 96));
+            entries.Add(Entry("vox_mesh_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_mesh_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_mesh_desc.positions", (byte*)&s.positions - begin, 8, 8));
+            entries.Add(Entry("vox_mesh_desc.position_byte_stride", (byte*)&s.position_byte_stride - begin, 16, 16));
+            entries.Add(Entry("vox_mesh_desc.tets", (byte*)&s.tets - begin, 24, 24));
+            entries.Add(Entry("vox_mesh_desc.tet_count", (byte*)&s.tet_count - begin, 32, 32));
+            entries.Add(Entry("vox_mesh_desc.vertex_count", (byte*)&s.vertex_count - begin, 40, 40));
+            entries.Add(Entry("vox_mesh_desc.user_data", (byte*)&s.user_data - begin, 48, 48));
+            entries.Add(Entry("vox_mesh_desc.position_format", (byte*)&s.position_format - begin, 56, 56));
+            entries.Add(Entry("vox_mesh_desc.reserved", (byte*)&s.reserved - begin, 60, 60));
+            entries.Add(Entry("vox_mesh_desc.filter", (byte*)&s.filter - begin, 64, 64));
+            entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 72, 68));
+            entries.Add(Entry("vox_mesh_desc.rest_position_byte_stride", (byte*)&s.rest_position_byte_stride - begin, 80, 72));
+            entries.Add(Entry("vox_mesh_desc.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 88, 80));
+            entries.Add(Entry("vox_mesh_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 96, 88));
+        }
+
+        static void AddVerticesDesc(List<LayoutEntry> entries)
+        {
+            VerticesDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_vertices_desc", sizeof(VerticesDesc), 72, 64));
+            entries.Add(Entry("vox_vertices_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_vertices_desc.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_vertices_desc.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_vertices_desc.positions", (byte*)&s.positions - begin, 16, 16));
+            entries.Add(Entry("vox_vertices_desc.position_byte_stride", (byte*)&s.position_byte_stride - begin, 24, 24));
+            entries.Add(Entry("vox_vertices_desc.copies_of", (byte*)&s.copies_of - begin, 32, 32));
+            entries.Add(Entry("vox_vertices_desc.rest_positions", (byte*)&s.rest_positions - begin, 40, 36));
+            entries.Add(Entry("vox_vertices_desc.rest_position_byte_stride", (byte*)&s.rest_position_byte_stride - begin, 48, 40));
+            entries.Add(Entry("vox_vertices_desc.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 56, 48));
+            entries.Add(Entry("vox_vertices_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 64, 56));
+        }
+
+        static void AddFailure(List<LayoutEntry> entries)
+        {
+            Failure s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_failure", sizeof(Failure), 56, 56));
+            entries.Add(Entry("vox_failure.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_failure.result", (byte*)&s.result - begin, 4, 4));
+            entries.Add(Entry("vox_failure.mesh", (byte*)&s.mesh - begin, 8, 8));
+            entries.Add(Entry("vox_failure.slot", (byte*)&s.slot - begin, 12, 12));
+            entries.Add(Entry("vox_failure.user_data", (byte*)&s.user_data - begin, 16, 16));
+            entries.Add(Entry("vox_failure.vertex", (byte*)&s.vertex - begin, 24, 24));
+            entries.Add(Entry("vox_failure.reserved", (byte*)&s.reserved - begin, 28, 28));
+            entries.Add(Entry("vox_failure.position", (byte*)&s.position - begin, 32, 32));
+        }
+
+        static void AddContact(List<LayoutEntry> entries)
+        {
+            Contact s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact", sizeof(Contact), 32, 32));
+            entries.Add(Entry("vox_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_contact.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_contact.tet", (byte*)&s.tet - begin, 12, 12));
+            entries.Add(Entry("vox_contact.barycentric", (byte*)&s.barycentric - begin, 16, 16));
+        }
+
+        static void AddContactView(List<LayoutEntry> entries)
+        {
+            ContactView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact_view", sizeof(ContactView), 32, 24));
+            entries.Add(Entry("vox_contact_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_contact_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddInteriorView(List<LayoutEntry> entries)
+        {
+            InteriorView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_interior_view", sizeof(InteriorView), 32, 24));
+            entries.Add(Entry("vox_interior_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_interior_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_interior_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_interior_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddPenetration(List<LayoutEntry> entries)
+        {
+            Penetration s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_penetration", sizeof(Penetration), 40, 40));
+            entries.Add(Entry("vox_penetration.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_penetration.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_penetration.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_penetration.state", (byte*)&s.state - begin, 12, 12));
+            entries.Add(Entry("vox_penetration.contact", (byte*)&s.contact - begin, 16, 16));
+            entries.Add(Entry("vox_penetration.depth", (byte*)&s.depth - begin, 24, 24));
+            entries.Add(Entry("vox_penetration.direction", (byte*)&s.direction - begin, 28, 28));
+        }
+
+        static void AddPenetrationView(List<LayoutEntry> entries)
+        {
+            PenetrationView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_penetration_view", sizeof(PenetrationView), 32, 24));
+            entries.Add(Entry("vox_penetration_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_penetration_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_penetration_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_penetration_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddDepth(List<LayoutEntry> entries)
+        {
+            Depth s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_depth", sizeof(Depth), 32, 32));
+            entries.Add(Entry("vox_depth.depth", (byte*)&s.depth - begin, 0, 0));
+            entries.Add(Entry("vox_depth.direction", (byte*)&s.direction - begin, 8, 8));
+        }
+
+        static void AddDepthView(List<LayoutEntry> entries)
+        {
+            DepthView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_depth_view", sizeof(DepthView), 32, 24));
+            entries.Add(Entry("vox_depth_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_depth_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_depth_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_depth_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddPair(List<LayoutEntry> entries)
+        {
+            Pair s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_pair", sizeof(Pair), 48, 48));
+            entries.Add(Entry("vox_pair.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_pair.mesh_b", (byte*)&s.mesh_b - begin, 4, 4));
+            entries.Add(Entry("vox_pair.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
+            entries.Add(Entry("vox_pair.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
+            entries.Add(Entry("vox_pair.first", (byte*)&s.first - begin, 24, 24));
+            entries.Add(Entry("vox_pair.a_in_b", (byte*)&s.a_in_b - begin, 32, 32));
+            entries.Add(Entry("vox_pair.b_in_a", (byte*)&s.b_in_a - begin, 40, 40));
+        }
+
+        static void AddPairView(List<LayoutEntry> entries)
+        {
+            PairView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_pair_view", sizeof(PairView), 40, 32));
+            entries.Add(Entry("vox_pair_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_pair_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_pair_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_pair_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+            entries.Add(Entry("vox_pair_view.contacts", (byte*)&s.contacts - begin, 32, 24));
+        }
+
+        static void AddTouchEvent(List<LayoutEntry> entries)
+        {
+            TouchEvent s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_touch_event", sizeof(TouchEvent), 32, 32));
+            entries.Add(Entry("vox_touch_event.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_touch_event.mesh_b", (byte*)&s.mesh_b - begin, 4, 4));
+            entries.Add(Entry("vox_touch_event.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
+            entries.Add(Entry("vox_touch_event.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
+            entries.Add(Entry("vox_touch_event.kind", (byte*)&s.kind - begin, 24, 24));
+            entries.Add(Entry("vox_touch_event.pair", (byte*)&s.pair - begin, 28, 28));
+        }
+
+        static void AddTouchView(List<LayoutEntry> entries)
+        {
+            TouchView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_touch_view", sizeof(TouchView), 56, 48));
+            entries.Add(Entry("vox_touch_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_touch_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_touch_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_touch_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+            entries.Add(Entry("vox_touch_view.began", (byte*)&s.began - begin, 32, 24));
+            entries.Add(Entry("vox_touch_view.persisted", (byte*)&s.persisted - begin, 40, 32));
+            entries.Add(Entry("vox_touch_view.ended", (byte*)&s.ended - begin, 48, 40));
+        }
+
+        static void AddContactEvent(List<LayoutEntry> entries)
+        {
+            ContactEvent s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact_event", sizeof(ContactEvent), 16, 16));
+            entries.Add(Entry("vox_contact_event.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_contact_event.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_contact_event.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_contact_event.kind", (byte*)&s.kind - begin, 12, 12));
+        }
+
+        static void AddContactEventView(List<LayoutEntry> entries)
+        {
+            ContactEventView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact_event_view", sizeof(ContactEventView), 48, 40));
+            entries.Add(Entry("vox_contact_event_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_contact_event_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_contact_event_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_contact_event_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+            entries.Add(Entry("vox_contact_event_view.began", (byte*)&s.began - begin, 32, 24));
+            entries.Add(Entry("vox_contact_event_view.ended", (byte*)&s.ended - begin, 40, 32));
+        }
+
+        static void AddReading(List<LayoutEntry> entries)
+        {
+            Reading s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_reading", sizeof(Reading), 168, 168));
+            entries.Add(Entry("vox_reading.contact", (byte*)&s.contact - begin, 0, 0));
+            entries.Add(Entry("vox_reading.known", (byte*)&s.known - begin, 8, 8));
+            entries.Add(Entry("vox_reading.state", (byte*)&s.state - begin, 12, 12));
+            entries.Add(Entry("vox_reading.depth", (byte*)&s.depth - begin, 16, 16));
+            entries.Add(Entry("vox_reading.direction", (byte*)&s.direction - begin, 20, 20));
+            entries.Add(Entry("vox_reading.position", (byte*)&s.position - begin, 32, 32));
+            entries.Add(Entry("vox_reading.distance", (byte*)&s.distance - begin, 56, 56));
+            entries.Add(Entry("vox_reading.surface_position", (byte*)&s.surface_position - begin, 64, 64));
+            entries.Add(Entry("vox_reading.barycentric", (byte*)&s.barycentric - begin, 88, 88));
+            entries.Add(Entry("vox_reading.normal", (byte*)&s.normal - begin, 112, 112));
+            entries.Add(Entry("vox_reading.triangle", (byte*)&s.triangle - begin, 136, 136));
+            entries.Add(Entry("vox_reading.reserved", (byte*)&s.reserved - begin, 148, 148));
+            entries.Add(Entry("vox_reading.user_data_a", (byte*)&s.user_data_a - begin, 152, 152));
+            entries.Add(Entry("vox_reading.user_data_b", (byte*)&s.user_data_b - begin, 160, 160));
+        }
+
+        static void AddReadingView(List<LayoutEntry> entries)
+        {
+            ReadingView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_reading_view", sizeof(ReadingView), 32, 24));
+            entries.Add(Entry("vox_reading_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_reading_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_reading_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_reading_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddReadingsDesc(List<LayoutEntry> entries)
+        {
+            ReadingsDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_readings_desc", sizeof(ReadingsDesc), 24, 24));
+            entries.Add(Entry("vox_readings_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_readings_desc.what", (byte*)&s.what - begin, 4, 4));
+            entries.Add(Entry("vox_readings_desc.mesh_a", (byte*)&s.mesh_a - begin, 8, 8));
+            entries.Add(Entry("vox_readings_desc.mesh_b", (byte*)&s.mesh_b - begin, 12, 12));
+            entries.Add(Entry("vox_readings_desc.closest_budget", (byte*)&s.closest_budget - begin, 16, 16));
+        }
+
+        static void AddPointHit(List<LayoutEntry> entries)
+        {
+            PointHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_point_hit", sizeof(PointHit), 28, 28));
+            entries.Add(Entry("vox_point_hit.point", (byte*)&s.point - begin, 0, 0));
+            entries.Add(Entry("vox_point_hit.mesh", (byte*)&s.mesh - begin, 4, 4));
+            entries.Add(Entry("vox_point_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_point_hit.barycentric", (byte*)&s.barycentric - begin, 12, 12));
+        }
+
+        static void AddTetHit(List<LayoutEntry> entries)
+        {
+            TetHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_tet_hit", sizeof(TetHit), 8, 8));
+            entries.Add(Entry("vox_tet_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
+            entries.Add(Entry("vox_tet_hit.tet", (byte*)&s.tet - begin, 4, 4));
+        }
+
+        static void AddSurfaceHit(List<LayoutEntry> entries)
+        {
+            SurfaceHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_surface_hit", sizeof(SurfaceHit), 72, 72));
+            entries.Add(Entry("vox_surface_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
+            entries.Add(Entry("vox_surface_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_surface_hit.facet", (byte*)&s.facet - begin, 8, 8));
+            entries.Add(Entry("vox_surface_hit.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_surface_hit.barycentric", (byte*)&s.barycentric - begin, 16, 16));
+            entries.Add(Entry("vox_surface_hit.position", (byte*)&s.position - begin, 40, 40));
+            entries.Add(Entry("vox_surface_hit.distance", (byte*)&s.distance - begin, 64, 64));
+        }
+
+        static void AddClosestDesc(List<LayoutEntry> entries)
+        {
+            ClosestDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_closest_desc", sizeof(ClosestDesc), 64, 64));
+            entries.Add(Entry("vox_closest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_closest_desc.format", (byte*)&s.format - begin, 4, 4));
+            entries.Add(Entry("vox_closest_desc.points", (byte*)&s.points - begin, 8, 8));
+            entries.Add(Entry("vox_closest_desc.byte_stride", (byte*)&s.byte_stride - begin, 16, 16));
+            entries.Add(Entry("vox_closest_desc.point_count", (byte*)&s.point_count - begin, 24, 24));
+            entries.Add(Entry("vox_closest_desc.mask", (byte*)&s.mask - begin, 32, 32));
+            entries.Add(Entry("vox_closest_desc.max_distance", (byte*)&s.max_distance - begin, 40, 40));
+            entries.Add(Entry("vox_closest_desc.excluded", (byte*)&s.excluded - begin, 48, 48));
+            entries.Add(Entry("vox_closest_desc.reserved", (byte*)&s.reserved - begin, 52, 52));
+            entries.Add(Entry("vox_closest_desc.component_byte_stride", (byte*)&s.component_byte_stride - begin, 56, 56));
+        }
+
+        static void AddClosestHit(List<LayoutEntry> entries)
+        {
+            ClosestHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_closest_hit", sizeof(ClosestHit), 96, 96));
+            entries.Add(Entry("vox_closest_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
+            entries.Add(Entry("vox_closest_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_closest_hit.facet", (byte*)&s.facet - begin, 8, 8));
+            entries.Add(Entry("vox_closest_hit.inside", (byte*)&s.inside - begin, 12, 12));
+            entries.Add(Entry("vox_closest_hit.barycentric", (byte*)&s.barycentric - begin, 16, 16));
+            entries.Add(Entry("vox_closest_hit.position", (byte*)&s.position - begin, 40, 40));
+            entries.Add(Entry("vox_closest_hit.normal", (byte*)&s.normal - begin, 64, 64));
+            entries.Add(Entry("vox_closest_hit.distance", (byte*)&s.distance - begin, 88, 88));
+        }
+
+        static void AddRayHit(List<LayoutEntry> entries)
+        {
+            RayHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_ray_hit", sizeof(RayHit), 64, 64));
+            entries.Add(Entry("vox_ray_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
+            entries.Add(Entry("vox_ray_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 8, 8));
+            entries.Add(Entry("vox_ray_hit.surface_mesh", (byte*)&s.surface_mesh - begin, 16, 16));
+            entries.Add(Entry("vox_ray_hit.surface_tet", (byte*)&s.surface_tet - begin, 20, 20));
+            entries.Add(Entry("vox_ray_hit.surface_facet", (byte*)&s.surface_facet - begin, 24, 24));
+            entries.Add(Entry("vox_ray_hit.surface_side", (byte*)&s.surface_side - begin, 28, 28));
+            entries.Add(Entry("vox_ray_hit.surface_t", (byte*)&s.surface_t - begin, 32, 32));
+            entries.Add(Entry("vox_ray_hit.surface_barycentric", (byte*)&s.surface_barycentric - begin, 40, 40));
+        }
+
+        static void AddFacetHit(List<LayoutEntry> entries)
+        {
+            FacetHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_facet_hit", sizeof(FacetHit), 48, 48));
+            entries.Add(Entry("vox_facet_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
+            entries.Add(Entry("vox_facet_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_facet_hit.facet", (byte*)&s.facet - begin, 8, 8));
+            entries.Add(Entry("vox_facet_hit.side", (byte*)&s.side - begin, 12, 12));
+            entries.Add(Entry("vox_facet_hit.t", (byte*)&s.t - begin, 16, 16));
+            entries.Add(Entry("vox_facet_hit.barycentric", (byte*)&s.barycentric - begin, 24, 24));
+        }
+
+        static void AddCounters(List<LayoutEntry> entries)
+        {
+            Counters s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_counters", sizeof(Counters), 256, 256));
+            entries.Add(Entry("vox_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_counters.meshes", (byte*)&s.meshes - begin, 4, 4));
+            entries.Add(Entry("vox_counters.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_counters.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_counters.cells", (byte*)&s.cells - begin, 24, 24));
+            entries.Add(Entry("vox_counters.entries", (byte*)&s.entries - begin, 32, 32));
+            entries.Add(Entry("vox_counters.fullest_cell", (byte*)&s.fullest_cell - begin, 40, 40));
+            entries.Add(Entry("vox_counters.visited_cells", (byte*)&s.visited_cells - begin, 48, 48));
+            entries.Add(Entry("vox_counters.visited_entries", (byte*)&s.visited_entries - begin, 56, 56));
+            entries.Add(Entry("vox_counters.candidates", (byte*)&s.candidates - begin, 64, 64));
+            entries.Add(Entry("vox_counters.exact_tests", (byte*)&s.exact_tests - begin, 72, 72));
+            entries.Add(Entry("vox_counters.contacts", (byte*)&s.contacts - begin, 80, 80));
+            entries.Add(Entry("vox_counters.skipped_degenerate", (byte*)&s.skipped_degenerate - begin, 88, 88));
+            entries.Add(Entry("vox_counters.bytes", (byte*)&s.bytes - begin, 96, 96));
+            entries.Add(Entry("vox_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 104, 104));
+            entries.Add(Entry("vox_counters.moved_meshes", (byte*)&s.moved_meshes - begin, 112, 112));
+            entries.Add(Entry("vox_counters.carried_contacts", (byte*)&s.carried_contacts - begin, 120, 120));
+            entries.Add(Entry("vox_counters.penetrations", (byte*)&s.penetrations - begin, 128, 128));
+            entries.Add(Entry("vox_counters.leaving_edges", (byte*)&s.leaving_edges - begin, 136, 136));
+            entries.Add(Entry("vox_counters.edge_tests", (byte*)&s.edge_tests - begin, 144, 144));
+            entries.Add(Entry("vox_counters.closest_searches", (byte*)&s.closest_searches - begin, 152, 152));
+            entries.Add(Entry("vox_counters.closest_tests", (byte*)&s.closest_tests - begin, 160, 160));
+            entries.Add(Entry("vox_counters.disabled_meshes", (byte*)&s.disabled_meshes - begin, 168, 168));
+            entries.Add(Entry("vox_counters.filtered", (byte*)&s.filtered - begin, 176, 176));
+            entries.Add(Entry("vox_counters.cell_size_changes", (byte*)&s.cell_size_changes - begin, 184, 184));
+            entries.Add(Entry("vox_counters.unknown_penetrations", (byte*)&s.unknown_penetrations - begin, 192, 192));
+            entries.Add(Entry("vox_counters.carried_penetrations", (byte*)&s.carried_penetrations - begin, 200, 200));
+            entries.Add(Entry("vox_counters.skipped_meshes", (byte*)&s.skipped_meshes - begin, 208, 208));
+            entries.Add(Entry("vox_counters.meshes_without_tets", (byte*)&s.meshes_without_tets - begin, 216, 216));
+            entries.Add(Entry("vox_counters.total_touches_began", (byte*)&s.total_touches_began - begin, 224, 224));
+            entries.Add(Entry("vox_counters.total_touches_ended", (byte*)&s.total_touches_ended - begin, 232, 232));
+            entries.Add(Entry("vox_counters.total_contacts_began", (byte*)&s.total_contacts_began - begin, 240, 240));
+            entries.Add(Entry("vox_counters.total_contacts_ended", (byte*)&s.total_contacts_ended - begin, 248, 248));
+        }
+
+        static void AddProfile(List<LayoutEntry> entries)
+        {
+            Profile s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_profile", sizeof(Profile), 112, 112));
+            entries.Add(Entry("vox_profile.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_profile.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_profile.step_ns", (byte*)&s.step_ns - begin, 8, 8));
+            entries.Add(Entry("vox_profile.bin_ns", (byte*)&s.bin_ns - begin, 16, 16));
+            entries.Add(Entry("vox_profile.broad_ns", (byte*)&s.broad_ns - begin, 24, 24));
+            entries.Add(Entry("vox_profile.narrow_ns", (byte*)&s.narrow_ns - begin, 32, 32));
+            entries.Add(Entry("vox_profile.contacts_ns", (byte*)&s.contacts_ns - begin, 40, 40));
+            entries.Add(Entry("vox_profile.depth_ns", (byte*)&s.depth_ns - begin, 48, 48));
+            entries.Add(Entry("vox_profile.events_ns", (byte*)&s.events_ns - begin, 56, 56));
+            entries.Add(Entry("vox_profile.stream_ns", (byte*)&s.stream_ns - begin, 64, 64));
+            entries.Add(Entry("vox_profile.winding_ns", (byte*)&s.winding_ns - begin, 72, 72));
+            entries.Add(Entry("vox_profile.broad_phase_ns", (byte*)&s.broad_phase_ns - begin, 80, 80));
+            entries.Add(Entry("vox_profile.windows_ns", (byte*)&s.windows_ns - begin, 88, 88));
+            entries.Add(Entry("vox_profile.lookup_ns", (byte*)&s.lookup_ns - begin, 96, 96));
+            entries.Add(Entry("vox_profile.decide_ns", (byte*)&s.decide_ns - begin, 104, 104));
+        }
+
+        static void AddSuggestDesc(List<LayoutEntry> entries)
+        {
+            SuggestDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 104, 96));
+            entries.Add(Entry("vox_suggest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_suggest_desc.model", (byte*)&s.model - begin, 4, 4));
+            entries.Add(Entry("vox_suggest_desc.size_reading", (byte*)&s.size_reading - begin, 8, 8));
+            entries.Add(Entry("vox_suggest_desc.area_reading", (byte*)&s.area_reading - begin, 12, 12));
+            entries.Add(Entry("vox_suggest_desc.p_nc", (byte*)&s.p_nc - begin, 16, 16));
+            entries.Add(Entry("vox_suggest_desc.cost_ratio", (byte*)&s.cost_ratio - begin, 24, 24));
+            entries.Add(Entry("vox_suggest_desc.world_edge", (byte*)&s.world_edge - begin, 32, 32));
+            entries.Add(Entry("vox_suggest_desc.zone_loss", (byte*)&s.zone_loss - begin, 40, 40));
+            entries.Add(Entry("vox_suggest_desc.mean_edge_factor", (byte*)&s.mean_edge_factor - begin, 48, 48));
+            entries.Add(Entry("vox_suggest_desc.resolution", (byte*)&s.resolution - begin, 56, 56));
+            entries.Add(Entry("vox_suggest_desc.byte_budget", (byte*)&s.byte_budget - begin, 64, 64));
+            entries.Add(Entry("vox_suggest_desc.storage", (byte*)&s.storage - begin, 72, 72));
+            entries.Add(Entry("vox_suggest_desc.reserved", (byte*)&s.reserved - begin, 76, 76));
+            entries.Add(Entry("vox_suggest_desc.allocator", (byte*)&s.allocator - begin, 80, 80));
+        }
+
+        static void AddGeometryStats(List<LayoutEntry> entries)
+        {
+            GeometryStats s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_geometry_stats", sizeof(GeometryStats), 160, 160));
+            entries.Add(Entry("vox_geometry_stats.vertices", (byte*)&s.vertices - begin, 0, 0));
+            entries.Add(Entry("vox_geometry_stats.tets", (byte*)&s.tets - begin, 8, 8));
+            entries.Add(Entry("vox_geometry_stats.edges", (byte*)&s.edges - begin, 16, 16));
+            entries.Add(Entry("vox_geometry_stats.facets", (byte*)&s.facets - begin, 24, 24));
+            entries.Add(Entry("vox_geometry_stats.boundary_facets", (byte*)&s.boundary_facets - begin, 32, 32));
+            entries.Add(Entry("vox_geometry_stats.degenerate_tets", (byte*)&s.degenerate_tets - begin, 40, 40));
+            entries.Add(Entry("vox_geometry_stats.mean_edge", (byte*)&s.mean_edge - begin, 48, 48));
+            entries.Add(Entry("vox_geometry_stats.mean_longest_edge", (byte*)&s.mean_longest_edge - begin, 56, 56));
+            entries.Add(Entry("vox_geometry_stats.mean_box_side", (byte*)&s.mean_box_side - begin, 64, 64));
+            entries.Add(Entry("vox_geometry_stats.median_box_side", (byte*)&s.median_box_side - begin, 72, 72));
+            entries.Add(Entry("vox_geometry_stats.mean_facet_area", (byte*)&s.mean_facet_area - begin, 80, 80));
+            entries.Add(Entry("vox_geometry_stats.mean_tet_facet_area", (byte*)&s.mean_tet_facet_area - begin, 88, 88));
+            entries.Add(Entry("vox_geometry_stats.mean_boundary_facet_area", (byte*)&s.mean_boundary_facet_area - begin, 96, 96));
+            entries.Add(Entry("vox_geometry_stats.mean_volume", (byte*)&s.mean_volume - begin, 104, 104));
+            entries.Add(Entry("vox_geometry_stats.bounds_min", (byte*)&s.bounds_min - begin, 112, 112));
+            entries.Add(Entry("vox_geometry_stats.bounds_max", (byte*)&s.bounds_max - begin, 136, 136));
+        }
+
+        static void AddCellSizeRules(List<LayoutEntry> entries)
+        {
+            CellSizeRules s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cell_size_rules", sizeof(CellSizeRules), 48, 48));
+            entries.Add(Entry("vox_cell_size_rules.mean_edge", (byte*)&s.mean_edge - begin, 0, 0));
+            entries.Add(Entry("vox_cell_size_rules.mean_edge_multiple", (byte*)&s.mean_edge_multiple - begin, 8, 8));
+            entries.Add(Entry("vox_cell_size_rules.object_512", (byte*)&s.object_512 - begin, 16, 16));
+            entries.Add(Entry("vox_cell_size_rules.resolution", (byte*)&s.resolution - begin, 24, 24));
+            entries.Add(Entry("vox_cell_size_rules.mean_volume", (byte*)&s.mean_volume - begin, 32, 32));
+            entries.Add(Entry("vox_cell_size_rules.median_box_side", (byte*)&s.median_box_side - begin, 40, 40));
+        }
+
+        static void AddCostSample(List<LayoutEntry> entries)
+        {
+            CostSample s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_sample", sizeof(CostSample), 16, 16));
+            entries.Add(Entry("vox_cost_sample.cell_size", (byte*)&s.cell_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_sample.cost", (byte*)&s.cost - begin, 8, 8));
+        }
+
+        static void AddCostShare(List<LayoutEntry> entries)
+        {
+            CostShare s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_share", sizeof(CostShare), 48, 48));
+            entries.Add(Entry("vox_cost_share.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_cost_share.count", (byte*)&s.count - begin, 24, 24));
+            entries.Add(Entry("vox_cost_share.cost", (byte*)&s.cost - begin, 32, 32));
+            entries.Add(Entry("vox_cost_share.share", (byte*)&s.share - begin, 40, 40));
+        }
+
+        static void AddSuggestion(List<LayoutEntry> entries)
+        {
+            Suggestion s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_suggestion", sizeof(Suggestion), 1968, 1968));
+            entries.Add(Entry("vox_suggestion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_suggestion.model", (byte*)&s.model - begin, 4, 4));
+            entries.Add(Entry("vox_suggestion.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_suggestion.cells_per_axis", (byte*)&s.cells_per_axis - begin, 16, 16));
+            entries.Add(Entry("vox_suggestion.zone_min", (byte*)&s.zone_min - begin, 24, 24));
+            entries.Add(Entry("vox_suggestion.zone_max", (byte*)&s.zone_max - begin, 32, 32));
+            entries.Add(Entry("vox_suggestion.predicted_cost", (byte*)&s.predicted_cost - begin, 40, 40));
+            entries.Add(Entry("vox_suggestion.rules", (byte*)&s.rules - begin, 48, 48));
+            entries.Add(Entry("vox_suggestion.stats", (byte*)&s.stats - begin, 96, 96));
+            entries.Add(Entry("vox_suggestion.curve", (byte*)&s.curve - begin, 256, 256));
+            entries.Add(Entry("vox_suggestion.curve_count", (byte*)&s.curve_count - begin, 1280, 1280));
+            entries.Add(Entry("vox_suggestion.term_count", (byte*)&s.term_count - begin, 1284, 1284));
+            entries.Add(Entry("vox_suggestion.terms", (byte*)&s.terms - begin, 1288, 1288));
+            entries.Add(Entry("vox_suggestion.rule_costs", (byte*)&s.rule_costs - begin, 1864, 1864));
+            entries.Add(Entry("vox_suggestion.budget_cell_size", (byte*)&s.budget_cell_size - begin, 1912, 1912));
+            entries.Add(Entry("vox_suggestion.uniform_loss", (byte*)&s.uniform_loss - begin, 1920, 1920));
+            entries.Add(Entry("vox_suggestion.levels", (byte*)&s.levels - begin, 1928, 1928));
+            entries.Add(Entry("vox_suggestion.level_count", (byte*)&s.level_count - begin, 1960, 1960));
+            entries.Add(Entry("vox_suggestion.reserved", (byte*)&s.reserved - begin, 1964, 1964));
+        }
+
+        static void AddCostPrediction(List<LayoutEntry> entries)
+        {
+            CostPrediction s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_prediction", sizeof(CostPrediction), 600, 600));
+            entries.Add(Entry("vox_cost_prediction.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_prediction.term_count", (byte*)&s.term_count - begin, 4, 4));
+            entries.Add(Entry("vox_cost_prediction.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_cost_prediction.cost", (byte*)&s.cost - begin, 16, 16));
+            entries.Add(Entry("vox_cost_prediction.terms", (byte*)&s.terms - begin, 24, 24));
+        }
+
+        static void AddCostWeights(List<LayoutEntry> entries)
+        {
+            CostWeights s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_weights", sizeof(CostWeights), 136, 136));
+            entries.Add(Entry("vox_cost_weights.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_weights.measured", (byte*)&s.measured - begin, 4, 4));
+            entries.Add(Entry("vox_cost_weights.reference_classify_vertex", (byte*)&s.reference_classify_vertex - begin, 8, 8));
+            entries.Add(Entry("vox_cost_weights.reference_prepare_tet", (byte*)&s.reference_prepare_tet - begin, 16, 16));
+            entries.Add(Entry("vox_cost_weights.reference_visit_cell", (byte*)&s.reference_visit_cell - begin, 24, 24));
+            entries.Add(Entry("vox_cost_weights.reference_scan_cell", (byte*)&s.reference_scan_cell - begin, 32, 32));
+            entries.Add(Entry("vox_cost_weights.reference_read_vertex", (byte*)&s.reference_read_vertex - begin, 40, 40));
+            entries.Add(Entry("vox_cost_weights.reference_test_box", (byte*)&s.reference_test_box - begin, 48, 48));
+            entries.Add(Entry("vox_cost_weights.reference_test_tet", (byte*)&s.reference_test_tet - begin, 56, 56));
+            entries.Add(Entry("vox_cost_weights.reference_clear_bucket", (byte*)&s.reference_clear_bucket - begin, 64, 64));
+            entries.Add(Entry("vox_cost_weights.fast_bin_vertex", (byte*)&s.fast_bin_vertex - begin, 72, 72));
+            entries.Add(Entry("vox_cost_weights.fast_clear_cell", (byte*)&s.fast_clear_cell - begin, 80, 80));
+            entries.Add(Entry("vox_cost_weights.fast_visit_tile", (byte*)&s.fast_visit_tile - begin, 88, 88));
+            entries.Add(Entry("vox_cost_weights.fast_visit_row", (byte*)&s.fast_visit_row - begin, 96, 96));
+            entries.Add(Entry("vox_cost_weights.fast_read_vertex", (byte*)&s.fast_read_vertex - begin, 104, 104));
+            entries.Add(Entry("vox_cost_weights.fast_test_vertex", (byte*)&s.fast_test_vertex - begin, 112, 112));
+            entries.Add(Entry("vox_cost_weights.reference_changed_list", (byte*)&s.reference_changed_list - begin, 120, 120));
+            entries.Add(Entry("vox_cost_weights.reference_fetch_vertex", (byte*)&s.reference_fetch_vertex - begin, 128, 128));
+        }
+
+        static void AddCostTerm(List<LayoutEntry> entries)
+        {
+            CostTerm s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_term", sizeof(CostTerm), 16, 16));
+            entries.Add(Entry("vox_cost_term.coefficient", (byte*)&s.coefficient - begin, 0, 0));
+            entries.Add(Entry("vox_cost_term.power", (byte*)&s.power - begin, 8, 8));
+        }
+
+        static void AddCostBounds(List<LayoutEntry> entries)
+        {
+            CostBounds s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_bounds", sizeof(CostBounds), 32, 32));
+            entries.Add(Entry("vox_cost_bounds.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_bounds.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_cost_bounds.min", (byte*)&s.min - begin, 8, 8));
+            entries.Add(Entry("vox_cost_bounds.max", (byte*)&s.max - begin, 16, 16));
+            entries.Add(Entry("vox_cost_bounds.zone_loss", (byte*)&s.zone_loss - begin, 24, 24));
+        }
+
+        static void AddCostMinimum(List<LayoutEntry> entries)
+        {
+            CostMinimum s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_minimum", sizeof(CostMinimum), 1064, 1064));
+            entries.Add(Entry("vox_cost_minimum.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_minimum.curve_count", (byte*)&s.curve_count - begin, 4, 4));
+            entries.Add(Entry("vox_cost_minimum.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_cost_minimum.cost", (byte*)&s.cost - begin, 16, 16));
+            entries.Add(Entry("vox_cost_minimum.zone_min", (byte*)&s.zone_min - begin, 24, 24));
+            entries.Add(Entry("vox_cost_minimum.zone_max", (byte*)&s.zone_max - begin, 32, 32));
+            entries.Add(Entry("vox_cost_minimum.curve", (byte*)&s.curve - begin, 40, 40));
+        }
+
+        static void AddIoLoadDesc(List<LayoutEntry> entries)
+        {
+            IoLoadDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_load_desc", sizeof(IoLoadDesc), 40, 28));
+            entries.Add(Entry("vox_io_load_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_io_load_desc.format", (byte*)&s.format - begin, 4, 4));
+            entries.Add(Entry("vox_io_load_desc.mesh_index", (byte*)&s.mesh_index - begin, 8, 8));
+            entries.Add(Entry("vox_io_load_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_io_load_desc.allocator", (byte*)&s.allocator - begin, 16, 16));
+        }
+
+        static void AddIoSource(List<LayoutEntry> entries)
+        {
+            IoSource s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_source", sizeof(IoSource), 24, 12));
+            entries.Add(Entry("vox_io_source.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_io_source.data", (byte*)&s.data - begin, 8, 4));
+            entries.Add(Entry("vox_io_source.size", (byte*)&s.size - begin, 16, 8));
+        }
+
+        static void AddIoMeshView(List<LayoutEntry> entries)
+        {
+            IoMeshView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_mesh_view", sizeof(IoMeshView), 48, 48));
+            entries.Add(Entry("vox_io_mesh_view.positions", (byte*)&s.positions - begin, 0, 0));
+            entries.Add(Entry("vox_io_mesh_view.vertex_count", (byte*)&s.vertex_count - begin, 8, 8));
+            entries.Add(Entry("vox_io_mesh_view.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_io_mesh_view.tet_count", (byte*)&s.tet_count - begin, 24, 24));
+            entries.Add(Entry("vox_io_mesh_view.triangles", (byte*)&s.triangles - begin, 32, 32));
+            entries.Add(Entry("vox_io_mesh_view.triangle_count", (byte*)&s.triangle_count - begin, 40, 40));
+        }
+
+        static void AddIoReport(List<LayoutEntry> entries)
+        {
+            IoReport s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_report", sizeof(IoReport), 208, 208));
+            entries.Add(Entry("vox_io_report.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_io_report.format", (byte*)&s.format - begin, 4, 4));
+            entries.Add(Entry("vox_io_report.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_io_report.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_io_report.triangles", (byte*)&s.triangles - begin, 24, 24));
+            entries.Add(Entry("vox_io_report.skipped_elements", (byte*)&s.skipped_elements - begin, 32, 32));
+            entries.Add(Entry("vox_io_report.second_order_tets", (byte*)&s.second_order_tets - begin, 40, 40));
+            entries.Add(Entry("vox_io_report.inverted_tets", (byte*)&s.inverted_tets - begin, 48, 48));
+            entries.Add(Entry("vox_io_report.degenerate_tets", (byte*)&s.degenerate_tets - begin, 56, 56));
+            entries.Add(Entry("vox_io_report.nearly_flat_tets", (byte*)&s.nearly_flat_tets - begin, 64, 64));
+            entries.Add(Entry("vox_io_report.duplicate_tets", (byte*)&s.duplicate_tets - begin, 72, 72));
+            entries.Add(Entry("vox_io_report.degenerate_triangles", (byte*)&s.degenerate_triangles - begin, 80, 80));
+            entries.Add(Entry("vox_io_report.duplicate_vertices", (byte*)&s.duplicate_vertices - begin, 88, 88));
+            entries.Add(Entry("vox_io_report.unused_vertices", (byte*)&s.unused_vertices - begin, 96, 96));
+            entries.Add(Entry("vox_io_report.boundary_facets", (byte*)&s.boundary_facets - begin, 104, 104));
+            entries.Add(Entry("vox_io_report.non_manifold_facets", (byte*)&s.non_manifold_facets - begin, 112, 112));
+            entries.Add(Entry("vox_io_report.open_edges", (byte*)&s.open_edges - begin, 120, 120));
+            entries.Add(Entry("vox_io_report.misoriented_edges", (byte*)&s.misoriented_edges - begin, 128, 128));
+            entries.Add(Entry("vox_io_report.components", (byte*)&s.components - begin, 136, 136));
+            entries.Add(Entry("vox_io_report.volume", (byte*)&s.volume - begin, 144, 144));
+            entries.Add(Entry("vox_io_report.bounds_min", (byte*)&s.bounds_min - begin, 152, 152));
+            entries.Add(Entry("vox_io_report.bounds_max", (byte*)&s.bounds_max - begin, 176, 176));
+            entries.Add(Entry("vox_io_report.unit_in_metres", (byte*)&s.unit_in_metres - begin, 200, 200));
+        }
+
+        static void AddIoTetrahedralizeDesc(List<LayoutEntry> entries)
+        {
+            IoTetrahedralizeDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_tetrahedralize_desc", sizeof(IoTetrahedralizeDesc), 80, 64));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.kind", (byte*)&s.kind - begin, 4, 4));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.cell", (byte*)&s.cell - begin, 8, 8));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.max_tets", (byte*)&s.max_tets - begin, 16, 16));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.coarsen", (byte*)&s.coarsen - begin, 32, 32));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.reserved", (byte*)&s.reserved - begin, 36, 36));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.progress", (byte*)&s.progress - begin, 40, 40));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.progress_user", (byte*)&s.progress_user - begin, 48, 44));
+            entries.Add(Entry("vox_io_tetrahedralize_desc.allocator", (byte*)&s.allocator - begin, 56, 48));
+        }
+
+        static void AddIoQuality(List<LayoutEntry> entries)
+        {
+            IoQuality s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_quality", sizeof(IoQuality), 88, 88));
+            entries.Add(Entry("vox_io_quality.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_io_quality.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_io_quality.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_io_quality.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_io_quality.boundary_facets", (byte*)&s.boundary_facets - begin, 24, 24));
+            entries.Add(Entry("vox_io_quality.min_dihedral", (byte*)&s.min_dihedral - begin, 32, 32));
+            entries.Add(Entry("vox_io_quality.max_dihedral", (byte*)&s.max_dihedral - begin, 40, 40));
+            entries.Add(Entry("vox_io_quality.volume", (byte*)&s.volume - begin, 48, 48));
+            entries.Add(Entry("vox_io_quality.surface_volume", (byte*)&s.surface_volume - begin, 56, 56));
+            entries.Add(Entry("vox_io_quality.mesh_to_surface", (byte*)&s.mesh_to_surface - begin, 64, 64));
+            entries.Add(Entry("vox_io_quality.surface_to_mesh", (byte*)&s.surface_to_mesh - begin, 72, 72));
+            entries.Add(Entry("vox_io_quality.hausdorff", (byte*)&s.hausdorff - begin, 80, 80));
+        }
+
+        static void AddIoPointData(List<LayoutEntry> entries)
+        {
+            IoPointData s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_point_data", sizeof(IoPointData), 24, 16));
+            entries.Add(Entry("vox_io_point_data.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_io_point_data.values", (byte*)&s.values - begin, 8, 4));
+            entries.Add(Entry("vox_io_point_data.components", (byte*)&s.components - begin, 16, 8));
+            entries.Add(Entry("vox_io_point_data.reserved", (byte*)&s.reserved - begin, 20, 12));
+        }
+
+        static void AddIoWriteDesc(List<LayoutEntry> entries)
+        {
+            IoWriteDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_write_desc", sizeof(IoWriteDesc), 48, 48));
+            entries.Add(Entry("vox_io_write_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_io_write_desc.format", (byte*)&s.format - begin, 4, 4));
+            entries.Add(Entry("vox_io_write_desc.binary", (byte*)&s.binary - begin, 8, 8));
+            entries.Add(Entry("vox_io_write_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_io_write_desc.point_data", (byte*)&s.point_data - begin, 16, 16));
+            entries.Add(Entry("vox_io_write_desc.point_data_count", (byte*)&s.point_data_count - begin, 24, 24));
+            entries.Add(Entry("vox_io_write_desc.cell_data", (byte*)&s.cell_data - begin, 32, 32));
+            entries.Add(Entry("vox_io_write_desc.cell_data_count", (byte*)&s.cell_data_count - begin, 40, 40));
+        }
+
+        static void AddIoSink(List<LayoutEntry> entries)
+        {
+            IoSink s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_io_sink", sizeof(IoSink), 16, 8));
+            entries.Add(Entry("vox_io_sink.write", (byte*)&s.write - begin, 0, 0));
+            entries.Add(Entry("vox_io_sink.user", (byte*)&s.user - begin, 8, 4));
+        }
+
+        static void AddSimDesc(List<LayoutEntry> entries)
+        {
+            SimDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_sim_desc", sizeof(SimDesc), 160, 136));
+            entries.Add(Entry("vox_sim_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_sim_desc.substeps", (byte*)&s.substeps - begin, 4, 4));
+            entries.Add(Entry("vox_sim_desc.detect_every", (byte*)&s.detect_every - begin, 8, 8));
+            entries.Add(Entry("vox_sim_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_sim_desc.gravity", (byte*)&s.gravity - begin, 16, 16));
+            entries.Add(Entry("vox_sim_desc.max_time_step", (byte*)&s.max_time_step - begin, 40, 40));
+            entries.Add(Entry("vox_sim_desc.floor_normal", (byte*)&s.floor_normal - begin, 48, 48));
+            entries.Add(Entry("vox_sim_desc.floor_offset", (byte*)&s.floor_offset - begin, 72, 72));
+            entries.Add(Entry("vox_sim_desc.friction", (byte*)&s.friction - begin, 80, 80));
+            entries.Add(Entry("vox_sim_desc.contact_compliance", (byte*)&s.contact_compliance - begin, 88, 88));
+            entries.Add(Entry("vox_sim_desc.max_push_speed", (byte*)&s.max_push_speed - begin, 96, 96));
+            entries.Add(Entry("vox_sim_desc.contact_slop", (byte*)&s.contact_slop - begin, 104, 104));
+            entries.Add(Entry("vox_sim_desc.grid", (byte*)&s.grid - begin, 112, 112));
+            entries.Add(Entry("vox_sim_desc.log", (byte*)&s.log - begin, 120, 116));
+            entries.Add(Entry("vox_sim_desc.allocator", (byte*)&s.allocator - begin, 136, 124));
+        }
+
+        static void AddSimBodyDesc(List<LayoutEntry> entries)
+        {
+            SimBodyDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_sim_body_desc", sizeof(SimBodyDesc), 96, 80));
+            entries.Add(Entry("vox_sim_body_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_sim_body_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_sim_body_desc.positions", (byte*)&s.positions - begin, 8, 8));
+            entries.Add(Entry("vox_sim_body_desc.rest_positions", (byte*)&s.rest_positions - begin, 16, 12));
+            entries.Add(Entry("vox_sim_body_desc.velocities", (byte*)&s.velocities - begin, 24, 16));
+            entries.Add(Entry("vox_sim_body_desc.tets", (byte*)&s.tets - begin, 32, 20));
+            entries.Add(Entry("vox_sim_body_desc.vertex_count", (byte*)&s.vertex_count - begin, 40, 24));
+            entries.Add(Entry("vox_sim_body_desc.tet_count", (byte*)&s.tet_count - begin, 48, 32));
+            entries.Add(Entry("vox_sim_body_desc.density", (byte*)&s.density - begin, 56, 40));
+            entries.Add(Entry("vox_sim_body_desc.youngs_modulus", (byte*)&s.youngs_modulus - begin, 64, 48));
+            entries.Add(Entry("vox_sim_body_desc.bulk_modulus", (byte*)&s.bulk_modulus - begin, 72, 56));
+            entries.Add(Entry("vox_sim_body_desc.damping", (byte*)&s.damping - begin, 80, 64));
+            entries.Add(Entry("vox_sim_body_desc.user_data", (byte*)&s.user_data - begin, 88, 72));
+        }
+
+        static void AddSimBodyView(List<LayoutEntry> entries)
+        {
+            SimBodyView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_sim_body_view", sizeof(SimBodyView), 56, 40));
+            entries.Add(Entry("vox_sim_body_view.positions", (byte*)&s.positions - begin, 0, 0));
+            entries.Add(Entry("vox_sim_body_view.velocities", (byte*)&s.velocities - begin, 8, 4));
+            entries.Add(Entry("vox_sim_body_view.masses", (byte*)&s.masses - begin, 16, 8));
+            entries.Add(Entry("vox_sim_body_view.grid_positions", (byte*)&s.grid_positions - begin, 24, 12));
+            entries.Add(Entry("vox_sim_body_view.tets", (byte*)&s.tets - begin, 32, 16));
+            entries.Add(Entry("vox_sim_body_view.vertex_count", (byte*)&s.vertex_count - begin, 40, 24));
+            entries.Add(Entry("vox_sim_body_view.tet_count", (byte*)&s.tet_count - begin, 48, 32));
+        }
+
+        static void AddSimEnergies(List<LayoutEntry> entries)
+        {
+            SimEnergies s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_sim_energies", sizeof(SimEnergies), 96, 96));
+            entries.Add(Entry("vox_sim_energies.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_sim_energies.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_sim_energies.kinetic", (byte*)&s.kinetic - begin, 8, 8));
+            entries.Add(Entry("vox_sim_energies.potential", (byte*)&s.potential - begin, 16, 16));
+            entries.Add(Entry("vox_sim_energies.elastic", (byte*)&s.elastic - begin, 24, 24));
+            entries.Add(Entry("vox_sim_energies.mass", (byte*)&s.mass - begin, 32, 32));
+            entries.Add(Entry("vox_sim_energies.momentum", (byte*)&s.momentum - begin, 40, 40));
+            entries.Add(Entry("vox_sim_energies.centre", (byte*)&s.centre - begin, 64, 64));
+            entries.Add(Entry("vox_sim_energies.max_speed", (byte*)&s.max_speed - begin, 88, 88));
+        }
+
+        static void AddSimCounts(List<LayoutEntry> entries)
+        {
+            SimCounts s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_sim_counts", sizeof(SimCounts), 144, 144));
+            entries.Add(Entry("vox_sim_counts.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_sim_counts.bodies", (byte*)&s.bodies - begin, 4, 4));
+            entries.Add(Entry("vox_sim_counts.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_sim_counts.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_sim_counts.edges", (byte*)&s.edges - begin, 24, 24));
+            entries.Add(Entry("vox_sim_counts.volumes", (byte*)&s.volumes - begin, 32, 32));
+            entries.Add(Entry("vox_sim_counts.flat_tets", (byte*)&s.flat_tets - begin, 40, 40));
+            entries.Add(Entry("vox_sim_counts.inverted_tets", (byte*)&s.inverted_tets - begin, 48, 48));
+            entries.Add(Entry("vox_sim_counts.raised_masses", (byte*)&s.raised_masses - begin, 56, 56));
+            entries.Add(Entry("vox_sim_counts.softened", (byte*)&s.softened - begin, 64, 64));
+            entries.Add(Entry("vox_sim_counts.steps", (byte*)&s.steps - begin, 72, 72));
+            entries.Add(Entry("vox_sim_counts.substeps", (byte*)&s.substeps - begin, 80, 80));
+            entries.Add(Entry("vox_sim_counts.detections", (byte*)&s.detections - begin, 88, 88));
+            entries.Add(Entry("vox_sim_counts.clamped_steps", (byte*)&s.clamped_steps - begin, 96, 96));
+            entries.Add(Entry("vox_sim_counts.penetrations", (byte*)&s.penetrations - begin, 104, 104));
+            entries.Add(Entry("vox_sim_counts.floor_contacts", (byte*)&s.floor_contacts - begin, 112, 112));
+            entries.Add(Entry("vox_sim_counts.step_ns", (byte*)&s.step_ns - begin, 120, 120));
+            entries.Add(Entry("vox_sim_counts.detect_ns", (byte*)&s.detect_ns - begin, 128, 128));
+            entries.Add(Entry("vox_sim_counts.solve_ns", (byte*)&s.solve_ns - begin, 136, 136));
+        }
+
+        static void AddExperimentDesc(List<LayoutEntry> entries)
+        {
+            ExperimentDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_experiment_desc", sizeof(ExperimentDesc), 88, 72));
+            entries.Add(Entry("vox_experiment_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_experiment_desc.frames", (byte*)&s.frames - begin, 4, 4));
+            entries.Add(Entry("vox_experiment_desc.a", (byte*)&s.a - begin, 8, 8));
+            entries.Add(Entry("vox_experiment_desc.b", (byte*)&s.b - begin, 16, 12));
+            entries.Add(Entry("vox_experiment_desc.sim", (byte*)&s.sim - begin, 24, 16));
+            entries.Add(Entry("vox_experiment_desc.grid", (byte*)&s.grid - begin, 32, 20));
+            entries.Add(Entry("vox_experiment_desc.axis", (byte*)&s.axis - begin, 40, 24));
+            entries.Add(Entry("vox_experiment_desc.contact_share", (byte*)&s.contact_share - begin, 64, 48));
+            entries.Add(Entry("vox_experiment_desc.time_step", (byte*)&s.time_step - begin, 72, 56));
+            entries.Add(Entry("vox_experiment_desc.turn", (byte*)&s.turn - begin, 80, 64));
+            entries.Add(Entry("vox_experiment_desc.reserved", (byte*)&s.reserved - begin, 84, 68));
+        }
+
+        static void AddExperimentFacts(List<LayoutEntry> entries)
+        {
+            ExperimentFacts s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_experiment_facts", sizeof(ExperimentFacts), 112, 112));
+            entries.Add(Entry("vox_experiment_facts.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_experiment_facts.frames", (byte*)&s.frames - begin, 4, 4));
+            entries.Add(Entry("vox_experiment_facts.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_experiment_facts.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_experiment_facts.contacts", (byte*)&s.contacts - begin, 24, 24));
+            entries.Add(Entry("vox_experiment_facts.hash", (byte*)&s.hash - begin, 32, 32));
+            entries.Add(Entry("vox_experiment_facts.distance", (byte*)&s.distance - begin, 40, 40));
+            entries.Add(Entry("vox_experiment_facts.mean_share", (byte*)&s.mean_share - begin, 48, 48));
+            entries.Add(Entry("vox_experiment_facts.shares", (byte*)&s.shares - begin, 56, 56));
+            entries.Add(Entry("vox_experiment_facts.bounds_min", (byte*)&s.bounds_min - begin, 64, 64));
+            entries.Add(Entry("vox_experiment_facts.bounds_max", (byte*)&s.bounds_max - begin, 88, 88));
+        }
+
+        static void AddExperimentSample(List<LayoutEntry> entries)
+        {
+            ExperimentSample s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_experiment_sample", sizeof(ExperimentSample), 56, 56));
+            entries.Add(Entry("vox_experiment_sample.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_experiment_sample.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_experiment_sample.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_experiment_sample.mean_ns", (byte*)&s.mean_ns - begin, 16, 16));
+            entries.Add(Entry("vox_experiment_sample.contacts", (byte*)&s.contacts - begin, 24, 24));
+            entries.Add(Entry("vox_experiment_sample.visited_cells", (byte*)&s.visited_cells - begin, 32, 32));
+            entries.Add(Entry("vox_experiment_sample.visited_entries", (byte*)&s.visited_entries - begin, 40, 40));
+            entries.Add(Entry("vox_experiment_sample.candidates", (byte*)&s.candidates - begin, 48, 48));
+        }
+
+        static void AddTimeFit(List<LayoutEntry> entries)
+        {
+            TimeFit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_time_fit", sizeof(TimeFit), 136, 136));
+            entries.Add(Entry("vox_time_fit.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_time_fit.degree", (byte*)&s.degree - begin, 4, 4));
+            entries.Add(Entry("vox_time_fit.range_min", (byte*)&s.range_min - begin, 8, 8));
+            entries.Add(Entry("vox_time_fit.range_max", (byte*)&s.range_max - begin, 16, 16));
+            entries.Add(Entry("vox_time_fit.coefficients", (byte*)&s.coefficients - begin, 24, 24));
+            entries.Add(Entry("vox_time_fit.r_squared", (byte*)&s.r_squared - begin, 96, 96));
+            entries.Add(Entry("vox_time_fit.prediction_error", (byte*)&s.prediction_error - begin, 104, 104));
+            entries.Add(Entry("vox_time_fit.cell_size", (byte*)&s.cell_size - begin, 112, 112));
+            entries.Add(Entry("vox_time_fit.time", (byte*)&s.time - begin, 120, 120));
+            entries.Add(Entry("vox_time_fit.bracketed", (byte*)&s.bracketed - begin, 128, 128));
+            entries.Add(Entry("vox_time_fit.reserved", (byte*)&s.reserved - begin, 132, 132));
+        }
+
+        /// <summary>All structs and their fields. A program whose entries differ must not call the library.</summary>
+        internal static List<LayoutEntry> Entries()
+        {
+            var entries = new List<LayoutEntry>();
+            AddAllocator(entries);
+            AddLog(entries);
+            AddTaskSystem(entries);
+            AddGridDesc(entries);
+            AddFilter(entries);
+            AddMeshDesc(entries);
+            AddVerticesDesc(entries);
+            AddFailure(entries);
+            AddContact(entries);
+            AddContactView(entries);
+            AddInteriorView(entries);
+            AddPenetration(entries);
+            AddPenetrationView(entries);
+            AddDepth(entries);
+            AddDepthView(entries);
+            AddPair(entries);
+            AddPairView(entries);
+            AddTouchEvent(entries);
+            AddTouchView(entries);
+            AddContactEvent(entries);
+            AddContactEventView(entries);
+            AddReading(entries);
+            AddReadingView(entries);
+            AddReadingsDesc(entries);
+            AddPointHit(entries);
+            AddTetHit(entries);
+            AddSurfaceHit(entries);
+            AddClosestDesc(entries);
+            AddClosestHit(entries);
+            AddRayHit(entries);
+            AddFacetHit(entries);
+            AddCounters(entries);
+            AddProfile(entries);
+            AddSuggestDesc(entries);
+            AddGeometryStats(entries);
+            AddCellSizeRules(entries);
+            AddCostSample(entries);
+            AddCostShare(entries);
+            AddSuggestion(entries);
+            AddCostPrediction(entries);
+            AddCostWeights(entries);
+            AddCostTerm(entries);
+            AddCostBounds(entries);
+            AddCostMinimum(entries);
+            AddIoLoadDesc(entries);
+            AddIoSource(entries);
+            AddIoMeshView(entries);
+            AddIoReport(entries);
+            AddIoTetrahedralizeDesc(entries);
+            AddIoQuality(entries);
+            AddIoPointData(entries);
+            AddIoWriteDesc(entries);
+            AddIoSink(entries);
+            AddSimDesc(entries);
+            AddSimBodyDesc(entries);
+            AddSimBodyView(entries);
+            AddSimEnergies(entries);
+            AddSimCounts(entries);
+            AddExperimentDesc(entries);
+            AddExperimentFacts(entries);
+            AddExperimentSample(entries);
+            AddTimeFit(entries);
+            return entries;
+        }
+    }
+}

@@ -1,0 +1,306 @@
+// Written by bindings/generate.py from bindings/api.json. Do not edit.
+
+export declare const Result: Readonly<{
+  OK: 0;
+  /** a null pointer, an unknown enum, a bad number */
+  ERROR_INVALID_ARGUMENT: -1;
+  /** a mesh id that is null, stale or from another grid */
+  ERROR_INVALID_HANDLE: -2;
+  /** a tetrahedron names a vertex that does not exist */
+  ERROR_INVALID_MESH: -3;
+  /** the call does not fit the state, e.g. no positions bound */
+  ERROR_INVALID_STATE: -4;
+  /** a position is NaN or infinite */
+  ERROR_NON_FINITE: -5;
+  /** a documented limit would be passed */
+  ERROR_LIMIT: -6;
+  /** the grid's byte budget would be passed */
+  ERROR_BUDGET: -7;
+  /** the allocator returned null */
+  ERROR_OUT_OF_MEMORY: -8;
+  /** recognised, but not supported by this build or version */
+  ERROR_UNSUPPORTED: -9;
+  /** a file cannot be opened, read or written */
+  ERROR_FILE: -10;
+  /** a file is malformed */
+  ERROR_FORMAT: -11;
+  /** a defect of the library: please report it */
+  ERROR_INTERNAL: -12;
+}>;
+export type Result = (typeof Result)[keyof typeof Result];
+
+/** Severity of a log line. */
+export declare const LogLevel: Readonly<{
+  INFO: 0;
+  WARNING: 1;
+}>;
+export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
+
+/** How the reference engine stores cells; the fast engine ignores it. Contacts do not depend on it. */
+export declare const Storage: Readonly<{
+  /** the engine's choice */
+  AUTO: 0;
+  /** unbounded space: cells hashed into a table of prime size */
+  HASHED: 1;
+  /** one list per cell of a box: linear id k*nx*ny + j*nx + i */
+  DENSE: 2;
+}>;
+export type Storage = (typeof Storage)[keyof typeof Storage];
+
+/**
+ * Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
+ * cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
+ */
+export declare const Hash: Readonly<{
+  /** a well-mixed 64-bit hash: the default */
+  MIXED: 0;
+  /** i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1) */
+  PAPER: 1;
+}>;
+export type Hash = (typeof Hash)[keyof typeof Hash];
+
+/** Which algorithm runs. Contacts do not depend on it. */
+export declare const Engine: Readonly<{
+  /** fast, or reference if a storage is requested */
+  AUTO: 0;
+  /** the paper's algorithm as printed (Sect. 3) */
+  REFERENCE: 1;
+  /** tiles of tets against dense windows of cells, with SIMD */
+  FAST: 2;
+}>;
+export type Engine = (typeof Engine)[keyof typeof Engine];
+
+export declare const GridFlags: Readonly<{
+  /**
+   * run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
+   * VOX_ERROR_LIMIT, unless its filter does without
+   */
+  PENETRATIONS: 1;
+  /** also report events of single vertices (vox_grid_contact_events) */
+  CONTACT_EVENTS: 2;
+  /**
+   * a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
+   * in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
+   * without this flag they fail. Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the mesh is
+   * well again
+   */
+  SKIP_BAD_MESHES: 4;
+}>;
+export type GridFlags = number;
+
+export declare const Format: Readonly<{
+  /** three IEEE 754 singles x, y, z */
+  FLOAT3: 0;
+  /** three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38) */
+  DOUBLE3: 1;
+}>;
+export type Format = (typeof Format)[keyof typeof Format];
+
+export declare const MeshFlags: Readonly<{
+  /** also report vertices of the mesh inside its own tetrahedra */
+  SELF_COLLISION: 1;
+  /** copy `positions` at insertion instead of borrowing them */
+  COPY_POSITIONS: 2;
+  /** borrow `tets` instead of copying them: 16 bytes less per tetrahedron */
+  BORROW_TETS: 4;
+}>;
+export type MeshFlags = number;
+
+/**
+ * How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a vertex
+ * of mesh_a that has a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b consists of
+ * the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the method of
+ * Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means that depth is
+ * the distance from p to the closest point of mesh_b's surface, and direction points straight to it. For self-contact
+ * the surface is that of the fold that p has entered, never a triangle that has p as a corner.
+ */
+export declare const PenetrationState: Readonly<{
+  /** edges lead from p out of mesh_b; mean over the points where they cross the surface */
+  SURFACE: 0;
+  /** all neighbours of p collide; mean over those closer to the surface */
+  PROPAGATED: 1;
+  /**
+   * closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges, as in meshes
+   * without tetrahedra
+   */
+  ENCLOSED: 2;
+  /**
+   * the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth would not be
+   * positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
+   * case for all vertices that p is connected with. The nearest way out alone: of the edges, or by a neighbour. Closest
+   * only if no edge of any of these vertices leads out
+   */
+  CROSSING: 3;
+  /** p lies on the surface; depth is 0, direction the surface's normal at p */
+  COINCIDENT: 4;
+  /**
+   * the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a facet of the
+   * contact's tetrahedron
+   */
+  UNKNOWN: 5;
+}>;
+export type PenetrationState = (typeof PenetrationState)[keyof typeof PenetrationState];
+
+/** What an event reports: how the last successful step differs from the successful step before it. */
+export declare const Touch: Readonly<{
+  /** touches now, and did not before */
+  BEGAN: 1;
+  /** touches now, and did before */
+  PERSISTED: 2;
+  /** no longer touches, for whatever reason */
+  ENDED: 3;
+}>;
+export type Touch = (typeof Touch)[keyof typeof Touch];
+
+/** Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
+export declare const ReadingFlags: Readonly<{
+  /** missing if the vertex or its mesh was removed after the step */
+  POSITION: 1;
+  /**
+   * missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its tetrahedra that
+   * contained the vertex were removed or disabled
+   */
+  SURFACE: 2;
+  /** missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it out */
+  DEPTH: 4;
+}>;
+export type ReadingFlags = number;
+
+export declare const Side: Readonly<{
+  /** the tetrahedron has no volume */
+  NONE: 0;
+  /** the segment goes into the tetrahedron */
+  ENTERS: 1;
+  LEAVES: 2;
+}>;
+export type Side = (typeof Side)[keyof typeof Side];
+
+export declare const CostModel: Readonly<{
+  /** the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
+  PAPER: 0;
+  /** the reference engine, counted tet by tet; in nanoseconds of a step */
+  REFERENCE: 1;
+  /** the fast engine with one cell size in all windows; in nanoseconds of a step */
+  FAST: 2;
+}>;
+export type CostModel = (typeof CostModel)[keyof typeof CostModel];
+
+/** How s, the size of a tetrahedron in Eq. 4, is measured. */
+export declare const SizeReading: Readonly<{
+  /** mean length of the unique edges; reproduces the paper's tables */
+  EDGE: 0;
+  /** mean over tets of the longest edge; as worded in Sect. 4.2 */
+  LONGEST_EDGE: 1;
+  /** mean over tets of the longest side of the bounding box */
+  BOX_SIDE: 2;
+}>;
+export type SizeReading = (typeof SizeReading)[keyof typeof SizeReading];
+
+/** How A, the facet area in Eqs. 5-7, is measured. */
+export declare const AreaReading: Readonly<{
+  /** mean over all facets, shared ones counted once; reproduces the paper's tables */
+  UNIQUE_FACETS: 0;
+  /** mean over the four facets of every tet */
+  TET_FACETS: 1;
+  /** mean over the facets of exactly one tet */
+  BOUNDARY_FACETS: 2;
+}>;
+export type AreaReading = (typeof AreaReading)[keyof typeof AreaReading];
+
+export declare const IoFormat: Readonly<{
+  /** determined from the content or, failing that, from the name's extension */
+  AUTO: 0;
+  /** .msh 1, 2.2, 4.0, 4.1; ASCII and binary */
+  GMSH: 1;
+  /** .node with .ele */
+  TETGEN: 2;
+  /** .mesh, ASCII */
+  MEDIT: 3;
+  /** .veg */
+  VEGA: 4;
+  /** legacy .vtk, 2.0 to 5.1; ASCII and binary */
+  VTK: 5;
+  /** XML .vtu: ASCII, base64, appended; raw or zlib */
+  VTU: 6;
+  /** .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
+  SURFACE: 7;
+  /**
+   * Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it busy
+   * without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
+   * default (docs/files.md), answers UNSUPPORTED.
+   */
+  ASSIMP: 8;
+}>;
+export type IoFormat = (typeof IoFormat)[keyof typeof IoFormat];
+
+export declare const IoSolidKind: Readonly<{
+  /** Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees. */
+  STUFFED: 0;
+  /**
+   * Every lattice cube that the surface touches or encloses, uncut and split into five tets, so that the surface is
+   * inside. For rough or open surfaces that are to be carried along by the tets around them.
+   */
+  CUBES: 1;
+}>;
+export type IoSolidKind = (typeof IoSolidKind)[keyof typeof IoSolidKind];
+
+export declare const IoWriteFormat: Readonly<{
+  /** determined by the name's extension: .msh is MSH_41, .vtu is VTU */
+  AUTO: 0;
+  /** Gmsh .msh 2.2 */
+  MSH_22: 1;
+  /** Gmsh .msh 4.1 */
+  MSH_41: 2;
+  /** VTK XML, for ParaView */
+  VTU: 3;
+}>;
+export type IoWriteFormat = (typeof IoWriteFormat)[keyof typeof IoWriteFormat];
+
+export declare const SimBodyFlags: Readonly<{
+  /** collides with itself too */
+  SELF_COLLISION: 1;
+  /** never moves; others collide with it */
+  FIXED: 2;
+}>;
+export type SimBodyFlags = number;
+
+/**
+ * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
+ * part of the shared libraries' names (docs/abi.md).
+ */
+export declare const ABI_VERSION: 1;
+/** tasks enqueued in one step */
+export declare const MAX_TASKS: 64;
+/** workers of a grid */
+export declare const MAX_WORKERS: 256;
+/**
+ * Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others.per grid, at one time,
+ * including retired slots
+ */
+export declare const MAX_MESHES: 1048576;
+/** uses of one mesh slot before it is retired */
+export declare const MAX_GENERATIONS: 4095;
+/** per grid */
+export declare const MAX_VERTICES: 2147483647;
+/** per grid */
+export declare const MAX_TETS: 2147483647;
+/** names no mesh */
+export declare const NULL_MESH: 0;
+/** vox_filter.self_rings */
+export declare const MAX_RINGS: 8;
+/** vox_failure.vertex where a failure is not about a vertex */
+export declare const NO_VERTEX: 4294967295;
+/** contacts of one step; a step with more fails with VOX_ERROR_LIMIT */
+export declare const MAX_CONTACTS: 4294967295;
+/** vox_touch_event.pair of a pair that ended */
+export declare const NO_PAIR: 4294967295;
+/** most samples of a curve */
+export declare const COST_CURVE_CAPACITY: 64;
+/** most terms of a cost, in any model */
+export declare const COST_TERM_CAPACITY: 12;
+/** most entries of vox_suggestion.levels */
+export declare const CELL_SIZE_LEVEL_CAPACITY: 4;
+/** for vox_io_load_desc.mesh_index: joins all meshes of the scene */
+export declare const IO_ALL_MESHES: 4294967295;
+/** most coefficients of a fit */
+export declare const FIT_CAPACITY: 9;

@@ -1,0 +1,1500 @@
+"""Written by bindings/generate.py from bindings/api.json. Do not edit."""
+
+import enum
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t,
+                    c_uint8, c_uint32, c_uint64, c_void_p)
+
+from numpy import dtype
+
+VOX_ABI_VERSION = 1
+VOX_MAX_TASKS = 64
+VOX_MAX_WORKERS = 256
+VOX_MAX_MESHES = 1048576
+VOX_MAX_GENERATIONS = 4095
+VOX_MAX_VERTICES = 2147483647
+VOX_MAX_TETS = 2147483647
+VOX_NULL_MESH = 0
+VOX_MAX_RINGS = 8
+VOX_NO_VERTEX = 4294967295
+VOX_MAX_CONTACTS = 4294967295
+VOX_NO_PAIR = 4294967295
+VOX_COST_CURVE_CAPACITY = 64
+VOX_COST_TERM_CAPACITY = 12
+VOX_CELL_SIZE_LEVEL_CAPACITY = 4
+VOX_IO_ALL_MESHES = 4294967295
+VOX_FIT_CAPACITY = 9
+
+
+class Result(enum.IntEnum):
+    OK = 0
+    ERROR_INVALID_ARGUMENT = -1
+    ERROR_INVALID_HANDLE = -2
+    ERROR_INVALID_MESH = -3
+    ERROR_INVALID_STATE = -4
+    ERROR_NON_FINITE = -5
+    ERROR_LIMIT = -6
+    ERROR_BUDGET = -7
+    ERROR_OUT_OF_MEMORY = -8
+    ERROR_UNSUPPORTED = -9
+    ERROR_FILE = -10
+    ERROR_FORMAT = -11
+    ERROR_INTERNAL = -12
+
+
+class LogLevel(enum.IntEnum):
+    INFO = 0
+    WARNING = 1
+
+
+class Storage(enum.IntEnum):
+    AUTO = 0
+    HASHED = 1
+    DENSE = 2
+
+
+class Hash(enum.IntEnum):
+    MIXED = 0
+    PAPER = 1
+
+
+class Engine(enum.IntEnum):
+    AUTO = 0
+    REFERENCE = 1
+    FAST = 2
+
+
+class GridFlags(enum.IntFlag):
+    PENETRATIONS = 1
+    CONTACT_EVENTS = 2
+    SKIP_BAD_MESHES = 4
+
+
+class Format(enum.IntEnum):
+    FLOAT3 = 0
+    DOUBLE3 = 1
+
+
+class MeshFlags(enum.IntFlag):
+    SELF_COLLISION = 1
+    COPY_POSITIONS = 2
+    BORROW_TETS = 4
+
+
+class PenetrationState(enum.IntEnum):
+    SURFACE = 0
+    PROPAGATED = 1
+    ENCLOSED = 2
+    CROSSING = 3
+    COINCIDENT = 4
+    UNKNOWN = 5
+
+
+class Touch(enum.IntEnum):
+    BEGAN = 1
+    PERSISTED = 2
+    ENDED = 3
+
+
+class ReadingFlags(enum.IntFlag):
+    POSITION = 1
+    SURFACE = 2
+    DEPTH = 4
+
+
+class Side(enum.IntEnum):
+    NONE = 0
+    ENTERS = 1
+    LEAVES = 2
+
+
+class CostModel(enum.IntEnum):
+    PAPER = 0
+    REFERENCE = 1
+    FAST = 2
+
+
+class SizeReading(enum.IntEnum):
+    EDGE = 0
+    LONGEST_EDGE = 1
+    BOX_SIDE = 2
+
+
+class AreaReading(enum.IntEnum):
+    UNIQUE_FACETS = 0
+    TET_FACETS = 1
+    BOUNDARY_FACETS = 2
+
+
+class IoFormat(enum.IntEnum):
+    AUTO = 0
+    GMSH = 1
+    TETGEN = 2
+    MEDIT = 3
+    VEGA = 4
+    VTK = 5
+    VTU = 6
+    SURFACE = 7
+    ASSIMP = 8
+
+
+class IoSolidKind(enum.IntEnum):
+    STUFFED = 0
+    CUBES = 1
+
+
+class IoWriteFormat(enum.IntEnum):
+    AUTO = 0
+    MSH_22 = 1
+    MSH_41 = 2
+    VTU = 3
+
+
+class SimBodyFlags(enum.IntFlag):
+    SELF_COLLISION = 1
+    FIXED = 2
+
+
+# Of the structs that have no pointers: for arrays over the library's memory.
+dtypes = {}
+
+
+vox_task = CFUNCTYPE(None, c_uint64, c_uint64, c_uint32, c_void_p)
+vox_cost_function = CFUNCTYPE(c_double, c_double, c_void_p)
+
+vox_allocator_allocate = CFUNCTYPE(c_void_p, c_size_t, c_size_t, c_void_p)
+vox_allocator_release = CFUNCTYPE(None, c_void_p, c_size_t, c_size_t, c_void_p)
+class vox_allocator(Structure):
+    _fields_ = [
+        ("allocate", vox_allocator_allocate),
+        ("release", vox_allocator_release),
+        ("user", c_void_p),
+    ]
+
+
+vox_log_write = CFUNCTYPE(None, c_int32, c_char_p, c_void_p)
+class vox_log(Structure):
+    _fields_ = [
+        ("write", vox_log_write),
+        ("user", c_void_p),
+    ]
+
+
+vox_task_system_enqueue = CFUNCTYPE(c_void_p, vox_task, c_uint64, c_uint64, c_void_p, c_void_p)
+vox_task_system_finish = CFUNCTYPE(None, c_void_p, c_void_p)
+class vox_task_system(Structure):
+    _fields_ = [
+        ("enqueue", vox_task_system_enqueue),
+        ("finish", vox_task_system_finish),
+        ("user", c_void_p),
+    ]
+
+
+class vox_grid_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("engine", c_int32),
+        ("storage", c_int32),
+        ("hash", c_int32),
+        ("cell_size", c_double),
+        ("world_min", c_double * 3),
+        ("world_max", c_double * 3),
+        ("byte_budget", c_uint64),
+        ("hash_table_size", c_uint64),
+        ("allocator", vox_allocator),
+        ("log", vox_log),
+        ("tasks", vox_task_system),
+        ("worker_count", c_uint32),
+        ("flags", c_uint32),
+        ("closest_budget", c_uint64),
+    ]
+
+
+class vox_filter(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("group", c_int32),
+        ("category", c_uint64),
+        ("mask", c_uint64),
+        ("self_collision", c_uint32),
+        ("self_rings", c_uint32),
+        ("self_rest_distance", c_double),
+        ("penetration_mask", c_uint64),
+    ]
+
+dtypes["vox_filter"] = dtype({
+    "names": ["struct_size", "group", "category", "mask", "self_collision", "self_rings", "self_rest_distance", "penetration_mask"],
+    "formats": ["u4", "i4", "u8", "u8", "u4", "u4", "f8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 28, 32, 40],
+    "itemsize": 48})
+
+
+class vox_mesh_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("positions", c_void_p),
+        ("position_byte_stride", c_uint64),
+        ("tets", c_void_p),
+        ("tet_count", c_uint64),
+        ("vertex_count", c_uint64),
+        ("user_data", c_uint64),
+        ("position_format", c_int32),
+        ("reserved", c_uint32),
+        ("filter", POINTER(vox_filter)),
+        ("rest_positions", c_void_p),
+        ("rest_position_byte_stride", c_uint64),
+        ("position_component_byte_stride", c_uint64),
+        ("rest_position_component_byte_stride", c_uint64),
+    ]
+
+
+class vox_vertices_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("count", c_uint64),
+        ("positions", c_void_p),
+        ("position_byte_stride", c_uint64),
+        ("copies_of", c_void_p),
+        ("rest_positions", c_void_p),
+        ("rest_position_byte_stride", c_uint64),
+        ("position_component_byte_stride", c_uint64),
+        ("rest_position_component_byte_stride", c_uint64),
+    ]
+
+
+class vox_failure(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("result", c_int32),
+        ("mesh", c_uint32),
+        ("slot", c_uint32),
+        ("user_data", c_uint64),
+        ("vertex", c_uint32),
+        ("reserved", c_uint32),
+        ("position", c_double * 3),
+    ]
+
+dtypes["vox_failure"] = dtype({
+    "names": ["struct_size", "result", "mesh", "slot", "user_data", "vertex", "reserved", "position"],
+    "formats": ["u4", "i4", "u4", "u4", "u8", "u4", "u4", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 24, 28, 32],
+    "itemsize": 56})
+
+
+class vox_contact(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("vertex", c_uint32),
+        ("mesh_b", c_uint32),
+        ("tet", c_uint32),
+        ("barycentric", c_float * 4),
+    ]
+
+dtypes["vox_contact"] = dtype({
+    "names": ["mesh_a", "vertex", "mesh_b", "tet", "barycentric"],
+    "formats": ["u4", "u4", "u4", "u4", ("f4", (4,))],
+    "offsets": [0, 4, 8, 12, 16],
+    "itemsize": 32})
+
+
+class vox_contact_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_interior_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_penetration(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("vertex", c_uint32),
+        ("mesh_b", c_uint32),
+        ("state", c_int32),
+        ("contact", c_uint64),
+        ("depth", c_float),
+        ("direction", c_float * 3),
+    ]
+
+dtypes["vox_penetration"] = dtype({
+    "names": ["mesh_a", "vertex", "mesh_b", "state", "contact", "depth", "direction"],
+    "formats": ["u4", "u4", "u4", "i4", "u8", "f4", ("f4", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 24, 28],
+    "itemsize": 40})
+
+
+class vox_penetration_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_depth(Structure):
+    _fields_ = [
+        ("depth", c_double),
+        ("direction", c_double * 3),
+    ]
+
+dtypes["vox_depth"] = dtype({
+    "names": ["depth", "direction"],
+    "formats": ["f8", ("f8", (3,))],
+    "offsets": [0, 8],
+    "itemsize": 32})
+
+
+class vox_depth_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_pair(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("mesh_b", c_uint32),
+        ("user_data_a", c_uint64),
+        ("user_data_b", c_uint64),
+        ("first", c_uint64),
+        ("a_in_b", c_uint64),
+        ("b_in_a", c_uint64),
+    ]
+
+dtypes["vox_pair"] = dtype({
+    "names": ["mesh_a", "mesh_b", "user_data_a", "user_data_b", "first", "a_in_b", "b_in_a"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40],
+    "itemsize": 48})
+
+
+class vox_pair_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+        ("contacts", c_void_p),
+    ]
+
+
+class vox_touch_event(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("mesh_b", c_uint32),
+        ("user_data_a", c_uint64),
+        ("user_data_b", c_uint64),
+        ("kind", c_int32),
+        ("pair", c_uint32),
+    ]
+
+dtypes["vox_touch_event"] = dtype({
+    "names": ["mesh_a", "mesh_b", "user_data_a", "user_data_b", "kind", "pair"],
+    "formats": ["u4", "u4", "u8", "u8", "i4", "u4"],
+    "offsets": [0, 4, 8, 16, 24, 28],
+    "itemsize": 32})
+
+
+class vox_touch_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+        ("began", c_uint64),
+        ("persisted", c_uint64),
+        ("ended", c_uint64),
+    ]
+
+
+class vox_contact_event(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("vertex", c_uint32),
+        ("mesh_b", c_uint32),
+        ("kind", c_int32),
+    ]
+
+dtypes["vox_contact_event"] = dtype({
+    "names": ["mesh_a", "vertex", "mesh_b", "kind"],
+    "formats": ["u4", "u4", "u4", "i4"],
+    "offsets": [0, 4, 8, 12],
+    "itemsize": 16})
+
+
+class vox_contact_event_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+        ("began", c_uint64),
+        ("ended", c_uint64),
+    ]
+
+
+class vox_reading(Structure):
+    _fields_ = [
+        ("contact", c_uint64),
+        ("known", c_uint32),
+        ("state", c_int32),
+        ("depth", c_float),
+        ("direction", c_float * 3),
+        ("position", c_double * 3),
+        ("distance", c_double),
+        ("surface_position", c_double * 3),
+        ("barycentric", c_double * 3),
+        ("normal", c_double * 3),
+        ("triangle", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("user_data_a", c_uint64),
+        ("user_data_b", c_uint64),
+    ]
+
+dtypes["vox_reading"] = dtype({
+    "names": ["contact", "known", "state", "depth", "direction", "position", "distance", "surface_position", "barycentric", "normal", "triangle", "reserved", "user_data_a", "user_data_b"],
+    "formats": ["u8", "u4", "i4", "f4", ("f4", (3,)), ("f8", (3,)), "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), ("u4", (3,)), "u4", "u8", "u8"],
+    "offsets": [0, 8, 12, 16, 20, 32, 56, 64, 88, 112, 136, 148, 152, 160],
+    "itemsize": 168})
+
+
+class vox_reading_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_readings_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("what", c_uint32),
+        ("mesh_a", c_uint32),
+        ("mesh_b", c_uint32),
+        ("closest_budget", c_uint64),
+    ]
+
+dtypes["vox_readings_desc"] = dtype({
+    "names": ["struct_size", "what", "mesh_a", "mesh_b", "closest_budget"],
+    "formats": ["u4", "u4", "u4", "u4", "u8"],
+    "offsets": [0, 4, 8, 12, 16],
+    "itemsize": 24})
+
+
+class vox_point_hit(Structure):
+    _fields_ = [
+        ("point", c_uint32),
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+        ("barycentric", c_float * 4),
+    ]
+
+dtypes["vox_point_hit"] = dtype({
+    "names": ["point", "mesh", "tet", "barycentric"],
+    "formats": ["u4", "u4", "u4", ("f4", (4,))],
+    "offsets": [0, 4, 8, 12],
+    "itemsize": 28})
+
+
+class vox_tet_hit(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+    ]
+
+dtypes["vox_tet_hit"] = dtype({
+    "names": ["mesh", "tet"],
+    "formats": ["u4", "u4"],
+    "offsets": [0, 4],
+    "itemsize": 8})
+
+
+class vox_surface_hit(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("reserved", c_uint32),
+        ("barycentric", c_double * 3),
+        ("position", c_double * 3),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_surface_hit"] = dtype({
+    "names": ["mesh", "tet", "facet", "reserved", "barycentric", "position", "distance"],
+    "formats": ["u4", "u4", "u4", "u4", ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 40, 64],
+    "itemsize": 72})
+
+
+class vox_closest_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("points", c_void_p),
+        ("byte_stride", c_uint64),
+        ("point_count", c_uint64),
+        ("mask", c_uint64),
+        ("max_distance", c_double),
+        ("excluded", c_uint32),
+        ("reserved", c_uint32),
+        ("component_byte_stride", c_uint64),
+    ]
+
+
+class vox_closest_hit(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("inside", c_uint32),
+        ("barycentric", c_double * 3),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_closest_hit"] = dtype({
+    "names": ["mesh", "tet", "facet", "inside", "barycentric", "position", "normal", "distance"],
+    "formats": ["u4", "u4", "u4", "u4", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 40, 64, 88],
+    "itemsize": 96})
+
+
+class vox_ray_hit(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+        ("t", c_double),
+        ("surface_mesh", c_uint32),
+        ("surface_tet", c_uint32),
+        ("surface_facet", c_uint32),
+        ("surface_side", c_int32),
+        ("surface_t", c_double),
+        ("surface_barycentric", c_double * 3),
+    ]
+
+dtypes["vox_ray_hit"] = dtype({
+    "names": ["mesh", "tet", "t", "surface_mesh", "surface_tet", "surface_facet", "surface_side", "surface_t", "surface_barycentric"],
+    "formats": ["u4", "u4", "f8", "u4", "u4", "u4", "i4", "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 16, 20, 24, 28, 32, 40],
+    "itemsize": 64})
+
+
+class vox_facet_hit(Structure):
+    _fields_ = [
+        ("mesh", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("side", c_int32),
+        ("t", c_double),
+        ("barycentric", c_double * 3),
+    ]
+
+dtypes["vox_facet_hit"] = dtype({
+    "names": ["mesh", "tet", "facet", "side", "t", "barycentric"],
+    "formats": ["u4", "u4", "u4", "i4", "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 24],
+    "itemsize": 48})
+
+
+class vox_counters(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("meshes", c_uint32),
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("cells", c_uint64),
+        ("entries", c_uint64),
+        ("fullest_cell", c_uint64),
+        ("visited_cells", c_uint64),
+        ("visited_entries", c_uint64),
+        ("candidates", c_uint64),
+        ("exact_tests", c_uint64),
+        ("contacts", c_uint64),
+        ("skipped_degenerate", c_uint64),
+        ("bytes", c_uint64),
+        ("peak_bytes", c_uint64),
+        ("moved_meshes", c_uint64),
+        ("carried_contacts", c_uint64),
+        ("penetrations", c_uint64),
+        ("leaving_edges", c_uint64),
+        ("edge_tests", c_uint64),
+        ("closest_searches", c_uint64),
+        ("closest_tests", c_uint64),
+        ("disabled_meshes", c_uint64),
+        ("filtered", c_uint64),
+        ("cell_size_changes", c_uint64),
+        ("unknown_penetrations", c_uint64),
+        ("carried_penetrations", c_uint64),
+        ("skipped_meshes", c_uint64),
+        ("meshes_without_tets", c_uint64),
+        ("total_touches_began", c_uint64),
+        ("total_touches_ended", c_uint64),
+        ("total_contacts_began", c_uint64),
+        ("total_contacts_ended", c_uint64),
+    ]
+
+dtypes["vox_counters"] = dtype({
+    "names": ["struct_size", "meshes", "vertices", "tets", "cells", "entries", "fullest_cell", "visited_cells", "visited_entries", "candidates", "exact_tests", "contacts", "skipped_degenerate", "bytes", "peak_bytes", "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches", "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations", "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended", "total_contacts_began", "total_contacts_ended"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176, 184, 192, 200, 208, 216, 224, 232, 240, 248],
+    "itemsize": 256})
+
+
+class vox_profile(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("step_ns", c_uint64),
+        ("bin_ns", c_uint64),
+        ("broad_ns", c_uint64),
+        ("narrow_ns", c_uint64),
+        ("contacts_ns", c_uint64),
+        ("depth_ns", c_uint64),
+        ("events_ns", c_uint64),
+        ("stream_ns", c_uint64),
+        ("winding_ns", c_uint64),
+        ("broad_phase_ns", c_uint64),
+        ("windows_ns", c_uint64),
+        ("lookup_ns", c_uint64),
+        ("decide_ns", c_uint64),
+    ]
+
+dtypes["vox_profile"] = dtype({
+    "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns", "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104],
+    "itemsize": 112})
+
+
+class vox_suggest_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("model", c_int32),
+        ("size_reading", c_int32),
+        ("area_reading", c_int32),
+        ("p_nc", c_double),
+        ("cost_ratio", c_double),
+        ("world_edge", c_double),
+        ("zone_loss", c_double),
+        ("mean_edge_factor", c_double),
+        ("resolution", c_double),
+        ("byte_budget", c_uint64),
+        ("storage", c_int32),
+        ("reserved", c_uint32),
+        ("allocator", vox_allocator),
+    ]
+
+
+class vox_geometry_stats(Structure):
+    _fields_ = [
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("edges", c_uint64),
+        ("facets", c_uint64),
+        ("boundary_facets", c_uint64),
+        ("degenerate_tets", c_uint64),
+        ("mean_edge", c_double),
+        ("mean_longest_edge", c_double),
+        ("mean_box_side", c_double),
+        ("median_box_side", c_double),
+        ("mean_facet_area", c_double),
+        ("mean_tet_facet_area", c_double),
+        ("mean_boundary_facet_area", c_double),
+        ("mean_volume", c_double),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+    ]
+
+dtypes["vox_geometry_stats"] = dtype({
+    "names": ["vertices", "tets", "edges", "facets", "boundary_facets", "degenerate_tets", "mean_edge", "mean_longest_edge", "mean_box_side", "median_box_side", "mean_facet_area", "mean_tet_facet_area", "mean_boundary_facet_area", "mean_volume", "bounds_min", "bounds_max"],
+    "formats": ["u8", "u8", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8", (3,))],
+    "offsets": [0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 136],
+    "itemsize": 160})
+
+
+class vox_cell_size_rules(Structure):
+    _fields_ = [
+        ("mean_edge", c_double),
+        ("mean_edge_multiple", c_double),
+        ("object_512", c_double),
+        ("resolution", c_double),
+        ("mean_volume", c_double),
+        ("median_box_side", c_double),
+    ]
+
+dtypes["vox_cell_size_rules"] = dtype({
+    "names": ["mean_edge", "mean_edge_multiple", "object_512", "resolution", "mean_volume", "median_box_side"],
+    "formats": ["f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 8, 16, 24, 32, 40],
+    "itemsize": 48})
+
+
+class vox_cost_sample(Structure):
+    _fields_ = [
+        ("cell_size", c_double),
+        ("cost", c_double),
+    ]
+
+dtypes["vox_cost_sample"] = dtype({
+    "names": ["cell_size", "cost"],
+    "formats": ["f8", "f8"],
+    "offsets": [0, 8],
+    "itemsize": 16})
+
+
+class vox_cost_share(Structure):
+    _fields_ = [
+        ("name", c_char * 24),
+        ("count", c_double),
+        ("cost", c_double),
+        ("share", c_double),
+    ]
+
+dtypes["vox_cost_share"] = dtype({
+    "names": ["name", "count", "cost", "share"],
+    "formats": ["S24", "f8", "f8", "f8"],
+    "offsets": [0, 24, 32, 40],
+    "itemsize": 48})
+
+
+class vox_suggestion(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("model", c_int32),
+        ("cell_size", c_double),
+        ("cells_per_axis", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("predicted_cost", c_double),
+        ("rules", vox_cell_size_rules),
+        ("stats", vox_geometry_stats),
+        ("curve", vox_cost_sample * 64),
+        ("curve_count", c_uint32),
+        ("term_count", c_uint32),
+        ("terms", vox_cost_share * 12),
+        ("rule_costs", vox_cell_size_rules),
+        ("budget_cell_size", c_double),
+        ("uniform_loss", c_double),
+        ("levels", c_double * 4),
+        ("level_count", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+dtypes["vox_suggestion"] = dtype({
+    "names": ["struct_size", "model", "cell_size", "cells_per_axis", "zone_min", "zone_max", "predicted_cost", "rules", "stats", "curve", "curve_count", "term_count", "terms", "rule_costs", "budget_cell_size", "uniform_loss", "levels", "level_count", "reserved"],
+    "formats": ["u4", "i4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_cell_size_rules"], dtypes["vox_geometry_stats"], (dtypes["vox_cost_sample"], (64,)), "u4", "u4", (dtypes["vox_cost_share"], (12,)), dtypes["vox_cell_size_rules"], "f8", "f8", ("f8", (4,)), "u4", "u4"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 256, 1280, 1284, 1288, 1864, 1912, 1920, 1928, 1960, 1964],
+    "itemsize": 1968})
+
+
+class vox_cost_prediction(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("term_count", c_uint32),
+        ("cell_size", c_double),
+        ("cost", c_double),
+        ("terms", vox_cost_share * 12),
+    ]
+
+dtypes["vox_cost_prediction"] = dtype({
+    "names": ["struct_size", "term_count", "cell_size", "cost", "terms"],
+    "formats": ["u4", "u4", "f8", "f8", (dtypes["vox_cost_share"], (12,))],
+    "offsets": [0, 4, 8, 16, 24],
+    "itemsize": 600})
+
+
+class vox_cost_weights(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("measured", c_uint32),
+        ("reference_classify_vertex", c_double),
+        ("reference_prepare_tet", c_double),
+        ("reference_visit_cell", c_double),
+        ("reference_scan_cell", c_double),
+        ("reference_read_vertex", c_double),
+        ("reference_test_box", c_double),
+        ("reference_test_tet", c_double),
+        ("reference_clear_bucket", c_double),
+        ("fast_bin_vertex", c_double),
+        ("fast_clear_cell", c_double),
+        ("fast_visit_tile", c_double),
+        ("fast_visit_row", c_double),
+        ("fast_read_vertex", c_double),
+        ("fast_test_vertex", c_double),
+        ("reference_changed_list", c_double),
+        ("reference_fetch_vertex", c_double),
+    ]
+
+dtypes["vox_cost_weights"] = dtype({
+    "names": ["struct_size", "measured", "reference_classify_vertex", "reference_prepare_tet", "reference_visit_cell", "reference_scan_cell", "reference_read_vertex", "reference_test_box", "reference_test_tet", "reference_clear_bucket", "fast_bin_vertex", "fast_clear_cell", "fast_visit_tile", "fast_visit_row", "fast_read_vertex", "fast_test_vertex", "reference_changed_list", "reference_fetch_vertex"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128],
+    "itemsize": 136})
+
+
+class vox_cost_term(Structure):
+    _fields_ = [
+        ("coefficient", c_double),
+        ("power", c_double),
+    ]
+
+dtypes["vox_cost_term"] = dtype({
+    "names": ["coefficient", "power"],
+    "formats": ["f8", "f8"],
+    "offsets": [0, 8],
+    "itemsize": 16})
+
+
+class vox_cost_bounds(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("min", c_double),
+        ("max", c_double),
+        ("zone_loss", c_double),
+    ]
+
+dtypes["vox_cost_bounds"] = dtype({
+    "names": ["struct_size", "reserved", "min", "max", "zone_loss"],
+    "formats": ["u4", "u4", "f8", "f8", "f8"],
+    "offsets": [0, 4, 8, 16, 24],
+    "itemsize": 32})
+
+
+class vox_cost_minimum(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("curve_count", c_uint32),
+        ("cell_size", c_double),
+        ("cost", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("curve", vox_cost_sample * 64),
+    ]
+
+dtypes["vox_cost_minimum"] = dtype({
+    "names": ["struct_size", "curve_count", "cell_size", "cost", "zone_min", "zone_max", "curve"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", (dtypes["vox_cost_sample"], (64,))],
+    "offsets": [0, 4, 8, 16, 24, 32, 40],
+    "itemsize": 1064})
+
+
+class vox_io_load_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("mesh_index", c_uint32),
+        ("reserved", c_uint32),
+        ("allocator", vox_allocator),
+    ]
+
+
+class vox_io_source(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("data", c_void_p),
+        ("size", c_size_t),
+    ]
+
+
+class vox_io_mesh_view(Structure):
+    _fields_ = [
+        ("positions", c_void_p),
+        ("vertex_count", c_uint64),
+        ("tets", c_void_p),
+        ("tet_count", c_uint64),
+        ("triangles", c_void_p),
+        ("triangle_count", c_uint64),
+    ]
+
+
+class vox_io_report(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("triangles", c_uint64),
+        ("skipped_elements", c_uint64),
+        ("second_order_tets", c_uint64),
+        ("inverted_tets", c_uint64),
+        ("degenerate_tets", c_uint64),
+        ("nearly_flat_tets", c_uint64),
+        ("duplicate_tets", c_uint64),
+        ("degenerate_triangles", c_uint64),
+        ("duplicate_vertices", c_uint64),
+        ("unused_vertices", c_uint64),
+        ("boundary_facets", c_uint64),
+        ("non_manifold_facets", c_uint64),
+        ("open_edges", c_uint64),
+        ("misoriented_edges", c_uint64),
+        ("components", c_uint64),
+        ("volume", c_double),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+        ("unit_in_metres", c_double),
+    ]
+
+dtypes["vox_io_report"] = dtype({
+    "names": ["struct_size", "format", "vertices", "tets", "triangles", "skipped_elements", "second_order_tets", "inverted_tets", "degenerate_tets", "nearly_flat_tets", "duplicate_tets", "degenerate_triangles", "duplicate_vertices", "unused_vertices", "boundary_facets", "non_manifold_facets", "open_edges", "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres"],
+    "formats": ["u4", "i4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 176, 200],
+    "itemsize": 208})
+
+
+vox_io_tetrahedralize_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)
+class vox_io_tetrahedralize_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("kind", c_int32),
+        ("cell", c_double),
+        ("max_tets", c_uint64),
+        ("max_distance", c_double),
+        ("coarsen", c_uint32),
+        ("reserved", c_uint32),
+        ("progress", vox_io_tetrahedralize_desc_progress),
+        ("progress_user", c_void_p),
+        ("allocator", vox_allocator),
+    ]
+
+
+class vox_io_quality(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("boundary_facets", c_uint64),
+        ("min_dihedral", c_double),
+        ("max_dihedral", c_double),
+        ("volume", c_double),
+        ("surface_volume", c_double),
+        ("mesh_to_surface", c_double),
+        ("surface_to_mesh", c_double),
+        ("hausdorff", c_double),
+    ]
+
+dtypes["vox_io_quality"] = dtype({
+    "names": ["struct_size", "reserved", "vertices", "tets", "boundary_facets", "min_dihedral", "max_dihedral", "volume", "surface_volume", "mesh_to_surface", "surface_to_mesh", "hausdorff"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80],
+    "itemsize": 88})
+
+
+class vox_io_point_data(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("values", c_void_p),
+        ("components", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class vox_io_write_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("format", c_int32),
+        ("binary", c_uint32),
+        ("reserved", c_uint32),
+        ("point_data", POINTER(vox_io_point_data)),
+        ("point_data_count", c_uint64),
+        ("cell_data", POINTER(vox_io_point_data)),
+        ("cell_data_count", c_uint64),
+    ]
+
+
+vox_io_sink_write = CFUNCTYPE(c_int32, c_void_p, c_size_t, c_void_p)
+class vox_io_sink(Structure):
+    _fields_ = [
+        ("write", vox_io_sink_write),
+        ("user", c_void_p),
+    ]
+
+
+class vox_sim_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("substeps", c_uint32),
+        ("detect_every", c_uint32),
+        ("reserved", c_uint32),
+        ("gravity", c_double * 3),
+        ("max_time_step", c_double),
+        ("floor_normal", c_double * 3),
+        ("floor_offset", c_double),
+        ("friction", c_double),
+        ("contact_compliance", c_double),
+        ("max_push_speed", c_double),
+        ("contact_slop", c_double),
+        ("grid", POINTER(vox_grid_desc)),
+        ("log", vox_log),
+        ("allocator", vox_allocator),
+    ]
+
+
+class vox_sim_body_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("positions", c_void_p),
+        ("rest_positions", c_void_p),
+        ("velocities", c_void_p),
+        ("tets", c_void_p),
+        ("vertex_count", c_uint64),
+        ("tet_count", c_uint64),
+        ("density", c_double),
+        ("youngs_modulus", c_double),
+        ("bulk_modulus", c_double),
+        ("damping", c_double),
+        ("user_data", c_uint64),
+    ]
+
+
+class vox_sim_body_view(Structure):
+    _fields_ = [
+        ("positions", c_void_p),
+        ("velocities", c_void_p),
+        ("masses", c_void_p),
+        ("grid_positions", c_void_p),
+        ("tets", c_void_p),
+        ("vertex_count", c_uint64),
+        ("tet_count", c_uint64),
+    ]
+
+
+class vox_sim_energies(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("kinetic", c_double),
+        ("potential", c_double),
+        ("elastic", c_double),
+        ("mass", c_double),
+        ("momentum", c_double * 3),
+        ("centre", c_double * 3),
+        ("max_speed", c_double),
+    ]
+
+dtypes["vox_sim_energies"] = dtype({
+    "names": ["struct_size", "reserved", "kinetic", "potential", "elastic", "mass", "momentum", "centre", "max_speed"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 64, 88],
+    "itemsize": 96})
+
+
+class vox_sim_counts(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("bodies", c_uint32),
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("edges", c_uint64),
+        ("volumes", c_uint64),
+        ("flat_tets", c_uint64),
+        ("inverted_tets", c_uint64),
+        ("raised_masses", c_uint64),
+        ("softened", c_uint64),
+        ("steps", c_uint64),
+        ("substeps", c_uint64),
+        ("detections", c_uint64),
+        ("clamped_steps", c_uint64),
+        ("penetrations", c_uint64),
+        ("floor_contacts", c_uint64),
+        ("step_ns", c_uint64),
+        ("detect_ns", c_uint64),
+        ("solve_ns", c_uint64),
+    ]
+
+dtypes["vox_sim_counts"] = dtype({
+    "names": ["struct_size", "bodies", "vertices", "tets", "edges", "volumes", "flat_tets", "inverted_tets", "raised_masses", "softened", "steps", "substeps", "detections", "clamped_steps", "penetrations", "floor_contacts", "step_ns", "detect_ns", "solve_ns"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136],
+    "itemsize": 144})
+
+
+class vox_experiment_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("frames", c_uint32),
+        ("a", POINTER(vox_sim_body_desc)),
+        ("b", POINTER(vox_sim_body_desc)),
+        ("sim", POINTER(vox_sim_desc)),
+        ("grid", POINTER(vox_grid_desc)),
+        ("axis", c_double * 3),
+        ("contact_share", c_double),
+        ("time_step", c_double),
+        ("turn", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+
+class vox_experiment_facts(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("frames", c_uint32),
+        ("vertices", c_uint64),
+        ("tets", c_uint64),
+        ("contacts", c_uint64),
+        ("hash", c_uint64),
+        ("distance", c_double),
+        ("mean_share", c_double),
+        ("shares", c_void_p),
+        ("bounds_min", c_double * 3),
+        ("bounds_max", c_double * 3),
+    ]
+
+
+class vox_experiment_sample(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("cell_size", c_double),
+        ("mean_ns", c_double),
+        ("contacts", c_uint64),
+        ("visited_cells", c_uint64),
+        ("visited_entries", c_uint64),
+        ("candidates", c_uint64),
+    ]
+
+dtypes["vox_experiment_sample"] = dtype({
+    "names": ["struct_size", "reserved", "cell_size", "mean_ns", "contacts", "visited_cells", "visited_entries", "candidates"],
+    "formats": ["u4", "u4", "f8", "f8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48],
+    "itemsize": 56})
+
+
+class vox_time_fit(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("degree", c_uint32),
+        ("range_min", c_double),
+        ("range_max", c_double),
+        ("coefficients", c_double * 9),
+        ("r_squared", c_double),
+        ("prediction_error", c_double),
+        ("cell_size", c_double),
+        ("time", c_double),
+        ("bracketed", c_uint32),
+        ("reserved", c_uint32),
+    ]
+
+dtypes["vox_time_fit"] = dtype({
+    "names": ["struct_size", "degree", "range_min", "range_max", "coefficients", "r_squared", "prediction_error", "cell_size", "time", "bracketed", "reserved"],
+    "formats": ["u4", "u4", "f8", "f8", ("f8", (9,)), "f8", "f8", "f8", "f8", "u4", "u4"],
+    "offsets": [0, 4, 8, 16, 24, 96, 104, 112, 120, 128, 132],
+    "itemsize": 136})
+
+
+# Of each library: name, type of the result, types of the parameters.
+FUNCTIONS = {
+    "vox": {
+        "vox_result_string": (c_char_p, (c_int32,)),
+        "vox_last_error": (c_char_p, ()),
+        "vox_fail": (c_int32, (c_int32, c_char_p)),
+        "vox_version": (c_uint32, ()),
+        "vox_version_string": (c_char_p, ()),
+        "vox_build_info": (c_char_p, ()),
+        "vox_grid_desc_init": (c_int32, (POINTER(vox_grid_desc), c_uint32)),
+        "vox_grid_create": (c_int32, (POINTER(vox_grid_desc), POINTER(c_void_p))),
+        "vox_grid_destroy": (None, (c_void_p,)),
+        "vox_grid_clear": (c_int32, (c_void_p,)),
+        "vox_grid_reserve": (c_int32, (c_void_p, c_uint32, c_uint64)),
+        "vox_grid_set_cell_size": (c_int32, (c_void_p, c_double)),
+        "vox_grid_cell_size": (c_int32, (c_void_p, POINTER(c_double))),
+        "vox_grid_set_worker_count": (c_int32, (c_void_p, c_uint32)),
+        "vox_grid_set_flags": (c_int32, (c_void_p, c_uint32)),
+        "vox_grid_get_flags": (c_int32, (c_void_p, POINTER(c_uint32))),
+        "vox_filter_init": (c_int32, (POINTER(vox_filter), c_uint32)),
+        "vox_mesh_desc_init": (c_int32, (POINTER(vox_mesh_desc), c_uint32)),
+        "vox_mesh_insert": (c_int32, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
+        "vox_mesh_remove": (c_int32, (c_void_p, c_uint32)),
+        "vox_mesh_is_valid": (c_uint32, (c_void_p, c_uint32)),
+        "vox_mesh_user_data": (c_int32, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_mesh_bind_positions": (c_int32, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64)),
+        "vox_mesh_bind_strided_positions": (c_int32, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
+        "vox_mesh_mark_moved": (c_int32, (c_void_p, c_uint32)),
+        "vox_mesh_set_filter": (c_int32, (c_void_p, c_uint32, POINTER(vox_filter))),
+        "vox_mesh_filter": (c_int32, (c_void_p, c_uint32, POINTER(vox_filter))),
+        "vox_mesh_set_enabled": (c_int32, (c_void_p, c_uint32, c_uint32)),
+        "vox_grid_set_pair_enabled": (c_int32, (c_void_p, c_uint32, c_uint32, c_uint32)),
+        "vox_mesh_map_positions": (c_int32, (c_void_p, c_uint32, POINTER(c_void_p), POINTER(c_uint64))),
+        "vox_mesh_set_transform": (c_int32, (c_void_p, c_uint32, c_void_p)),
+        "vox_mesh_set_topology": (c_int32, (c_void_p, c_uint32, POINTER(vox_mesh_desc))),
+        "vox_mesh_set_tets_enabled": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64, c_uint32)),
+        "vox_mesh_replace_tets": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64, c_void_p)),
+        "vox_mesh_append_tets": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint32))),
+        "vox_mesh_remove_tets": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64)),
+        "vox_vertices_desc_init": (c_int32, (POINTER(vox_vertices_desc), c_uint32)),
+        "vox_mesh_append_vertices": (c_int32, (c_void_p, c_uint32, POINTER(vox_vertices_desc), POINTER(c_uint32))),
+        "vox_mesh_remove_vertices": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64)),
+        "vox_grid_step": (c_int32, (c_void_p,)),
+        "vox_grid_failure": (c_int32, (c_void_p, c_uint32, POINTER(vox_failure))),
+        "vox_grid_contacts": (c_int32, (c_void_p, POINTER(vox_contact_view))),
+        "vox_grid_contact_interiors": (c_int32, (c_void_p, POINTER(vox_interior_view))),
+        "vox_grid_epoch": (c_int32, (c_void_p, POINTER(c_uint64))),
+        "vox_grid_hash": (c_int32, (c_void_p, POINTER(c_uint64))),
+        "vox_grid_penetrations": (c_int32, (c_void_p, POINTER(vox_penetration_view))),
+        "vox_grid_depths": (c_int32, (c_void_p, POINTER(vox_depth_view))),
+        "vox_grid_pairs": (c_int32, (c_void_p, POINTER(vox_pair_view))),
+        "vox_mesh_copy_contacts": (c_int32, (c_void_p, c_uint32, POINTER(vox_contact), c_uint64, POINTER(c_uint64))),
+        "vox_pair_copy_contacts": (c_int32, (c_void_p, c_uint32, c_uint32, POINTER(vox_contact), c_uint64, POINTER(c_uint64))),
+        "vox_grid_touch_events": (c_int32, (c_void_p, POINTER(vox_touch_view))),
+        "vox_grid_contact_events": (c_int32, (c_void_p, POINTER(vox_contact_event_view))),
+        "vox_grid_prepare_readings": (c_int32, (c_void_p,)),
+        "vox_readings_desc_init": (c_int32, (POINTER(vox_readings_desc), c_uint32)),
+        "vox_grid_prepare_readings_of": (c_int32, (c_void_p, POINTER(vox_readings_desc))),
+        "vox_grid_readings": (c_int32, (c_void_p, POINTER(vox_reading_view))),
+        "vox_grid_reading_depths": (c_int32, (c_void_p, POINTER(vox_depth_view))),
+        "vox_mesh_copy_readings": (c_int32, (c_void_p, c_uint32, POINTER(vox_reading), c_uint64, POINTER(c_uint64))),
+        "vox_pair_copy_readings": (c_int32, (c_void_p, c_uint32, c_uint32, POINTER(vox_reading), c_uint64, POINTER(c_uint64))),
+        "vox_grid_save": (c_int32, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_grid_load": (c_int32, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
+        "vox_grid_prepare_queries": (c_int32, (c_void_p,)),
+        "vox_grid_query_point": (c_int32, (c_void_p, c_void_p, c_uint64, POINTER(vox_point_hit), c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, POINTER(vox_point_hit), c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_tet_hit), c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_closest": (c_int32, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
+        "vox_closest_desc_init": (c_int32, (POINTER(vox_closest_desc), c_uint32)),
+        "vox_grid_query_closest_points": (c_int32, (c_void_p, POINTER(vox_closest_desc), POINTER(vox_closest_hit))),
+        "vox_grid_query_ray": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
+        "vox_grid_query_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(vox_facet_hit), c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_ray_any": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
+        "vox_grid_take_query_view": (c_int32, (c_void_p, POINTER(c_void_p))),
+        "vox_query_view_retain": (c_int32, (c_void_p,)),
+        "vox_query_view_release": (None, (c_void_p,)),
+        "vox_query_view_epoch": (c_int32, (c_void_p, POINTER(c_uint64))),
+        "vox_query_view_user_data": (c_int32, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_query_view_point": (c_int32, (c_void_p, c_void_p, c_uint64, POINTER(vox_point_hit), c_uint64, POINTER(c_uint64))),
+        "vox_query_view_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, POINTER(vox_point_hit), c_uint64, POINTER(c_uint64))),
+        "vox_query_view_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_tet_hit), c_uint64, POINTER(c_uint64))),
+        "vox_query_view_closest": (c_int32, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
+        "vox_query_view_closest_points": (c_int32, (c_void_p, POINTER(vox_closest_desc), POINTER(vox_closest_hit))),
+        "vox_query_view_ray": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
+        "vox_query_view_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(vox_facet_hit), c_uint64, POINTER(c_uint64))),
+        "vox_query_view_ray_any": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
+        "vox_grid_counters": (c_int32, (c_void_p, POINTER(vox_counters))),
+        "vox_grid_profile": (c_int32, (c_void_p, POINTER(vox_profile))),
+        "vox_suggest_desc_init": (c_int32, (POINTER(vox_suggest_desc), c_uint32)),
+        "vox_suggest_cell_size": (c_int32, (POINTER(vox_suggest_desc), POINTER(vox_mesh_desc), c_uint64, POINTER(vox_suggestion))),
+        "vox_grid_suggest_cell_size": (c_int32, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
+        "vox_cost_predict": (c_int32, (POINTER(vox_suggest_desc), POINTER(vox_mesh_desc), c_uint64, c_double, POINTER(vox_cost_prediction))),
+        "vox_cost_calibrate": (c_int32, (POINTER(vox_cost_weights),)),
+        "vox_cost_get_weights": (c_int32, (POINTER(vox_cost_weights),)),
+        "vox_cost_set_weights": (c_int32, (POINTER(vox_cost_weights),)),
+        "vox_cost_bounds_init": (c_int32, (POINTER(vox_cost_bounds), c_uint32)),
+        "vox_cost_minimise": (c_int32, (vox_cost_function, c_void_p, POINTER(vox_cost_bounds), POINTER(vox_cost_minimum))),
+        "vox_cost_minimise_terms": (c_int32, (POINTER(vox_cost_term), c_uint64, POINTER(vox_cost_bounds), POINTER(vox_cost_minimum))),
+        "vox_zone_distance": (c_int32, (c_double, c_double, c_double, c_double, POINTER(c_double))),
+    },
+    "vox_io": {
+        "vox_io_load_desc_init": (c_int32, (POINTER(vox_io_load_desc), c_uint32)),
+        "vox_io_load": (c_int32, (c_char_p, POINTER(vox_io_load_desc), POINTER(c_void_p))),
+        "vox_io_read": (c_int32, (POINTER(vox_io_source), c_size_t, POINTER(vox_io_load_desc), POINTER(c_void_p))),
+        "vox_io_mesh_destroy": (None, (c_void_p,)),
+        "vox_io_mesh_get": (c_int32, (c_void_p, POINTER(vox_io_mesh_view))),
+        "vox_io_mesh_desc": (c_int32, (c_void_p, POINTER(vox_mesh_desc))),
+        "vox_io_mesh_create": (c_int32, (POINTER(vox_io_mesh_view), POINTER(c_void_p))),
+        "vox_io_mesh_report": (c_int32, (c_void_p, POINTER(vox_io_report))),
+        "vox_io_mesh_warnings": (c_char_p, (c_void_p,)),
+        "vox_io_format_string": (c_char_p, (c_int32,)),
+        "vox_io_tetrahedralize_desc_init": (c_int32, (POINTER(vox_io_tetrahedralize_desc), c_uint32)),
+        "vox_io_tetrahedralize": (c_int32, (c_void_p, POINTER(vox_io_tetrahedralize_desc), POINTER(c_void_p))),
+        "vox_io_measure_quality": (c_int32, (c_void_p, c_void_p, POINTER(vox_io_quality))),
+        "vox_io_write_desc_init": (c_int32, (POINTER(vox_io_write_desc), c_uint32)),
+        "vox_io_write": (c_int32, (c_void_p, c_char_p, POINTER(vox_io_write_desc))),
+        "vox_io_write_to": (c_int32, (c_void_p, POINTER(vox_io_write_desc), POINTER(vox_io_sink))),
+        "vox_io_make_lattice_ball": (c_int32, (c_uint64, c_double, POINTER(c_void_p))),
+        "vox_io_make_ball": (c_int32, (c_double, c_double, POINTER(c_void_p))),
+        "vox_io_make_torus": (c_int32, (c_double, c_double, c_double, POINTER(c_void_p))),
+        "vox_io_make_capsule": (c_int32, (c_double, c_double, c_double, POINTER(c_void_p))),
+        "vox_io_make_cylinder": (c_int32, (c_double, c_double, c_double, POINTER(c_void_p))),
+        "vox_io_make_box": (c_int32, (c_double, c_double, c_double, c_double, POINTER(c_void_p))),
+    },
+    "vox_sim": {
+        "vox_sim_desc_init": (c_int32, (POINTER(vox_sim_desc), c_uint32)),
+        "vox_sim_create": (c_int32, (POINTER(vox_sim_desc), POINTER(c_void_p))),
+        "vox_sim_destroy": (None, (c_void_p,)),
+        "vox_sim_grid": (c_int32, (c_void_p, POINTER(c_void_p))),
+        "vox_sim_step": (c_int32, (c_void_p, c_double)),
+        "vox_sim_body_desc_init": (c_int32, (POINTER(vox_sim_body_desc), c_uint32)),
+        "vox_sim_body_insert": (c_int32, (c_void_p, POINTER(vox_sim_body_desc), POINTER(c_uint32))),
+        "vox_sim_body_remove": (c_int32, (c_void_p, c_uint32)),
+        "vox_sim_body_get": (c_int32, (c_void_p, c_uint32, POINTER(vox_sim_body_view))),
+        "vox_sim_body_set_state": (c_int32, (c_void_p, c_uint32, c_void_p, c_void_p)),
+        "vox_sim_body_set_acceleration": (c_int32, (c_void_p, c_uint32, c_void_p)),
+        "vox_sim_energy": (c_int32, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
+        "vox_sim_counters": (c_int32, (c_void_p, POINTER(vox_sim_counts))),
+        "vox_experiment_desc_init": (c_int32, (POINTER(vox_experiment_desc), c_uint32)),
+        "vox_experiment_create": (c_int32, (POINTER(vox_experiment_desc), POINTER(c_void_p))),
+        "vox_experiment_destroy": (None, (c_void_p,)),
+        "vox_experiment_get": (c_int32, (c_void_p, POINTER(vox_experiment_facts))),
+        "vox_experiment_suggest": (c_int32, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
+        "vox_experiment_measure": (c_int32, (c_void_p, c_double, c_void_p, POINTER(vox_experiment_sample))),
+        "vox_experiment_order": (c_int32, (c_uint64, c_uint64, c_uint64, POINTER(c_uint64))),
+        "vox_experiment_time": (c_int32, (c_void_p, c_uint64, c_uint64, POINTER(c_double))),
+        "vox_fit_times": (c_int32, (c_void_p, c_void_p, c_uint64, POINTER(vox_time_fit))),
+        "vox_fit_time_at": (c_int32, (POINTER(vox_time_fit), c_double, POINTER(c_double))),
+        "vox_fit_zone": (c_int32, (POINTER(vox_time_fit), c_double, POINTER(c_double), POINTER(c_double))),
+    },
+}
+# Functions whose result is a vox_result: a failure unless it is 0.
+CHECKED = {
+    "vox_fail",
+    "vox_grid_desc_init",
+    "vox_grid_create",
+    "vox_grid_clear",
+    "vox_grid_reserve",
+    "vox_grid_set_cell_size",
+    "vox_grid_cell_size",
+    "vox_grid_set_worker_count",
+    "vox_grid_set_flags",
+    "vox_grid_get_flags",
+    "vox_filter_init",
+    "vox_mesh_desc_init",
+    "vox_mesh_insert",
+    "vox_mesh_remove",
+    "vox_mesh_user_data",
+    "vox_mesh_bind_positions",
+    "vox_mesh_bind_strided_positions",
+    "vox_mesh_mark_moved",
+    "vox_mesh_set_filter",
+    "vox_mesh_filter",
+    "vox_mesh_set_enabled",
+    "vox_grid_set_pair_enabled",
+    "vox_mesh_map_positions",
+    "vox_mesh_set_transform",
+    "vox_mesh_set_topology",
+    "vox_mesh_set_tets_enabled",
+    "vox_mesh_replace_tets",
+    "vox_mesh_append_tets",
+    "vox_mesh_remove_tets",
+    "vox_vertices_desc_init",
+    "vox_mesh_append_vertices",
+    "vox_mesh_remove_vertices",
+    "vox_grid_step",
+    "vox_grid_failure",
+    "vox_grid_contacts",
+    "vox_grid_contact_interiors",
+    "vox_grid_epoch",
+    "vox_grid_hash",
+    "vox_grid_penetrations",
+    "vox_grid_depths",
+    "vox_grid_pairs",
+    "vox_mesh_copy_contacts",
+    "vox_pair_copy_contacts",
+    "vox_grid_touch_events",
+    "vox_grid_contact_events",
+    "vox_grid_prepare_readings",
+    "vox_readings_desc_init",
+    "vox_grid_prepare_readings_of",
+    "vox_grid_readings",
+    "vox_grid_reading_depths",
+    "vox_mesh_copy_readings",
+    "vox_pair_copy_readings",
+    "vox_grid_save",
+    "vox_grid_load",
+    "vox_grid_prepare_queries",
+    "vox_grid_query_point",
+    "vox_grid_query_points",
+    "vox_grid_query_box",
+    "vox_grid_query_closest",
+    "vox_closest_desc_init",
+    "vox_grid_query_closest_points",
+    "vox_grid_query_ray",
+    "vox_grid_query_ray_hits",
+    "vox_grid_query_ray_any",
+    "vox_grid_take_query_view",
+    "vox_query_view_retain",
+    "vox_query_view_epoch",
+    "vox_query_view_user_data",
+    "vox_query_view_point",
+    "vox_query_view_points",
+    "vox_query_view_box",
+    "vox_query_view_closest",
+    "vox_query_view_closest_points",
+    "vox_query_view_ray",
+    "vox_query_view_ray_hits",
+    "vox_query_view_ray_any",
+    "vox_grid_counters",
+    "vox_grid_profile",
+    "vox_suggest_desc_init",
+    "vox_suggest_cell_size",
+    "vox_grid_suggest_cell_size",
+    "vox_cost_predict",
+    "vox_cost_calibrate",
+    "vox_cost_get_weights",
+    "vox_cost_set_weights",
+    "vox_cost_bounds_init",
+    "vox_cost_minimise",
+    "vox_cost_minimise_terms",
+    "vox_zone_distance",
+    "vox_io_load_desc_init",
+    "vox_io_load",
+    "vox_io_read",
+    "vox_io_mesh_get",
+    "vox_io_mesh_desc",
+    "vox_io_mesh_create",
+    "vox_io_mesh_report",
+    "vox_io_tetrahedralize_desc_init",
+    "vox_io_tetrahedralize",
+    "vox_io_measure_quality",
+    "vox_io_write_desc_init",
+    "vox_io_write",
+    "vox_io_write_to",
+    "vox_io_make_lattice_ball",
+    "vox_io_make_ball",
+    "vox_io_make_torus",
+    "vox_io_make_capsule",
+    "vox_io_make_cylinder",
+    "vox_io_make_box",
+    "vox_sim_desc_init",
+    "vox_sim_create",
+    "vox_sim_grid",
+    "vox_sim_step",
+    "vox_sim_body_desc_init",
+    "vox_sim_body_insert",
+    "vox_sim_body_remove",
+    "vox_sim_body_get",
+    "vox_sim_body_set_state",
+    "vox_sim_body_set_acceleration",
+    "vox_sim_energy",
+    "vox_sim_counters",
+    "vox_experiment_desc_init",
+    "vox_experiment_create",
+    "vox_experiment_get",
+    "vox_experiment_suggest",
+    "vox_experiment_measure",
+    "vox_experiment_order",
+    "vox_experiment_time",
+    "vox_fit_times",
+    "vox_fit_time_at",
+    "vox_fit_zone",
+}
+
+
+def declare(library, name, check=None):
+    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the
+    errcheck of those in CHECKED."""
+    for function, (result, parameters) in FUNCTIONS[name].items():
+        found = getattr(library, function)
+        found.restype, found.argtypes = result, parameters
+        if check and function in CHECKED:
+            found.errcheck = check

@@ -1,0 +1,3421 @@
+// Written by bindings/generate.py from bindings/api.json. Do not edit.
+#![allow(non_camel_case_types, rustdoc::all, clippy::all)]
+
+use core::ffi::{c_char, c_void};
+use core::marker::{PhantomData, PhantomPinned};
+
+/// Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
+/// part of the shared libraries' names (docs/abi.md).
+pub const VOX_ABI_VERSION: u32 = 1;
+/// tasks enqueued in one step
+pub const VOX_MAX_TASKS: u32 = 64;
+/// workers of a grid
+pub const VOX_MAX_WORKERS: u32 = 256;
+/// Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others.per grid, at one time,
+/// including retired slots
+pub const VOX_MAX_MESHES: u32 = 1048576;
+/// uses of one mesh slot before it is retired
+pub const VOX_MAX_GENERATIONS: u32 = 4095;
+/// per grid
+pub const VOX_MAX_VERTICES: u32 = 2147483647;
+/// per grid
+pub const VOX_MAX_TETS: u32 = 2147483647;
+/// names no mesh
+pub const VOX_NULL_MESH: u32 = 0;
+/// vox_filter.self_rings
+pub const VOX_MAX_RINGS: u32 = 8;
+/// vox_failure.vertex where a failure is not about a vertex
+pub const VOX_NO_VERTEX: u32 = 4294967295;
+/// contacts of one step; a step with more fails with VOX_ERROR_LIMIT
+pub const VOX_MAX_CONTACTS: u32 = 4294967295;
+/// vox_touch_event.pair of a pair that ended
+pub const VOX_NO_PAIR: u32 = 4294967295;
+/// most samples of a curve
+pub const VOX_COST_CURVE_CAPACITY: u32 = 64;
+/// most terms of a cost, in any model
+pub const VOX_COST_TERM_CAPACITY: u32 = 12;
+/// most entries of vox_suggestion.levels
+pub const VOX_CELL_SIZE_LEVEL_CAPACITY: u32 = 4;
+/// for vox_io_load_desc.mesh_index: joins all meshes of the scene
+pub const VOX_IO_ALL_MESHES: u32 = 4294967295;
+/// most coefficients of a fit
+pub const VOX_FIT_CAPACITY: u32 = 9;
+
+pub type vox_result = i32;
+pub const VOX_OK: vox_result = 0;
+/// a null pointer, an unknown enum, a bad number
+pub const VOX_ERROR_INVALID_ARGUMENT: vox_result = -1;
+/// a mesh id that is null, stale or from another grid
+pub const VOX_ERROR_INVALID_HANDLE: vox_result = -2;
+/// a tetrahedron names a vertex that does not exist
+pub const VOX_ERROR_INVALID_MESH: vox_result = -3;
+/// the call does not fit the state, e.g. no positions bound
+pub const VOX_ERROR_INVALID_STATE: vox_result = -4;
+/// a position is NaN or infinite
+pub const VOX_ERROR_NON_FINITE: vox_result = -5;
+/// a documented limit would be passed
+pub const VOX_ERROR_LIMIT: vox_result = -6;
+/// the grid's byte budget would be passed
+pub const VOX_ERROR_BUDGET: vox_result = -7;
+/// the allocator returned null
+pub const VOX_ERROR_OUT_OF_MEMORY: vox_result = -8;
+/// recognised, but not supported by this build or version
+pub const VOX_ERROR_UNSUPPORTED: vox_result = -9;
+/// a file cannot be opened, read or written
+pub const VOX_ERROR_FILE: vox_result = -10;
+/// a file is malformed
+pub const VOX_ERROR_FORMAT: vox_result = -11;
+/// a defect of the library: please report it
+pub const VOX_ERROR_INTERNAL: vox_result = -12;
+
+/// Severity of a log line.
+pub type vox_log_level = i32;
+pub const VOX_LOG_INFO: vox_log_level = 0;
+pub const VOX_LOG_WARNING: vox_log_level = 1;
+
+/// How the reference engine stores cells; the fast engine ignores it. Contacts do not depend on it.
+pub type vox_storage = i32;
+/// the engine's choice
+pub const VOX_STORAGE_AUTO: vox_storage = 0;
+/// unbounded space: cells hashed into a table of prime size
+pub const VOX_STORAGE_HASHED: vox_storage = 1;
+/// one list per cell of a box: linear id k*nx*ny + j*nx + i
+pub const VOX_STORAGE_DENSE: vox_storage = 2;
+
+/// Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
+/// cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
+pub type vox_hash = i32;
+/// a well-mixed 64-bit hash: the default
+pub const VOX_HASH_MIXED: vox_hash = 0;
+/// i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1)
+pub const VOX_HASH_PAPER: vox_hash = 1;
+
+/// Which algorithm runs. Contacts do not depend on it.
+pub type vox_engine = i32;
+/// fast, or reference if a storage is requested
+pub const VOX_ENGINE_AUTO: vox_engine = 0;
+/// the paper's algorithm as printed (Sect. 3)
+pub const VOX_ENGINE_REFERENCE: vox_engine = 1;
+/// tiles of tets against dense windows of cells, with SIMD
+pub const VOX_ENGINE_FAST: vox_engine = 2;
+
+pub type vox_grid_flags = u32;
+/// run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
+/// VOX_ERROR_LIMIT, unless its filter does without
+pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
+/// also report events of single vertices (vox_grid_contact_events)
+pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
+/// a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
+/// in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
+/// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the mesh is
+/// well again
+pub const VOX_GRID_SKIP_BAD_MESHES: vox_grid_flags = 4;
+
+pub type vox_format = i32;
+/// three IEEE 754 singles x, y, z
+pub const VOX_FORMAT_FLOAT3: vox_format = 0;
+/// three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38)
+pub const VOX_FORMAT_DOUBLE3: vox_format = 1;
+
+pub type vox_mesh_flags = u32;
+/// also report vertices of the mesh inside its own tetrahedra
+pub const VOX_MESH_SELF_COLLISION: vox_mesh_flags = 1;
+/// copy `positions` at insertion instead of borrowing them
+pub const VOX_MESH_COPY_POSITIONS: vox_mesh_flags = 2;
+/// borrow `tets` instead of copying them: 16 bytes less per tetrahedron
+pub const VOX_MESH_BORROW_TETS: vox_mesh_flags = 4;
+
+/// How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a
+/// vertex of mesh_a that has a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b
+/// consists of the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the
+/// method of Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means
+/// that depth is the distance from p to the closest point of mesh_b's surface, and direction points straight to it. For
+/// self-contact the surface is that of the fold that p has entered, never a triangle that has p as a corner.
+pub type vox_penetration_state = i32;
+/// edges lead from p out of mesh_b; mean over the points where they cross the surface
+pub const VOX_PENETRATION_SURFACE: vox_penetration_state = 0;
+/// all neighbours of p collide; mean over those closer to the surface
+pub const VOX_PENETRATION_PROPAGATED: vox_penetration_state = 1;
+/// closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges, as in meshes
+/// without tetrahedra
+pub const VOX_PENETRATION_ENCLOSED: vox_penetration_state = 2;
+/// the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth would not be
+/// positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
+/// case for all vertices that p is connected with. The nearest way out alone: of the edges, or by a neighbour. Closest
+/// only if no edge of any of these vertices leads out
+pub const VOX_PENETRATION_CROSSING: vox_penetration_state = 3;
+/// p lies on the surface; depth is 0, direction the surface's normal at p
+pub const VOX_PENETRATION_COINCIDENT: vox_penetration_state = 4;
+/// the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a facet of the
+/// contact's tetrahedron
+pub const VOX_PENETRATION_UNKNOWN: vox_penetration_state = 5;
+
+/// What an event reports: how the last successful step differs from the successful step before it.
+pub type vox_touch = i32;
+/// touches now, and did not before
+pub const VOX_TOUCH_BEGAN: vox_touch = 1;
+/// touches now, and did before
+pub const VOX_TOUCH_PERSISTED: vox_touch = 2;
+/// no longer touches, for whatever reason
+pub const VOX_TOUCH_ENDED: vox_touch = 3;
+
+/// Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero.
+pub type vox_reading_flags = u32;
+/// missing if the vertex or its mesh was removed after the step
+pub const VOX_READING_POSITION: vox_reading_flags = 1;
+/// missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its tetrahedra that
+/// contained the vertex were removed or disabled
+pub const VOX_READING_SURFACE: vox_reading_flags = 2;
+/// missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it out
+pub const VOX_READING_DEPTH: vox_reading_flags = 4;
+
+pub type vox_side = i32;
+/// the tetrahedron has no volume
+pub const VOX_SIDE_NONE: vox_side = 0;
+/// the segment goes into the tetrahedron
+pub const VOX_SIDE_ENTERS: vox_side = 1;
+pub const VOX_SIDE_LEAVES: vox_side = 2;
+
+pub type vox_cost_model = i32;
+/// the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits
+pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
+/// the reference engine, counted tet by tet; in nanoseconds of a step
+pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
+/// the fast engine with one cell size in all windows; in nanoseconds of a step
+pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
+
+/// How s, the size of a tetrahedron in Eq. 4, is measured.
+pub type vox_size_reading = i32;
+/// mean length of the unique edges; reproduces the paper's tables
+pub const VOX_SIZE_MEAN_EDGE: vox_size_reading = 0;
+/// mean over tets of the longest edge; as worded in Sect. 4.2
+pub const VOX_SIZE_MEAN_LONGEST_EDGE: vox_size_reading = 1;
+/// mean over tets of the longest side of the bounding box
+pub const VOX_SIZE_MEAN_BOX_SIDE: vox_size_reading = 2;
+
+/// How A, the facet area in Eqs. 5-7, is measured.
+pub type vox_area_reading = i32;
+/// mean over all facets, shared ones counted once; reproduces the paper's tables
+pub const VOX_AREA_UNIQUE_FACETS: vox_area_reading = 0;
+/// mean over the four facets of every tet
+pub const VOX_AREA_TET_FACETS: vox_area_reading = 1;
+/// mean over the facets of exactly one tet
+pub const VOX_AREA_BOUNDARY_FACETS: vox_area_reading = 2;
+
+pub type vox_io_format = i32;
+/// determined from the content or, failing that, from the name's extension
+pub const VOX_IO_FORMAT_AUTO: vox_io_format = 0;
+/// .msh 1, 2.2, 4.0, 4.1; ASCII and binary
+pub const VOX_IO_FORMAT_GMSH: vox_io_format = 1;
+/// .node with .ele
+pub const VOX_IO_FORMAT_TETGEN: vox_io_format = 2;
+/// .mesh, ASCII
+pub const VOX_IO_FORMAT_MEDIT: vox_io_format = 3;
+/// .veg
+pub const VOX_IO_FORMAT_VEGA: vox_io_format = 4;
+/// legacy .vtk, 2.0 to 5.1; ASCII and binary
+pub const VOX_IO_FORMAT_VTK: vox_io_format = 5;
+/// XML .vtu: ASCII, base64, appended; raw or zlib
+pub const VOX_IO_FORMAT_VTU: vox_io_format = 6;
+/// .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets
+pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
+/// Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it busy
+/// without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the default
+/// (docs/files.md), answers UNSUPPORTED.
+pub const VOX_IO_FORMAT_ASSIMP: vox_io_format = 8;
+
+pub type vox_io_solid_kind = i32;
+/// Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees.
+pub const VOX_IO_SOLID_STUFFED: vox_io_solid_kind = 0;
+/// Every lattice cube that the surface touches or encloses, uncut and split into five tets, so that the surface is
+/// inside. For rough or open surfaces that are to be carried along by the tets around them.
+pub const VOX_IO_SOLID_CUBES: vox_io_solid_kind = 1;
+
+pub type vox_io_write_format = i32;
+/// determined by the name's extension: .msh is MSH_41, .vtu is VTU
+pub const VOX_IO_WRITE_AUTO: vox_io_write_format = 0;
+/// Gmsh .msh 2.2
+pub const VOX_IO_WRITE_MSH_22: vox_io_write_format = 1;
+/// Gmsh .msh 4.1
+pub const VOX_IO_WRITE_MSH_41: vox_io_write_format = 2;
+/// VTK XML, for ParaView
+pub const VOX_IO_WRITE_VTU: vox_io_write_format = 3;
+
+pub type vox_sim_body_flags = u32;
+/// collides with itself too
+pub const VOX_SIM_BODY_SELF_COLLISION: vox_sim_body_flags = 1;
+/// never moves; others collide with it
+pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
+
+/// Identifies a mesh in its grid: slot and generation in one number. 0 is no mesh. The ids of a grid ascend in slot
+/// order, so a fresh grid orders meshes as they were inserted. The id of a removed mesh is never used again in that
+/// grid.
+pub type vox_mesh = u32;
+
+/// An open grid: a set of meshes and the settings they collide under.
+#[repr(C)]
+pub struct vox_grid {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// What vox_grid_take_query_view takes.
+#[repr(C)]
+pub struct vox_query_view {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// A mesh in memory. Immutable.
+#[repr(C)]
+pub struct vox_io_mesh {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// Bodies, and the grid they collide in.
+#[repr(C)]
+pub struct vox_sim {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// Time of detection against cell size, as in Sect. 5 of the paper. Two bodies are placed so that about 1 % of their
+/// tetrahedra are in contact; the response pushes them apart and deforms them; the detection of ten frames is timed.
+/// Contacts do not depend on the cell size, so the motion does not either. It is simulated once, when the experiment is
+/// created, and every sample detects the contacts of the same recorded frames. A complete experiment calls
+/// vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
+/// vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
+/// vox_fit_zone, vox_experiment_suggest and vox_zone_distance. `vox sweep` does exactly that.
+#[repr(C)]
+pub struct vox_experiment {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
+/// values of it.
+pub type vox_task = Option<unsafe extern "C" fn(begin: u64, end: u64, worker: u32, context: *mut c_void)>;
+
+/// Cost at a cell size. A result that is not a finite number counts as infinite cost. Called on the thread that calls
+/// vox_cost_minimise.
+pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
+
+/// Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null;
+/// `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called
+/// only from functions of the grid they were given to, one call at a time. During a step, the calling thread may be one
+/// that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called from
+/// vox_query_view_release, so it must be usable until then.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_allocator {
+    pub allocate: Option<unsafe extern "C" fn(size: usize, alignment: usize, user: *mut c_void) -> *mut c_void>,
+    pub release: Option<unsafe extern "C" fn(memory: *mut c_void, size: usize, alignment: usize, user: *mut c_void)>,
+    pub user: *mut c_void,
+}
+
+/// Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
+/// on the thread that called the library, and must not call the grid it came from.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_log {
+    pub write: Option<unsafe extern "C" fn(level: vox_log_level, text: *const c_char, user: *mut c_void)>,
+    pub user: *mut c_void,
+}
+
+/// The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least
+/// min_range items where possible, and arranges that `task` is called once for each range, now or later, on any thread.
+/// It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until they have.
+/// Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once by
+/// vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view. If not
+/// every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
+/// function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
+/// If both are null, the built-in scheduler is used.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_task_system {
+    pub enqueue: Option<unsafe extern "C" fn(task: vox_task, item_count: u64, min_range: u64, context: *mut c_void, user: *mut c_void) -> *mut c_void>,
+    pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
+    pub user: *mut c_void,
+}
+
+/// Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
+/// penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
+/// one.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_grid_desc {
+    pub struct_size: u32,
+    pub engine: vox_engine,
+    pub storage: vox_storage,
+    pub hash: vox_hash,
+    /// Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
+    /// model, at the first step, and again when the counts of its steps show that another size would be better (bodies
+    /// deform, come into contact, are inserted or removed). Every change is written to the log and counted in
+    /// cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would be expensive, it
+    /// uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the tetrahedra of a
+    /// range of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near
+    /// other bodies.
+    pub cell_size: f64,
+    /// World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border cell.
+    /// All zero (the default): the box of all positions, computed at every step.
+    pub world_min: [f64; 3],
+    pub world_max: [f64; 3],
+    /// Most bytes the grid may hold at any time. A call that would exceed it fails with VOX_ERROR_BUDGET. 0: no limit.
+    /// Default 4 GiB.
+    pub byte_budget: u64,
+    /// Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the first prime
+    /// that is at least twice the number of vertices.
+    pub hash_table_size: u64,
+    pub allocator: vox_allocator,
+    pub log: vox_log,
+    pub tasks: vox_task_system,
+    /// Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
+    /// per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do
+    /// not depend on it. The reference engine is always serial. A library built without oneTBB has no threads of its
+    /// own, so its built-in scheduler is serial, too.
+    pub worker_count: u32,
+    /// vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS
+    pub flags: u32,
+    /// Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
+    /// ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
+    /// penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
+    /// written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
+    /// stay UNKNOWN where they are. 0 (the default): no limit.
+    pub closest_budget: u64,
+}
+
+/// What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
+/// exist: the rule of vox_contact (every tetrahedron with the vertex in its interior, or else the lowest with it on the
+/// boundary) is applied to the remaining ones. No filter changes the order of contacts or allocates in the step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_filter {
+    pub struct_size: u32,
+    /// Two meshes with the same group other than 0 collide if it is positive, and do not if it is negative. All others
+    /// collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1,
+    /// all bits of the mask. For a mesh with itself, see self_collision.
+    pub group: i32,
+    /// With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the
+    /// mesh would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask
+    /// 0, no positive group) is allowed, and the first in a grid is written to the log as a warning.
+    pub category: u64,
+    pub mask: u64,
+    /// 1: vertices of the mesh inside its own tetrahedra are contacts; default 0
+    pub self_collision: u32,
+    /// Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
+    /// mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the vertex as a
+    /// corner. Takes memory for all vertices within this many edges of each vertex: about 60 bytes a vertex for 1, 260
+    /// for 2, 700 for 3.
+    pub self_rings: u32,
+    /// Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
+    /// (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
+    /// vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set.
+    pub self_rest_distance: f64,
+    /// Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have
+    /// them if each of the two accepts the other: its penetration_mask has a bit in common with the other's category,
+    /// or has all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh
+    /// with the mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a
+    /// tetrahedron.
+    pub penetration_mask: u64,
+}
+
+/// A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
+/// collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
+/// without a contact. The first such mesh that a grid gets is written to its log as a warning;
+/// vox_counters.meshes_without_tets counts them. Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v *
+/// position_byte_stride + c * position_component_byte_stride. Two layouts are possible: positions one after the other
+/// (x y z, x y z, ...), and columns (all x, all y, all z), as matrices of n rows and 3 columns are kept in Eigen,
+/// Julia, Fortran and Matlab.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_mesh_desc {
+    pub struct_size: u32,
+    /// vox_mesh_flags, combined with |
+    pub flags: u32,
+    /// vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
+    /// other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged.
+    pub positions: *const c_void,
+    /// from one position to the next; 0: tightly packed (columns: one number)
+    pub position_byte_stride: u64,
+    /// tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted. With that
+    /// flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is removed
+    /// or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra off,
+    /// replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed. A
+    /// grid made from a snapshot has its own copy.
+    pub tets: *const u32,
+    pub tet_count: u64,
+    pub vertex_count: u64,
+    /// any number of the caller's, returned by vox_mesh_user_data
+    pub user_data: u64,
+    pub position_format: vox_format,
+    /// 0
+    pub reserved: u32,
+    /// copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well
+    pub filter: *const vox_filter,
+    /// vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance.
+    pub rest_positions: *const c_void,
+    /// 0: tightly packed
+    pub rest_position_byte_stride: u64,
+    /// From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
+    /// between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
+    /// them n times the size of a number. Errors: INVALID_ARGUMENT (positions that would overlap).
+    pub position_component_byte_stride: u64,
+    /// the same for rest_positions
+    pub rest_position_component_byte_stride: u64,
+}
+
+/// Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
+/// last.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_vertices_desc {
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    pub count: u64,
+    /// For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
+    /// of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
+    /// For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
+    /// vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
+    /// copies_of, for a mesh with positions of its own.
+    pub positions: *const c_void,
+    /// 0: tightly packed
+    pub position_byte_stride: u64,
+    /// Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
+    /// the rest position of that vertex and, if `positions` is null, its position, too.
+    pub copies_of: *const u32,
+    /// For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. Null: those of
+    /// copies_of or, if that is null too, the present positions of the new vertices.
+    pub rest_positions: *const c_void,
+    /// 0: tightly packed
+    pub rest_position_byte_stride: u64,
+    /// As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number.
+    pub position_component_byte_stride: u64,
+    /// the same for rest_positions
+    pub rest_position_component_byte_stride: u64,
+}
+
+/// A mesh that made a step fail, or that a step left out.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_failure {
+    pub struct_size: u32,
+    /// NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no positions),
+    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
+    pub result: vox_result,
+    /// VOX_NULL_MESH if there is none
+    pub mesh: vox_mesh,
+    /// of the mesh, from 0
+    pub slot: u32,
+    /// of the mesh, as given at insertion
+    pub user_data: u64,
+    /// the first with such a coordinate; VOX_NO_VERTEX if the failure is about none
+    pub vertex: u32,
+    pub reserved: u32,
+    /// of that vertex, as it would collide: in double and transformed; else 0
+    pub position: [f64; 3],
+}
+
+/// Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it. This is decided
+/// exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every tetrahedron that
+/// has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
+/// boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
+/// tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_contact {
+    pub mesh_a: vox_mesh,
+    pub vertex: u32,
+    pub mesh_b: vox_mesh,
+    pub tet: u32,
+    pub barycentric: [f32; 4],
+}
+
+/// `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the next step,
+/// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_contact_view {
+    pub data: *const vox_contact,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
+/// tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a
+/// contact with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh,
+/// keeps the rule with this flag. Not part of vox_grid_hash. The data lives as long as that of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_interior_view {
+    pub data: *const u8,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
+/// direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges and
+/// neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has no
+/// surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
+/// tetrahedron. Does not depend on engine, cell size, workers or machine.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_penetration {
+    pub mesh_a: vox_mesh,
+    pub vertex: u32,
+    pub mesh_b: vox_mesh,
+    pub state: vox_penetration_state,
+    /// index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b)
+    pub contact: u64,
+    /// >= 0, in the caller's unit
+    pub depth: f32,
+    /// in the frame of the positions, out of mesh_b
+    pub direction: [f32; 3],
+}
+
+/// `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order,
+/// unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
+/// of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_penetration_view {
+    pub data: *const vox_penetration,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
+/// vox_penetration.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_depth {
+    pub depth: f64,
+    pub direction: [f64; 3],
+}
+
+/// `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_depth_view {
+    pub data: *const vox_depth,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a <= mesh_b; they are equal if
+/// a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]:
+/// first the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in
+/// tets of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_pair {
+    pub mesh_a: vox_mesh,
+    pub mesh_b: vox_mesh,
+    /// of mesh_a, as given at insertion
+    pub user_data_a: u64,
+    pub user_data_b: u64,
+    pub first: u64,
+    pub a_in_b: u64,
+    pub b_in_a: u64,
+}
+
+/// `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts` holds the index of every contact of
+/// vox_grid_contacts() once, pair by pair. Both live as long as the data of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_pair_view {
+    pub data: *const vox_pair,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+    pub contacts: *const u32,
+}
+
+/// An event of a pair of meshes, mesh_a <= mesh_b. A pair that began persists in every following step until it ends,
+/// which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
+/// `mesh_b` may be stale ids; the user data are those of the meshes that they named.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_touch_event {
+    pub mesh_a: vox_mesh,
+    pub mesh_b: vox_mesh,
+    pub user_data_a: u64,
+    pub user_data_b: u64,
+    pub kind: vox_touch,
+    /// index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended
+    pub pair: u32,
+}
+
+/// All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
+/// sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. These are the events of one
+/// step: a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
+/// total_touches_ended show the loss.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_touch_view {
+    pub data: *const vox_touch_event,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+    pub began: u64,
+    pub persisted: u64,
+    pub ended: u64,
+}
+
+/// Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
+/// of mesh_b to another is not an event.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_contact_event {
+    pub mesh_a: vox_mesh,
+    pub vertex: u32,
+    pub mesh_b: vox_mesh,
+    /// VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED
+    pub kind: vox_touch,
+}
+
+/// All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b). `data` lives until the
+/// next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
+/// vox_counters.total_contacts_began and total_contacts_ended.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_contact_event_view {
+    pub data: *const vox_contact_event,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+    pub began: u64,
+    pub ended: u64,
+}
+
+/// Geometry of one contact. All contacts of the same (mesh_a, vertex, mesh_b) have the same reading except for the
+/// first field. `triangle` is the triangle closest to the vertex on the surface of mesh_b, which consists of the facets
+/// of exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest;
+/// of several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact
+/// it belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
+/// No reading depends on engine, cell size, workers or machine.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_reading {
+    /// index of the contact in vox_grid_contacts
+    pub contact: u64,
+    /// vox_reading_flags, combined with |
+    pub known: u32,
+    /// DEPTH: state, depth and direction of the vertex's vox_penetration
+    pub state: vox_penetration_state,
+    pub depth: f32,
+    pub direction: [f32; 3],
+    /// POSITION: the vertex as it collides, in double and transformed
+    pub position: [f64; 3],
+    /// SURFACE (up to `triangle`): distance from the vertex to surface_position
+    pub distance: f64,
+    /// the closest point of `triangle`
+    pub surface_position: [f64; 3],
+    /// its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding
+    pub barycentric: [f64; 3],
+    /// A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
+    /// triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
+    pub normal: [f64; 3],
+    /// vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to
+    pub triangle: [u32; 3],
+    pub reserved: u32,
+    /// of mesh_a, as given at insertion
+    pub user_data_a: u64,
+    pub user_data_b: u64,
+}
+
+/// `count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the order of the
+/// contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
+/// prepared again or the next step, clear or destroy of the grid.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_reading_view {
+    pub data: *const vox_reading,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// What to read.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_readings_desc {
+    pub struct_size: u32,
+    /// vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as copying it.
+    /// The other fields of vox_reading, such as user data, are always set
+    pub what: u32,
+    /// VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies
+    pub mesh_a: vox_mesh,
+    /// VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it
+    pub mesh_b: vox_mesh,
+    /// Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
+    /// VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
+    pub closest_budget: u64,
+}
+
+/// Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
+/// vox_contact: every tetrahedron of a mesh that has the point in its interior, or else the lowest that has it on its
+/// boundary. `barycentric` is as in vox_contact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_point_hit {
+    pub point: u32,
+    pub mesh: vox_mesh,
+    pub tet: u32,
+    pub barycentric: [f32; 4],
+}
+
+/// Tetrahedron `tet` of `mesh`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_tet_hit {
+    pub mesh: vox_mesh,
+    pub tet: u32,
+}
+
+/// A point on facet `facet` of a tetrahedron, which is opposite corner `facet`. The facet's corners are facet 0:
+/// corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the tetrahedron, counter-clockwise as seen from outside if its
+/// volume is positive. The surface of a mesh consists of the facets of exactly one tetrahedron.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_surface_hit {
+    /// VOX_NULL_MESH if there is no such point; then all fields are zero
+    pub mesh: vox_mesh,
+    pub tet: u32,
+    pub facet: u32,
+    pub reserved: u32,
+    /// weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1
+    pub barycentric: [f64; 3],
+    pub position: [f64; 3],
+    pub distance: f64,
+}
+
+/// Points for vox_grid_query_closest_points, and the surfaces to search.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_closest_desc {
+    pub struct_size: u32,
+    pub format: vox_format,
+    /// point_count of them, read during the call; may be null if there are none
+    pub points: *const c_void,
+    /// from one point to the next; 0: tightly packed
+    pub byte_stride: u64,
+    /// at most 2^32 - 1
+    pub point_count: u64,
+    /// default UINT64_MAX: all meshes
+    pub mask: u64,
+    /// >= 0, in the caller's unit; default infinity
+    pub max_distance: f64,
+    /// default VOX_NULL_MESH: none
+    pub excluded: vox_mesh,
+    /// 0
+    pub reserved: u32,
+    /// as vox_mesh_desc.position_component_byte_stride; default 0
+    pub component_byte_stride: u64,
+}
+
+/// The closest point of a surface, as in vox_surface_hit, with a normal and a sign.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_closest_hit {
+    /// VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero
+    pub mesh: vox_mesh,
+    pub tet: u32,
+    pub facet: u32,
+    /// how many of the meshes that take part have the point in a closed tetrahedron; exact
+    pub inside: u32,
+    pub barycentric: [f64; 3],
+    pub position: [f64; 3],
+    /// A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
+    /// has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+    pub normal: [f64; 3],
+    /// from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron, which is
+    /// decided exactly
+    pub distance: f64,
+}
+
+/// What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a
+/// tetrahedron or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several
+/// at the same t it is the lowest (mesh, tet, facet).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_ray_hit {
+    /// mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero
+    pub mesh: vox_mesh,
+    pub tet: u32,
+    /// 0 if `from` is in the tetrahedron
+    pub t: f64,
+    /// The first facet of a surface (see vox_surface_hit). VOX_NULL_MESH if there is none, e.g. for a segment that ends
+    /// before it leaves a mesh. A segment in the plane of a facet does not hit it.
+    pub surface_mesh: vox_mesh,
+    pub surface_tet: u32,
+    pub surface_facet: u32,
+    pub surface_side: vox_side,
+    pub surface_t: f64,
+    pub surface_barycentric: [f64; 3],
+}
+
+/// A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_facet_hit {
+    pub mesh: vox_mesh,
+    pub tet: u32,
+    pub facet: u32,
+    pub side: vox_side,
+    pub t: f64,
+    /// weights of the facet's corners, as in vox_surface_hit
+    pub barycentric: [f64; 3],
+}
+
+/// What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
+/// over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
+/// `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
+/// engine those that had a vertex to test.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_counters {
+    pub struct_size: u32,
+    pub meshes: u32,
+    pub vertices: u64,
+    pub tets: u64,
+    /// occupied cells, summed over the cell sizes if there are several
+    pub cells: u64,
+    /// vertices in those cells
+    pub entries: u64,
+    /// most vertices in one cell
+    pub fullest_cell: u64,
+    /// cells visited for tetrahedra (the paper's objective voxels)
+    pub visited_cells: u64,
+    /// vertices found there
+    pub visited_entries: u64,
+    /// (vertex, tet) pairs that passed the box test: the narrow phase's input
+    pub candidates: u64,
+    /// orientations that needed exact arithmetic
+    pub exact_tests: u64,
+    pub contacts: u64,
+    pub skipped_degenerate: u64,
+    /// held by the grid now, without the caller's arrays
+    pub bytes: u64,
+    /// most bytes the grid ever held
+    pub peak_bytes: u64,
+    /// meshes that were not at rest (see vox_grid_step)
+    pub moved_meshes: u64,
+    /// part of `contacts` carried over from the step before, between meshes at rest
+    pub carried_contacts: u64,
+    pub penetrations: u64,
+    /// edges from a colliding vertex to one outside mesh_b
+    pub leaving_edges: u64,
+    /// tetrahedra visited along those edges
+    pub edge_tests: u64,
+    /// penetrations that needed the closest point of the surface
+    pub closest_searches: u64,
+    /// triangles whose closest point was computed for that
+    pub closest_tests: u64,
+    /// not included in `meshes` (see vox_mesh_set_enabled)
+    pub disabled_meshes: u64,
+    /// (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
+    pub filtered: u64,
+    /// how often the reference engine chose another cell size (see vox_grid_desc)
+    pub cell_size_changes: u64,
+    /// part of `penetrations` for which closest_budget left no search
+    pub unknown_penetrations: u64,
+    /// part of `penetrations` carried over with their contacts
+    pub carried_penetrations: u64,
+    /// left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes`
+    pub skipped_meshes: u64,
+    /// part of `meshes`: their vertices collide, their edges and faces do not
+    pub meshes_without_tets: u64,
+    /// Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each
+    /// step gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events.
+    pub total_touches_began: u64,
+    pub total_touches_ended: u64,
+    pub total_contacts_began: u64,
+    pub total_contacts_ended: u64,
+}
+
+/// Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+/// engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
+/// leaves the fields from stream_ns on 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_profile {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub step_ns: u64,
+    /// classify the vertices, recompute the boxes: stream + winding + windows
+    pub bin_ns: u64,
+    /// cells and box tests: broad_phase + lookup
+    pub broad_ns: u64,
+    /// exact decisions: decide
+    pub narrow_ns: u64,
+    /// canonical order, barycentric coordinates
+    pub contacts_ns: u64,
+    /// penetrations
+    pub depth_ns: u64,
+    /// touching pairs and events
+    pub events_ns: u64,
+    /// read all positions: boxes, and which meshes moved
+    pub stream_ns: u64,
+    /// rule out self-contacts by winding numbers; of the worker that took longest over them
+    pub winding_ns: u64,
+    /// regions in which meshes may be in contact
+    pub broad_phase_ns: u64,
+    /// bin the vertices that lie there
+    pub windows_ns: u64,
+    /// tetrahedra against these: box tests, and all that floats can decide
+    pub lookup_ns: u64,
+    /// decide the rest exactly; of the worker that took longest over it
+    pub decide_ns: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_suggest_desc {
+    pub struct_size: u32,
+    pub model: vox_cost_model,
+    pub size_reading: vox_size_reading,
+    pub area_reading: vox_area_reading,
+    /// probability that a tet has no collision, in (0, 1); default 0.99
+    pub p_nc: f64,
+    /// the paper's r: cost of a particle test divided by that of a cell visit, > 0; default 5
+    pub cost_ratio: f64,
+    /// edge of the cubic world, for cells_per_axis; 0: longest side of the bounds
+    pub world_edge: f64,
+    /// the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6], default 0.05
+    pub zone_loss: f64,
+    /// for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2
+    pub mean_edge_factor: f64,
+    /// for rules.resolution (McNeely et al. 1999): the required detail; 0: none
+    pub resolution: f64,
+    /// REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit
+    pub byte_budget: u64,
+    /// REFERENCE: as in vox_grid_desc, but AUTO means HASHED
+    pub storage: vox_storage,
+    /// 0
+    pub reserved: u32,
+    /// Where the memory of the call comes from, which it has released at its end; default: the C++ runtime's heap.
+    pub allocator: vox_allocator,
+}
+
+/// Geometry of all meshes together. Lengths, areas and volumes in the caller's unit. A tet that names a vertex twice
+/// adds no edges and facets, but counts in the means over tets.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_geometry_stats {
+    pub vertices: u64,
+    pub tets: u64,
+    /// unique
+    pub edges: u64,
+    /// unique triangles
+    pub facets: u64,
+    /// facets of exactly one tet
+    pub boundary_facets: u64,
+    /// of exactly zero volume
+    pub degenerate_tets: u64,
+    pub mean_edge: f64,
+    pub mean_longest_edge: f64,
+    pub mean_box_side: f64,
+    /// median over tets of the longest side of the bounding box
+    pub median_box_side: f64,
+    pub mean_facet_area: f64,
+    pub mean_tet_facet_area: f64,
+    pub mean_boundary_facet_area: f64,
+    /// mean over tets of |volume|
+    pub mean_volume: f64,
+    /// of the vertices that tets use; of all vertices for a mesh without tets
+    pub bounds_min: [f64; 3],
+    pub bounds_max: [f64; 3],
+}
+
+/// Cell sizes that other rules would choose; 0 where a rule does not apply.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cell_size_rules {
+    /// Teschner et al. 2003
+    pub mean_edge: f64,
+    /// Gregory et al. 2000: a constant times the mean edge
+    pub mean_edge_multiple: f64,
+    /// Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a volume
+    pub object_512: f64,
+    /// McNeely et al. 1999: the required resolution
+    pub resolution: f64,
+    /// cube root of the mean tet volume (tried and rejected in Sect. 5)
+    pub mean_volume: f64,
+    /// IPC Toolkit: median of the longest box sides
+    pub median_box_side: f64,
+}
+
+/// A point of a curve of costs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_sample {
+    pub cell_size: f64,
+    pub cost: f64,
+}
+
+/// One term of a cost: a piece of work, how often it is done, and what that costs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_share {
+    /// what is done, e.g. "visit a cell"; zero-terminated
+    pub name: [c_char; 24],
+    pub count: f64,
+    /// count times the weight
+    pub cost: f64,
+    /// fraction of the whole cost, 0 to 1
+    pub share: f64,
+}
+
+/// A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds of a step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_suggestion {
+    pub struct_size: u32,
+    pub model: vox_cost_model,
+    pub cell_size: f64,
+    /// world edge / cell size, as the paper counts
+    pub cells_per_axis: f64,
+    /// smallest and largest cell size of the zone
+    pub zone_min: f64,
+    pub zone_max: f64,
+    /// at cell_size
+    pub predicted_cost: f64,
+    pub rules: vox_cell_size_rules,
+    pub stats: vox_geometry_stats,
+    /// ascending in cell_size, evenly spaced in its logarithm
+    pub curve: [vox_cost_sample; 64],
+    pub curve_count: u32,
+    pub term_count: u32,
+    /// at cell_size; their costs add up to predicted_cost
+    pub terms: [vox_cost_share; 12],
+    /// predicted cost at the cell size of each rule; 0 if the rule does not apply
+    pub rule_costs: vox_cell_size_rules,
+    /// smallest cell size within the byte budget; 0: the budget does not limit it
+    pub budget_cell_size: f64,
+    /// REFERENCE: the loss of using one cell size for tetrahedra of all sizes. It is predicted_cost divided by the
+    /// predicted cost of a few grids, each with the cell size that is best for its share of the tetrahedra, minus 1.
+    /// About 0 if one size is as good as several, and for the other models. A vox_grid with cell_size 0 uses several
+    /// sizes if there are several `levels`.
+    pub uniform_loss: f64,
+    /// level_count cell sizes, that of the smallest tets first
+    pub levels: [f64; 4],
+    pub level_count: u32,
+    pub reserved: u32,
+}
+
+/// A cost at one cell size, term by term.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_prediction {
+    pub struct_size: u32,
+    pub term_count: u32,
+    pub cell_size: f64,
+    pub cost: f64,
+    pub terms: [vox_cost_share; 12],
+}
+
+/// The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
+/// above 0, which may be saved and loaded.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_weights {
+    pub struct_size: u32,
+    /// 1: on the machine they are for; 0: shipped with the library
+    pub measured: u32,
+    pub reference_classify_vertex: f64,
+    /// its box
+    pub reference_prepare_tet: f64,
+    /// whose list is as long as the one before
+    pub reference_visit_cell: f64,
+    /// an occupied one, gone through instead of a box that meets more cells
+    pub reference_scan_cell: f64,
+    pub reference_read_vertex: f64,
+    pub reference_test_box: f64,
+    /// or its own corner, which is in the box as well
+    pub reference_test_tet: f64,
+    pub reference_clear_bucket: f64,
+    pub fast_bin_vertex: f64,
+    pub fast_clear_cell: f64,
+    /// for one window
+    pub fast_visit_tile: f64,
+    pub fast_visit_row: f64,
+    pub fast_read_vertex: f64,
+    /// one in a tile's box, against its tets
+    pub fast_test_vertex: f64,
+    /// in a visited cell, of another length than the one before
+    pub reference_changed_list: f64,
+    /// passed over, and not read just before
+    pub reference_fetch_vertex: f64,
+}
+
+/// coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_term {
+    pub coefficient: f64,
+    pub power: f64,
+}
+
+/// Cell sizes to choose from, and how wide the zone is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_bounds {
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// 0 < min <= max, finite
+    pub min: f64,
+    pub max: f64,
+    /// as vox_suggest_desc.zone_loss; default 0.05
+    pub zone_loss: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_minimum {
+    pub struct_size: u32,
+    pub curve_count: u32,
+    pub cell_size: f64,
+    pub cost: f64,
+    /// the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the least
+    pub zone_min: f64,
+    pub zone_max: f64,
+    /// over the bounds, evenly spaced in the logarithm
+    pub curve: [vox_cost_sample; 64],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_load_desc {
+    pub struct_size: u32,
+    pub format: vox_io_format,
+    /// Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join them.
+    pub mesh_index: u32,
+    /// 0
+    pub reserved: u32,
+    /// Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
+    /// reading needs besides is taken from that heap and released at the end of the call.
+    pub allocator: vox_allocator,
+}
+
+/// One file in memory. `name` supplies the extension and appears in error texts; may be null.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_source {
+    pub name: *const c_char,
+    pub data: *const c_void,
+    pub size: usize,
+}
+
+/// Arrays of a mesh; they live until vox_io_mesh_destroy. Indices count from 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_mesh_view {
+    /// 3 * vertex_count
+    pub positions: *const f64,
+    pub vertex_count: u64,
+    /// 4 * tet_count, corners in the file's order
+    pub tets: *const u32,
+    pub tet_count: u64,
+    /// 3 * triangle_count; the triangles of the file
+    pub triangles: *const u32,
+    pub triangle_count: u64,
+}
+
+/// What was read, what was left out, and what is odd about the mesh. A "surface" is a mesh without tets.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_io_report {
+    pub struct_size: u32,
+    /// AUTO for a mesh that was not read from a file
+    pub format: vox_io_format,
+    pub vertices: u64,
+    pub tets: u64,
+    pub triangles: u64,
+    /// elements of the file that are neither tet nor triangle
+    pub skipped_elements: u64,
+    /// tets of ten or more nodes, of which only the corners were used
+    pub second_order_tets: u64,
+    /// of negative volume, decided exactly
+    pub inverted_tets: u64,
+    /// of exactly zero volume
+    pub degenerate_tets: u64,
+    /// six times the volume below 1e-9 times the longest edge cubed, but not zero
+    pub nearly_flat_tets: u64,
+    /// the same four vertices as an earlier tet
+    pub duplicate_tets: u64,
+    /// triangles that name a vertex twice
+    pub degenerate_triangles: u64,
+    /// vertices at the position of an earlier one
+    pub duplicate_vertices: u64,
+    /// in no tet and no triangle
+    pub unused_vertices: u64,
+    /// facets of exactly one tet; for a surface: its triangles
+    pub boundary_facets: u64,
+    /// facets of more than two tets; for a surface: edges of more than two triangles
+    pub non_manifold_facets: u64,
+    /// for a surface: edges of exactly one triangle; 0 when it is closed
+    pub open_edges: u64,
+    /// for a surface: edges that two triangles run through in the same direction
+    pub misoriented_edges: u64,
+    /// parts connected by shared vertices; unused vertices are not counted
+    pub components: u64,
+    /// sum of the tets' volumes, inverted ones counted as positive; for a closed surface the enclosed volume, negative
+    /// if it is inside out; otherwise 0
+    pub volume: f64,
+    /// bounding box of the vertices in use, or of all vertices if none is in use
+    pub bounds_min: [f64; 3],
+    pub bounds_max: [f64; 3],
+    /// length of the file's unit; 0 if the file does not state it
+    pub unit_in_metres: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_tetrahedralize_desc {
+    pub struct_size: u32,
+    pub kind: vox_io_solid_kind,
+    /// edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side
+    pub cell: f64,
+    /// more tets fail with LIMIT; default 100000000
+    pub max_tets: u64,
+    /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_measure_quality. Cells at the boundary
+    /// are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
+    /// 0 (the default): cells are not halved, and no distance is guaranteed.
+    pub max_distance: f64,
+    /// STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the default): all tets
+    /// have the same size. The boundary does not change.
+    pub coarsen: u32,
+    /// 0
+    pub reserved: u32,
+    /// Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1. A result
+    /// other than 0 cancels. May be null.
+    pub progress: Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>,
+    pub progress_user: *mut c_void,
+    /// as vox_io_load_desc.allocator
+    pub allocator: vox_allocator,
+}
+
+/// How good a tet mesh is, and how close its boundary is to a surface.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_io_quality {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub vertices: u64,
+    pub tets: u64,
+    pub boundary_facets: u64,
+    /// smallest and largest angle between two facets of a tet, in degrees; 0 without tets
+    pub min_dihedral: f64,
+    pub max_dihedral: f64,
+    /// sum of the signed tet volumes
+    pub volume: f64,
+    /// volume enclosed by the surface, signed by its orientation; 0 without a surface
+    pub surface_volume: f64,
+    /// Largest distance from sample points on the mesh's boundary to the surface, and the reverse. Samples are at most
+    /// half a mean boundary edge apart on every triangle and include its corners; their distances are exact. 0 without
+    /// a surface.
+    pub mesh_to_surface: f64,
+    pub surface_to_mesh: f64,
+    /// the larger of the two
+    pub hausdorff: f64,
+}
+
+/// Numbers attached to the vertices or cells, e.g. contacts or penetration depths. Cells are the triangles, then the
+/// tets.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_point_data {
+    /// not empty, without control characters and double quotes
+    pub name: *const c_char,
+    /// components * the number of vertices, or of cells; finite
+    pub values: *const f64,
+    /// 1 (scalars), 3 (vectors) or 9 (tensors)
+    pub components: u32,
+    /// 0
+    pub reserved: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_write_desc {
+    pub struct_size: u32,
+    pub format: vox_io_write_format,
+    /// 0: text, from which the same doubles are read back; 1: binary, in this machine's byte order
+    pub binary: u32,
+    /// 0
+    pub reserved: u32,
+    /// point_data_count of them; read during the call
+    pub point_data: *const vox_io_point_data,
+    pub point_data_count: u64,
+    /// cell_data_count of them, with values for each cell
+    pub cell_data: *const vox_io_point_data,
+    pub cell_data_count: u64,
+}
+
+/// Receives `size` bytes of a file, in order, on the thread that writes. Returns 0 on success; any other value stops
+/// the writing.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_io_sink {
+    pub write: Option<unsafe extern "C" fn(data: *const c_void, size: usize, user: *mut c_void) -> i32>,
+    pub user: *mut c_void,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_sim_desc {
+    pub struct_size: u32,
+    /// Substeps of a step, 1 to 10000; default 10. The stiffness that can be simulated grows with the square of this
+    /// number and of the edge lengths; greater stiffness is reduced to it, with a log line.
+    pub substeps: u32,
+    /// Contacts are detected before the first substep of a step and after every `detect_every` substeps of it. 1 (the
+    /// default): in every substep; the number of substeps or more: once a step; 0: never, so that bodies pass through
+    /// each other.
+    pub detect_every: u32,
+    /// 0
+    pub reserved: u32,
+    /// acceleration; default 0, 0, -9.81
+    pub gravity: [f64; 3],
+    /// a longer step is clamped to this, with a log line; 1e-12 to 1e12, default 1/30
+    pub max_time_step: f64,
+    /// The floor keeps particles where floor_normal . x >= floor_offset. The default is normal 0, 0, 1 and offset 0.
+    /// The normal is scaled to unit length, and floor_offset applies to that. All zero: no floor.
+    pub floor_normal: [f64; 3],
+    pub floor_offset: f64,
+    /// Coulomb's coefficient, between bodies and with the floor; >= 0, default 0.5
+    pub friction: f64,
+    /// A penetrating vertex is pushed out by a force of depth / contact_compliance along the direction of the depth
+    /// stage, integrated implicitly, so that any stiffness is stable. >= 0; 0 (the default): the greatest stiffness
+    /// that a substep can handle.
+    pub contact_compliance: f64,
+    /// greatest speed at which earlier penetrations are undone, >= 0; default 1. It does not add to the velocities of
+    /// the bodies
+    pub max_push_speed: f64,
+    /// penetration depth that is tolerated, so that resting contacts persist. Negative (the default is -1): a hundredth
+    /// of the mean rest edge of the two bodies
+    pub contact_slop: f64,
+    /// settings of the grid inside, read during create; null: defaults
+    pub grid: *const vox_grid_desc,
+    /// log of the simulation; the grid has one of its own in its desc
+    pub log: vox_log,
+    /// Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
+    /// from functions of the simulation and its grid, one call at a time. Default: the C++ runtime's heap.
+    pub allocator: vox_allocator,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_sim_body_desc {
+    pub struct_size: u32,
+    /// vox_sim_body_flags, combined with |
+    pub flags: u32,
+    /// 3 * vertex_count; within 1e15 of the origin on each axis
+    pub positions: *const f64,
+    /// the undeformed shape; null (the default): `positions`
+    pub rest_positions: *const f64,
+    /// 3 * vertex_count; null (the default): at rest
+    pub velocities: *const f64,
+    /// 4 * tet_count; both windings are accepted
+    pub tets: *const u32,
+    pub vertex_count: u64,
+    /// at least 1
+    pub tet_count: u64,
+    /// mass per rest volume, > 0; default 1000. Lumped to the vertices. No vertex gets less than a hundredth of their
+    /// mean mass; a vertex in no tet gets the mean
+    pub density: f64,
+    /// Resistance to stretching. The edges are springs with the stiffness that gives a material of this Young's modulus
+    /// if the edges run evenly in all directions. >= 0, default 1e6.
+    pub youngs_modulus: f64,
+    /// resistance to change of volume, beyond that of the edges; >= 0, default 1e6
+    pub bulk_modulus: f64,
+    /// a time: edges resist the rate of their strain with damping times their stiffness; >= 0, default 0.01
+    pub damping: f64,
+    /// returned by vox_mesh_user_data on the sim's grid
+    pub user_data: u64,
+}
+
+/// Arrays of a body with its state after the last step. Until the body is removed, the pointers stay the same and every
+/// step updates the contents.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_sim_body_view {
+    /// 3 * vertex_count
+    pub positions: *const f64,
+    /// 3 * vertex_count
+    pub velocities: *const f64,
+    /// vertex_count
+    pub masses: *const f64,
+    /// 3 * vertex_count; `positions` rounded to float, which the grid borrows
+    pub grid_positions: *const f32,
+    /// 4 * tet_count
+    pub tets: *const u32,
+    pub vertex_count: u64,
+    pub tet_count: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_sim_energies {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub kinetic: f64,
+    /// energy in gravity, 0 at the origin
+    pub potential: f64,
+    /// energy of edges and volumes
+    pub elastic: f64,
+    pub mass: f64,
+    pub momentum: [f64; 3],
+    /// centre of mass
+    pub centre: [f64; 3],
+    /// speed of the fastest particle
+    pub max_speed: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_sim_counts {
+    pub struct_size: u32,
+    pub bodies: u32,
+    pub vertices: u64,
+    pub tets: u64,
+    /// edge constraints
+    pub edges: u64,
+    /// volume constraints
+    pub volumes: u64,
+    /// tets of zero rest volume
+    pub flat_tets: u64,
+    /// tets of negative rest volume
+    pub inverted_tets: u64,
+    /// vertices that would have been lighter than a hundredth of the body's mean
+    pub raised_masses: u64,
+    /// constraints that were softened, as the last step's substeps cannot handle their stiffness
+    pub softened: u64,
+    /// total since the creation, like the next three
+    pub steps: u64,
+    pub substeps: u64,
+    pub detections: u64,
+    /// steps that were clamped to max_time_step
+    pub clamped_steps: u64,
+    /// penetrations of the last detection
+    pub penetrations: u64,
+    /// particles that the floor held in the last substep
+    pub floor_contacts: u64,
+    /// nanoseconds of the last step
+    pub step_ns: u64,
+    /// its part in vox_grid_step
+    pub detect_ns: u64,
+    /// the rest of it
+    pub solve_ns: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_experiment_desc {
+    pub struct_size: u32,
+    /// detections in a sample, 1 to 1000; default 10
+    pub frames: u32,
+    /// keeps its place
+    pub a: *const vox_sim_body_desc,
+    /// is moved until it touches a; null (the default): a copy of a
+    pub b: *const vox_sim_body_desc,
+    /// settings of the motion; null (the default): vox_sim's defaults, without a floor
+    pub sim: *const vox_sim_desc,
+    /// settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
+    /// reference engine
+    pub grid: *const vox_grid_desc,
+    /// direction from a to b. The centre of b moves along this line through the centre of a (centres of the bounding
+    /// boxes); default 1, 0, 0
+    pub axis: [f64; 3],
+    /// required share of all tets that contain a vertex of the other body, as the mean over the frames, in (0, 1);
+    /// default 0.01
+    pub contact_share: f64,
+    /// duration of a frame, > 0; default 1/100
+    pub time_step: f64,
+    /// 1 (the default): both bodies are first rotated about their centres by fixed angles, which differ, so that bodies
+    /// cut from a lattice align neither with the cells nor with each other; 0: they are not rotated
+    pub turn: u32,
+    /// 0
+    pub reserved: u32,
+}
+
+/// Placement and motion of the two bodies.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_experiment_facts {
+    pub struct_size: u32,
+    pub frames: u32,
+    /// of both bodies together
+    pub vertices: u64,
+    /// of both bodies together
+    pub tets: u64,
+    /// sum over all frames
+    pub contacts: u64,
+    /// combines vox_grid_hash of all frames; the same for every cell size and engine
+    pub hash: u64,
+    /// initial distance of the centres, along the axis
+    pub distance: f64,
+    /// mean over the frames of the share of tets in contact
+    pub mean_share: f64,
+    /// that share in each of the `frames` frames; lives until vox_experiment_destroy
+    pub shares: *const f64,
+    /// bounding box of all vertices in all frames
+    pub bounds_min: [f64; 3],
+    pub bounds_max: [f64; 3],
+}
+
+/// One sample: the detection of all frames at one cell size. The counts are sums over the frames.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_experiment_sample {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub cell_size: f64,
+    /// mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth), without the
+    /// motion. Of a grid with one worker, the processor time of the calling thread, which a busy machine lengthens much
+    /// less; of several, the time that passes
+    pub mean_ns: f64,
+    pub contacts: u64,
+    pub visited_cells: u64,
+    pub visited_entries: u64,
+    pub candidates: u64,
+}
+
+/// A polynomial fitted to the logarithms of times: ln(time) = sum of coefficients[k] * u^k for k = 0 to degree, where u
+/// goes from -1 at range_min to 1 at range_max and is linear in ln(cell size).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_time_fit {
+    pub struct_size: u32,
+    /// 2 to VOX_FIT_CAPACITY - 1, the one with the least prediction_error
+    pub degree: u32,
+    /// smallest and largest cell size
+    pub range_min: f64,
+    pub range_max: f64,
+    pub coefficients: [f64; 9],
+    /// share of the variance of ln(time) that is explained
+    pub r_squared: f64,
+    /// root mean square error of predicting each point from a fit to all others, in ln(time), so roughly a relative
+    /// error
+    pub prediction_error: f64,
+    /// cell size of the least fitted time
+    pub cell_size: f64,
+    /// that time, in the unit of the times given
+    pub time: f64,
+    /// 1: cell_size is inside the range; 0: it is at one end, so the best may be beyond it
+    pub bracketed: u32,
+    pub reserved: u32,
+}
+
+extern "C" {
+    /// Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread.
+    pub fn vox_result_string(result: vox_result) -> *const c_char;
+    /// The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
+    /// It lives until the thread's next failing call. Successful calls leave it alone. Never null.
+    pub fn vox_last_error() -> *const c_char;
+    /// Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that libraries
+    /// built on vox (vox_io among them) can report failures the same way. A null text counts as "". Cannot fail itself.
+    pub fn vox_fail(result: vox_result, text: *const c_char) -> vox_result;
+    /// Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail.
+    pub fn vox_version() -> u32;
+    /// The same as "major.minor.patch". Static text. Cannot fail.
+    pub fn vox_version_string() -> *const c_char;
+    /// Compiler, language level, instruction sets and options of this build, in one line. Static text. Cannot fail.
+    pub fn vox_build_info() -> *const c_char;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers. Errors: INVALID_ARGUMENT when desc is
+    /// null or struct_size is not in [4, 65536].
+    pub fn vox_grid_desc_init(desc: *mut vox_grid_desc, struct_size: u32) -> vox_result;
+    /// Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
+    /// Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET.
+    pub fn vox_grid_create(desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
+    /// Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views,
+    /// which live on with their memory until they are released. Null does nothing.
+    pub fn vox_grid_destroy(grid: *mut vox_grid);
+    /// Removes all meshes and contacts and keeps the settings. Old mesh ids become stale.
+    pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
+    /// Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in
+    /// advance; never releases any. A contact takes 85 bytes, with VOX_GRID_PENETRATIONS 76 more and with
+    /// VOX_GRID_CONTACT_EVENTS 56 more; its penetration takes up to 160 more in the step that finds it. Contacts stay,
+    /// but views of them end. Errors: LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_reserve(grid: *mut vox_grid, mesh_count: u32, contact_count: u64) -> vox_result;
+    /// Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts. Errors:
+    /// INVALID_ARGUMENT when negative, infinite or NaN.
+    pub fn vox_grid_set_cell_size(grid: *mut vox_grid, cell_size: f64) -> vox_result;
+    /// The cell size in use: the one set, or the one chosen for the last step. If several were chosen, it is that of
+    /// the smallest tetrahedra (reference engine) or of the last body that needed one (fast engine); if none was chosen
+    /// yet, it is 0.
+    pub fn vox_grid_cell_size(grid: *const vox_grid, out_cell_size: *mut f64) -> vox_result;
+    /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and for
+    /// 0 if the grid has a task system of the caller's.
+    pub fn vox_grid_set_worker_count(grid: *mut vox_grid, worker_count: u32) -> vox_result;
+    /// Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of
+    /// the last step's results end. VOX_GRID_PENETRATIONS switched on prepares all meshes at once, as their insertion
+    /// would have done, in time and memory proportional to them; vox_grid_penetrations is empty until the next step.
+    /// Switched off, it releases all that memory. VOX_GRID_CONTACT_EVENTS switched on lets the next step report each
+    /// vertex in contact as one that began, as a first step does. Switched off, it releases the memory of these events.
+    /// Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were.
+    pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
+    /// The flags in use.
+    pub fn vox_grid_get_flags(grid: *const vox_grid, out_flags: *mut u32) -> vox_result;
+    /// Fills `filter` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_filter_init(filter: *mut vox_filter, struct_size: u32) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_mesh_desc_init(desc: *mut vox_mesh_desc, struct_size: u32) -> vox_result;
+    /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT3 that can only be
+    /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
+    /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
+    /// they are copied, else when a step, suggestion or query reads them first. Errors: INVALID_ARGUMENT, INVALID_MESH
+    /// ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_mesh_insert(grid: *mut vox_grid, desc: *const vox_mesh_desc, out_mesh: *mut vox_mesh) -> vox_result;
+    /// Removes a mesh. The contacts of the last step stay as they are until the next one.
+    pub fn vox_mesh_remove(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
+    /// 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail.
+    pub fn vox_mesh_is_valid(grid: *const vox_grid, mesh: vox_mesh) -> u32;
+    /// The user_data the mesh was inserted with.
+    pub fn vox_mesh_user_data(grid: *const vox_grid, mesh: vox_mesh, out_user_data: *mut u64) -> vox_result;
+    /// Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule of
+    /// vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory between steps
+    /// need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small.
+    pub fn vox_mesh_bind_positions(grid: *mut vox_grid, mesh: vox_mesh, positions: *const c_void, format: vox_format, byte_stride: u64) -> vox_result;
+    /// The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns.
+    pub fn vox_mesh_bind_strided_positions(grid: *mut vox_grid, mesh: vox_mesh, positions: *const c_void, format: vox_format, byte_stride: u64, component_byte_stride: u64) -> vox_result;
+    /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
+    /// it serves to measure steps over positions that stay the same.
+    pub fn vox_mesh_mark_moved(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
+    /// Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision,
+    /// which replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need
+    /// if their mask was 0 before, are built in the call, in time and memory proportional to the mesh. Errors:
+    /// INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
+    /// without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_mesh_set_filter(grid: *mut vox_grid, mesh: vox_mesh, filter: *const vox_filter) -> vox_result;
+    /// Writes the fields of the filter in use that out_filter->struct_size covers (set it first).
+    pub fn vox_mesh_filter(grid: *const vox_grid, mesh: vox_mesh, out_filter: *mut vox_filter) -> vox_result;
+    /// Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
+    /// enables it again (1, as at insertion). Its contacts of the last step stay until the next one. Errors:
+    /// INVALID_ARGUMENT for other numbers.
+    pub fn vox_mesh_set_enabled(grid: *mut vox_grid, mesh: vox_mesh, enabled: u32) -> vox_result;
+    /// With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
+    /// filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
+    /// mesh_a = mesh_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_set_pair_enabled(grid: *mut vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, enabled: u32) -> vox_result;
+    /// Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the
+    /// format it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it
+    /// has none. From the next step on, the mesh uses what the caller has written there between steps. Calling it again
+    /// returns the same array. The array belongs to the library and lives until the mesh is removed or bound, or the
+    /// grid is cleared or destroyed. It is null for a mesh without vertices. For a mesh inserted with
+    /// VOX_MESH_COPY_POSITIONS it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
+    pub fn vox_mesh_map_positions(grid: *mut vox_grid, mesh: vox_mesh, out_positions: *mut *mut c_void, out_byte_stride: *mut u64) -> vox_result;
+    /// Moves a mesh as a whole. In the following steps a vertex has the position x' = ((m[0] * x + m[1] * y) + m[2] *
+    /// z) + m[3], y' likewise from m[4..7], z' from m[8..11], computed in double, in this order, each operation
+    /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE3. If
+    /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
+    /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
+    /// INVALID_ARGUMENT (an element that is not finite).
+    pub fn vox_mesh_set_transform(grid: *mut vox_grid, mesh: vox_mesh, matrix: *const [f64; 12]) -> vox_result;
+    /// Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
+    /// data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data,
+    /// filter and the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its
+    /// positions and its rest pose if the number of vertices is unchanged; otherwise it has no positions until
+    /// vox_mesh_bind_positions. The rest pose of a filter with a rest distance is taken from desc as at insertion.
+    /// Errors: also INVALID_STATE and NON_FINITE, as vox_mesh_set_filter.
+    pub fn vox_mesh_set_topology(grid: *mut vox_grid, mesh: vox_mesh, desc: *const vox_mesh_desc) -> vox_result;
+    /// Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges
+    /// and facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
+    /// Errors: INVALID_ARGUMENT for other numbers.
+    pub fn vox_mesh_set_tets_enabled(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64, enabled: u32) -> vox_result;
+    /// Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If
+    /// an index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open,
+    /// append copies of the vertices on the cut and let the tetrahedra of one side use those.
+    pub fn vox_mesh_replace_tets(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64, corners: *const u32) -> vox_result;
+    /// Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
+    /// following indices.
+    pub fn vox_mesh_append_tets(grid: *mut vox_grid, mesh: vox_mesh, corners: *const u32, count: u64, out_first: *mut u32) -> vox_result;
+    /// Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices.
+    pub fn vox_mesh_remove_tets(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.
+    pub fn vox_vertices_desc_init(desc: *mut vox_vertices_desc, struct_size: u32) -> vox_result;
+    /// Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
+    /// following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for
+    /// it), NON_FINITE (a position of the rest pose).
+    pub fn vox_mesh_append_vertices(grid: *mut vox_grid, mesh: vox_mesh, desc: *const vox_vertices_desc, out_first: *mut u32) -> vox_result;
+    /// Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more
+    /// contacts, and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is
+    /// best to leave them as they are.
+    pub fn vox_mesh_remove_vertices(grid: *mut vox_grid, mesh: vox_mesh, vertices: *const u32, count: u64) -> vox_result;
+    /// Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on failure
+    /// they are gone and the grid stays usable. A mesh is at rest if its positions are bit for bit those of the last
+    /// step; the fast engine keeps a copy to compare. Contacts between meshes at rest, and of a mesh at rest with
+    /// itself, are carried over from the last step with their penetrations, so such meshes cost little more than
+    /// reading their positions. (When a moving mesh comes to rest, it is processed in one more step, in which the copy
+    /// is made.) A step after a failed one, or after a change of a setting, processes all meshes. In the steady state
+    /// (same meshes, no more work than before) it allocates nothing, with any number of workers. The memory of the
+    /// built-in scheduler belongs to oneTBB and is not counted. Errors: INVALID_STATE (a mesh has no positions),
+    /// NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_ARGUMENT (doubles under
+    /// VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does vox_grid_failure. LIMIT (more than
+    /// VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
+    /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
+    /// index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for
+    /// another reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The
+    /// mesh may have been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size).
+    pub fn vox_grid_failure(grid: *const vox_grid, index: u32, out_failure: *mut vox_failure) -> vox_result;
+    /// The contacts of the last step; count 0 before the first, after a failed one and after a clear.
+    pub fn vox_grid_contacts(grid: *const vox_grid, out_view: *mut vox_contact_view) -> vox_result;
+    /// Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a
+    /// clear.
+    pub fn vox_grid_contact_interiors(grid: *const vox_grid, out_view: *mut vox_interior_view) -> vox_result;
+    /// Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while
+    /// its epoch equals it.
+    pub fn vox_grid_epoch(grid: *const vox_grid, out_epoch: *mut u64) -> vox_result;
+    /// A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine.
+    pub fn vox_grid_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
+    /// The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one
+    /// and after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS.
+    pub fn vox_grid_penetrations(grid: *const vox_grid, out_view: *mut vox_penetration_view) -> vox_result;
+    /// The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations.
+    pub fn vox_grid_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
+    /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
+    pub fn vox_grid_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
+    /// Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair by pair, in
+    /// the order of vox_grid_pairs. *out_count is how many there are, which may be more than were copied. `contacts`
+    /// may be null if capacity is 0. The mesh may have been disabled since the step, but not removed. Errors:
+    /// INVALID_ARGUMENT, INVALID_HANDLE.
+    pub fn vox_mesh_copy_contacts(grid: *const vox_grid, mesh: vox_mesh, contacts: *mut vox_contact, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// The same for the contacts between two meshes, given in either order, or of one mesh with itself (mesh_a =
+    /// mesh_b): the contacts of their vox_pair.
+    pub fn vox_pair_copy_contacts(grid: *const vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, contacts: *mut vox_contact, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// What the last step changed; count 0 before the first one. A failed step has no events, and none are lost: the
+    /// next step is compared with the last successful one. Removing meshes and clearing the grid give no events at
+    /// once; the next step ends their pairs. Destroying the grid ends them without events.
+    pub fn vox_grid_touch_events(grid: *const vox_grid, out_view: *mut vox_touch_view) -> vox_result;
+    /// The same for single vertices, under the same rules. Errors: INVALID_STATE for a grid without
+    /// VOX_GRID_CONTACT_EVENTS.
+    pub fn vox_grid_contact_events(grid: *const vox_grid, out_view: *mut vox_contact_event_view) -> vox_result;
+    /// Computes the readings of the last step's contacts from the meshes as they are now, so borrowed positions must
+    /// still be those of the step. vox_reading.known shows what is missing because it was removed or changed since. May
+    /// be called repeatedly; each call replaces what was prepared before. Takes time proportional to the contacts and,
+    /// for VOX_READING_SURFACE, to the vertices and surfaces of the meshes that the vertices are in. The memory for
+    /// contacts and triangles is kept until the grid is destroyed, so a call that needs no more of it than an earlier
+    /// one allocates nothing. Enqueues at most one task. Errors: NON_FINITE and LIMIT (positions that changed since the
+    /// step, where they are read, or a mesh of more tetrahedra than VOX_GRID_PENETRATIONS allows), BUDGET,
+    /// OUT_OF_MEMORY; after these the earlier readings stay. INVALID_ARGUMENT (see vox_task_system); after that there
+    /// are none.
+    pub fn vox_grid_prepare_readings(grid: *mut vox_grid) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_readings_desc_init(desc: *mut vox_readings_desc, struct_size: u32) -> vox_result;
+    /// As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
+    /// readings of some contacts. All others are missing from the views and copies of the following functions. Errors:
+    /// as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
+    /// earlier readings stay.
+    pub fn vox_grid_prepare_readings_of(grid: *mut vox_grid, desc: *const vox_readings_desc) -> vox_result;
+    /// The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear.
+    pub fn vox_grid_readings(grid: *const vox_grid, out_view: *mut vox_reading_view) -> vox_result;
+    /// Depth and direction of the prepared readings in double, one for each, in that order; zero where
+    /// vox_reading.known lacks VOX_READING_DEPTH. Count 0 if that part was not asked for. Errors: as vox_grid_readings.
+    pub fn vox_grid_reading_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
+    /// As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
+    /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
+    pub fn vox_mesh_copy_readings(grid: *const vox_grid, mesh: vox_mesh, readings: *mut vox_reading, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
+    /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
+    pub fn vox_pair_copy_readings(grid: *const vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, readings: *mut vox_reading, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md):
+    /// settings, meshes with their ids, positions (borrowed ones too, read during the call), and the state that the
+    /// next events are derived from. Allocator, log, task system, worker count, both budgets, and the results of the
+    /// last step are not saved. *out_size is the number of bytes; with `bytes` null nothing is written, so the size can
+    /// be asked first. Allocates nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers).
+    pub fn vox_grid_save(grid: *const vox_grid, bytes: *mut c_void, capacity: u64, out_size: *mut u64) -> vox_result;
+    /// Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would
+    /// in the saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch.
+    /// There are no contacts until the first step. The meshes own their positions; to move them, bind others. Of `desc`
+    /// only allocator, log, tasks, worker_count, byte_budget, closest_budget, and an engine other than AUTO are used;
+    /// null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy. The bytes need not be
+    /// trusted: everything in them is checked, no memory is reserved for a count before the bytes it stands for are
+    /// known to be there, and the byte budget applies. Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later
+    /// version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_load(bytes: *const c_void, size: u64, desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
+    /// Copies the present positions for the queries. Takes time and memory proportional to vertices and tetrahedra:
+    /// about 24 bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the
+    /// tetrahedra alone, are made by the first call after a mesh was inserted or edited, and are shared with query
+    /// views. From now on a grid of the reference engine also keeps tiles, as those of the fast engine do. Errors:
+    /// INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3,
+    /// see vox_mesh_insert), BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a
+    /// defective task system (see vox_task_system); after that nothing is prepared.
+    pub fn vox_grid_prepare_queries(grid: *mut vox_grid) -> vox_result;
+    /// The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0. `hits` may be null if
+    /// capacity is 0.
+    pub fn vox_grid_query_point(grid: *const vox_grid, point: *const [f64; 3], mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh,
+    /// tet). Faster than single queries.
+    pub fn vox_grid_query_points(grid: *const vox_grid, points: *const c_void, format: vox_format, byte_stride: u64, point_count: u64, mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// The tetrahedra whose bounding box has a point in common with the closed box from min to max, decided exactly and
+    /// sorted by (mesh, tet). They include all tetrahedra that intersect the box themselves; those of zero volume
+    /// count, too. Infinite corners are allowed. Errors: INVALID_ARGUMENT unless min <= max on each axis.
+    pub fn vox_grid_query_box(grid: *const vox_grid, min: *const [f64; 3], max: *const [f64; 3], mask: u64, hits: *mut vox_tet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// The closest point to `point` on the surfaces of all meshes, if it is no further away than radius (which may be
+    /// infinite). Computed in double. Of several at the same distance it is the one with the lowest (mesh, tet, facet).
+    pub fn vox_grid_query_closest(grid: *const vox_grid, point: *const [f64; 3], radius: f64, mask: u64, out_hit: *mut vox_surface_hit) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_closest_desc_init(desc: *mut vox_closest_desc, struct_size: u32) -> vox_result;
+    /// The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
+    /// Each search begins at the facet found for the point before, so points close together should follow each other.
+    /// Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points.
+    pub fn vox_grid_query_closest_points(grid: *const vox_grid, desc: *const vox_closest_desc, out_hits: *mut vox_closest_hit) -> vox_result;
+    /// Finds the first tetrahedron and the first facet in one call. from = to queries a single point.
+    pub fn vox_grid_query_ray(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, out_hit: *mut vox_ray_hit) -> vox_result;
+    /// All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet). Which ones is decided
+    /// exactly by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a
+    /// corner hits every facet there.
+    pub fn vox_grid_query_ray_hits(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, hits: *mut vox_facet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds,
+    /// so it is faster than vox_grid_query_ray.
+    pub fn vox_grid_query_ray_any(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, out_any: *mut u32) -> vox_result;
+    /// Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what
+    /// that prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a
+    /// mesh has no positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under
+    /// VOX_FORMAT_FLOAT3; see also vox_task_system).
+    pub fn vox_grid_take_query_view(grid: *mut vox_grid, out_view: *mut *mut vox_query_view) -> vox_result;
+    /// One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not
+    /// released by all others meanwhile.
+    pub fn vox_query_view_retain(view: *mut vox_query_view) -> vox_result;
+    /// Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing.
+    pub fn vox_query_view_release(view: *mut vox_query_view);
+    /// vox_grid_epoch when the view was taken: which step it shows.
+    pub fn vox_query_view_epoch(view: *const vox_query_view, out_epoch: *mut u64) -> vox_result;
+    /// The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view.
+    pub fn vox_query_view_user_data(view: *const vox_query_view, mesh: vox_mesh, out_user_data: *mut u64) -> vox_result;
+    /// As vox_grid_query_point.
+    pub fn vox_query_view_point(view: *const vox_query_view, point: *const [f64; 3], mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// As vox_grid_query_points.
+    pub fn vox_query_view_points(view: *const vox_query_view, points: *const c_void, format: vox_format, byte_stride: u64, point_count: u64, mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// As vox_grid_query_box.
+    pub fn vox_query_view_box(view: *const vox_query_view, min: *const [f64; 3], max: *const [f64; 3], mask: u64, hits: *mut vox_tet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// As vox_grid_query_closest.
+    pub fn vox_query_view_closest(view: *const vox_query_view, point: *const [f64; 3], radius: f64, mask: u64, out_hit: *mut vox_surface_hit) -> vox_result;
+    /// As vox_grid_query_closest_points.
+    pub fn vox_query_view_closest_points(view: *const vox_query_view, desc: *const vox_closest_desc, out_hits: *mut vox_closest_hit) -> vox_result;
+    /// As vox_grid_query_ray.
+    pub fn vox_query_view_ray(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, out_hit: *mut vox_ray_hit) -> vox_result;
+    /// As vox_grid_query_ray_hits.
+    pub fn vox_query_view_ray_hits(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, hits: *mut vox_facet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// As vox_grid_query_ray_any.
+    pub fn vox_query_view_ray_any(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, out_any: *mut u32) -> vox_result;
+    /// Writes the fields that out_counters->struct_size covers (set it first).
+    pub fn vox_grid_counters(grid: *const vox_grid, out_counters: *mut vox_counters) -> vox_result;
+    /// Writes the fields that out_profile->struct_size covers (set it first).
+    pub fn vox_grid_profile(grid: *const vox_grid, out_profile: *mut vox_profile) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_suggest_desc_init(desc: *mut vox_suggest_desc, struct_size: u32) -> vox_result;
+    /// The cell size that minimises the cost model for these meshes (their positions as they are now). desc null:
+    /// defaults. Set out->struct_size first; the fields it covers are written. `meshes` is an array whose elements are
+    /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their flags, only
+    /// VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
+    /// user data. Time and memory (from desc->allocator, released at the end of the call) are proportional to vertices
+    /// and tets. Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH,
+    /// NON_FINITE, LIMIT, OUT_OF_MEMORY.
+    pub fn vox_suggest_cell_size(desc: *const vox_suggest_desc, meshes: *const vox_mesh_desc, mesh_count: u64, out: *mut vox_suggestion) -> vox_result;
+    /// The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's
+    /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the
+    /// default p_nc. FAST takes from the last step which meshes are at rest and which need no cells for self-collision;
+    /// both cost nothing. It is quicker than vox_suggest_cell_size because it works on samples, whose means are
+    /// accurate to a few per cent. The first call after a mesh was inserted or edited reads all of that mesh, and keeps
+    /// up to 10 KB on the C++ runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound.
+    /// Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
+    pub fn vox_grid_suggest_cell_size(grid: *const vox_grid, desc: *const vox_suggest_desc, out: *mut vox_suggestion) -> vox_result;
+    /// The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
+    /// vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0.
+    pub fn vox_cost_predict(desc: *const vox_suggest_desc, meshes: *const vox_mesh_desc, mesh_count: u64, cell_size: f64, out: *mut vox_cost_prediction) -> vox_result;
+    /// Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for
+    /// all suggestions and grids of the process. The first call takes about ten milliseconds; later ones use its
+    /// result. out may be null; otherwise set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY.
+    pub fn vox_cost_calibrate(out: *mut vox_cost_weights) -> vox_result;
+    /// The weights in use: those calibrated or set last, or else those shipped with the library. Any thread.
+    pub fn vox_cost_get_weights(out: *mut vox_cost_weights) -> vox_result;
+    /// Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the
+    /// last two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values.
+    /// Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0).
+    pub fn vox_cost_set_weights(weights: *const vox_cost_weights) -> vox_result;
+    /// Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and must be set.
+    pub fn vox_cost_bounds_init(bounds: *mut vox_cost_bounds, struct_size: u32) -> vox_result;
+    /// The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is even in the
+    /// logarithm of the cell size, then a golden-section search around its best point. `cost` is called on this thread,
+    /// some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also if the cost was finite at no cell size
+    /// that was tried, or if the least cost is negative).
+    pub fn vox_cost_minimise(cost: vox_cost_function, user: *mut c_void, bounds: *const vox_cost_bounds, out: *mut vox_cost_minimum) -> vox_result;
+    /// The same for the sum of `term_count` terms.
+    pub fn vox_cost_minimise_terms(terms: *const vox_cost_term, term_count: u64, bounds: *const vox_cost_bounds, out: *mut vox_cost_minimum) -> vox_result;
+    /// Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n =
+    /// n_opt and below 1 inside the zone. All arguments are in cells per axis, > 0, with n_min <= n_opt <= n_max. If
+    /// the zone has no width on the side of n, *out_epsilon is infinity (0 at n = n_opt). Errors: INVALID_ARGUMENT
+    /// (numbers that do not meet these conditions).
+    pub fn vox_zone_distance(n: f64, n_min: f64, n_opt: f64, n_max: f64, out_epsilon: *mut f64) -> vox_result;
+}
+
+#[cfg(feature = "io")]
+extern "C" {
+    /// Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size` covers.
+    pub fn vox_io_load_desc_init(desc: *mut vox_io_load_desc, struct_size: u32) -> vox_result;
+    /// Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must files that a
+    /// .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory;
+    /// one that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is
+    /// read and must not be shortened meanwhile. Errors: FILE, FORMAT (the text names the file, the line or byte, and
+    /// what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT.
+    pub fn vox_io_load(path: *const c_char, desc: *const vox_io_load_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// The same from memory. `sources` holds one file or, for TetGen, two: .node and .ele in any order.
+    pub fn vox_io_read(sources: *const vox_io_source, source_count: usize, desc: *const vox_io_load_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// Releases a mesh. Null does nothing.
+    pub fn vox_io_mesh_destroy(mesh: *mut vox_io_mesh);
+    /// The mesh's arrays.
+    pub fn vox_io_mesh_get(mesh: *const vox_io_mesh, out_view: *mut vox_io_mesh_view) -> vox_result;
+    /// Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and
+    /// strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
+    /// vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
+    /// VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
+    /// vox_mesh_bind_positions or vox_mesh_set_transform. Triangles are not described. docs/files.md has a whole
+    /// program. Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format).
+    pub fn vox_io_mesh_desc(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
+    /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
+    /// LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
+    pub fn vox_io_mesh_create(arrays: *const vox_io_mesh_view, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// Writes the fields that out_report->struct_size covers (set it first).
+    pub fn vox_io_mesh_report(mesh: *const vox_io_mesh, out_report: *mut vox_io_report) -> vox_result;
+    /// The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
+    /// vox_io_mesh_destroy. Cannot fail; null for a null mesh.
+    pub fn vox_io_mesh_warnings(mesh: *const vox_io_mesh) -> *const c_char;
+    /// Name of a format, e.g. "Gmsh .msh". Static text; never null.
+    pub fn vox_io_format_string(format: vox_io_format) -> *const c_char;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_io_tetrahedralize_desc_init(desc: *mut vox_io_tetrahedralize_desc, struct_size: u32) -> vox_result;
+    /// Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with tetrahedra. desc
+    /// null: defaults. All tets have positive volume, no two overlap, and inner facets are shared by exactly two. The
+    /// surface may have any orientation, consist of several parts, and intersect itself. Inside is where its winding
+    /// number is not zero or, if its triangles do not agree on an orientation, where rays cross it an odd number of
+    /// times. Holes up to about the size of a cell are closed. Details thinner than a cell may be lost, and edges are
+    /// rounded by a fraction of a cell (max_distance prevents both). The same input gives the same tets, bit for bit.
+    /// Memory and time are proportional to the number of cells inside. Errors: INVALID_ARGUMENT (no triangles, no
+    /// volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is open; not for CUBES), LIMIT (more than 4096
+    /// cells along an axis, more than max_tets), INVALID_STATE (cancelled), OUT_OF_MEMORY.
+    pub fn vox_io_tetrahedralize(surface: *const vox_io_mesh, desc: *const vox_io_tetrahedralize_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// Measures `mesh` against the triangles of `surface`, which may be null. Writes the fields that
+    /// out_quality->struct_size covers (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+    pub fn vox_io_measure_quality(mesh: *const vox_io_mesh, surface: *const vox_io_mesh, out_quality: *mut vox_io_quality) -> vox_result;
+    /// Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size` covers.
+    pub fn vox_io_write_desc_init(desc: *mut vox_io_write_desc, struct_size: u32) -> vox_result;
+    /// Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path` is
+    /// replaced at the end, and only if everything was written. Errors: FILE, INVALID_ARGUMENT (names the field),
+    /// NON_FINITE, UNSUPPORTED (the extension), LIMIT (more elements than .msh 2.2 can number), OUT_OF_MEMORY.
+    pub fn vox_io_write(mesh: *const vox_io_mesh, path: *const c_char, desc: *const vox_io_write_desc) -> vox_result;
+    /// As vox_io_write, but passes the bytes to `sink`. desc->format must not be AUTO. Errors: as vox_io_write, and
+    /// FILE if the sink fails; the bytes it received before that are not a complete file.
+    pub fn vox_io_write_to(mesh: *const vox_io_mesh, desc: *const vox_io_write_desc, sink: *const vox_io_sink) -> vox_result;
+    /// A ball of `radius` around the origin, made of about `tet_count` tetrahedra. It consists of the cubes of a
+    /// lattice that are inside the ball, each split into five tetrahedra; boundary vertices are moved onto the sphere,
+    /// and interior ones smoothed by three Laplace sweeps. The count is met within 1 % for 1000 tets and more.
+    pub fn vox_io_make_lattice_ball(tet_count: u64, radius: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// A ball by isosurface stuffing on a lattice of cubes with edge `cell`. It and the three bodies below have the
+    /// dihedral angles of vox_io_tetrahedralize.
+    pub fn vox_io_make_ball(radius: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// A torus around the z axis. `radius` is the distance from the axis to the middle of the tube; tube_radius <
+    /// radius.
+    pub fn vox_io_make_torus(radius: f64, tube_radius: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// A capsule along the z axis. `length` is the distance between the centres of the two round ends.
+    pub fn vox_io_make_capsule(radius: f64, length: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// A cylinder along the z axis. Its rims are rounded by a fraction of a cell.
+    pub fn vox_io_make_cylinder(radius: f64, length: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    /// An exact box of cubes with edges of about `cell`, stretched so that a whole number of them fits each side, and
+    /// split into five tets each.
+    pub fn vox_io_make_box(size_x: f64, size_y: f64, size_z: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+}
+
+#[cfg(feature = "sim")]
+extern "C" {
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_sim_desc_init(desc: *mut vox_sim_desc, struct_size: u32) -> vox_result;
+    /// Creates a simulation without bodies. desc null: all defaults. The caller owns *out_sim and releases it with
+    /// vox_sim_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET.
+    pub fn vox_sim_create(desc: *const vox_sim_desc, out_sim: *mut *mut vox_sim) -> vox_result;
+    /// Destroys a simulation with its bodies and its grid. All views become invalid. Null does nothing.
+    pub fn vox_sim_destroy(sim: *mut vox_sim);
+    /// The grid inside, for reading the contacts and penetrations of the last detection, counters and profile, and for
+    /// setting the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not
+    /// destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body
+    /// whose mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it
+    /// elsewhere: vox_sim_step fails once a contact does not fit the body.
+    pub fn vox_sim_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
+    /// Moves everything forward by `time_step`, or by max_time_step if that is less. Errors: INVALID_ARGUMENT (not a
+    /// finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies as they were after the last
+    /// completed substep; so does INVALID_STATE, for a body or the flags of the grid changed through vox_sim_grid,
+    /// which names the two bodies of a contact.
+    pub fn vox_sim_step(sim: *mut vox_sim, time_step: f64) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_sim_body_desc_init(desc: *mut vox_sim_body_desc, struct_size: u32) -> vox_result;
+    /// Adds a body. Tets of zero rest volume get no volume constraint, and inverted ones keep their negative volume;
+    /// both are counted and reported in one log line. Errors: INVALID_ARGUMENT (names the field and its value; also: no
+    /// tet, or all of them flat, so that the body has no mass), INVALID_MESH, NON_FINITE (names the vertex), LIMIT,
+    /// BUDGET, OUT_OF_MEMORY.
+    pub fn vox_sim_body_insert(sim: *mut vox_sim, desc: *const vox_sim_body_desc, out_body: *mut vox_mesh) -> vox_result;
+    /// Removes a body from the simulation and from its grid.
+    pub fn vox_sim_body_remove(sim: *mut vox_sim, body: vox_mesh) -> vox_result;
+    /// The body's arrays.
+    pub fn vox_sim_body_get(sim: *const vox_sim, body: vox_mesh, out_view: *mut vox_sim_body_view) -> vox_result;
+    /// Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest
+    /// shape stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15).
+    pub fn vox_sim_body_set_state(sim: *mut vox_sim, body: vox_mesh, positions: *const f64, velocities: *const f64) -> vox_result;
+    /// Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first. Errors:
+    /// INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size).
+    pub fn vox_sim_body_set_acceleration(sim: *mut vox_sim, body: vox_mesh, acceleration: *const [f64; 3]) -> vox_result;
+    /// Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH). They are those of the
+    /// middle of the last substep, to which the velocities belong; the positions of vox_sim_body_get are half a substep
+    /// later. Writes the fields that out_energies->struct_size covers (set it first).
+    pub fn vox_sim_energy(sim: *const vox_sim, body: vox_mesh, out_energies: *mut vox_sim_energies) -> vox_result;
+    /// Writes the fields that out_counts->struct_size covers (set it first).
+    pub fn vox_sim_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_experiment_desc_init(desc: *mut vox_experiment_desc, struct_size: u32) -> vox_result;
+    /// Places the bodies, simulates the frames and records them. What `desc` points to is read during the call. The
+    /// caller owns *out_experiment and releases it with vox_experiment_destroy. The position is found by bisection from
+    /// outside, so that b stands where the required share is first reached. Then the frames are simulated. Both are
+    /// repeated a few times until the mean share over the frames is the required one. It is met only roughly, since the
+    /// number of tets is finite and the bodies may part quickly; vox_experiment_facts has the result. Errors:
+    /// INVALID_ARGUMENT (names the field and its value), INVALID_STATE (the share cannot be reached on this axis; gives
+    /// the largest that can), and those of vox_sim_create, vox_sim_body_insert and vox_grid_step.
+    pub fn vox_experiment_create(desc: *const vox_experiment_desc, out_experiment: *mut *mut vox_experiment) -> vox_result;
+    /// Destroys an experiment. Null does nothing.
+    pub fn vox_experiment_destroy(experiment: *mut vox_experiment);
+    /// Writes the fields that out_facts->struct_size covers (set it first); the shares live as long as the experiment.
+    pub fn vox_experiment_get(experiment: *const vox_experiment, out_facts: *mut vox_experiment_facts) -> vox_result;
+    /// vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors.
+    pub fn vox_experiment_suggest(experiment: *const vox_experiment, desc: *const vox_suggest_desc, out: *mut vox_suggestion) -> vox_result;
+    /// Measures one sample, after one step that is not timed. frame_ns receives the time of each frame; may be null.
+    /// Set out_sample->struct_size first. The contacts are compared with those found during the simulation. Errors:
+    /// INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
+    /// differ).
+    pub fn vox_experiment_measure(experiment: *mut vox_experiment, cell_size: f64, frame_ns: *mut u64, out_sample: *mut vox_experiment_sample) -> vox_result;
+    /// The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for
+    /// each round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not
+    /// always hit the same cell sizes. Errors: INVALID_ARGUMENT (count 0).
+    pub fn vox_experiment_order(count: u64, seed: u64, round: u64, out_order: *mut u64) -> vox_result;
+    /// The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns
+    /// holds `frames` times for each round, round after round. A frame means the same work in every round, so a
+    /// disturbance affects only the frames in which it happens, not the whole round. Medians are used because on a busy
+    /// machine the minimum over the rounds depends on a few lucky ones (docs/paper.md has figures). Errors:
+    /// INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY.
+    pub fn vox_experiment_time(frame_ns: *const u64, rounds: u64, frames: u64, out_ns: *mut f64) -> vox_result;
+    /// Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first. Errors:
+    /// INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
+    /// sizes), OUT_OF_MEMORY.
+    pub fn vox_fit_times(cell_sizes: *const f64, times: *const f64, count: u64, out_fit: *mut vox_time_fit) -> vox_result;
+    /// The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a
+    /// `fit` that vox_fit_times did not fill).
+    pub fn vox_fit_time_at(fit: *const vox_time_fit, cell_size: f64, out_time: *mut f64) -> vox_result;
+    /// The zone: the range of cell sizes around the best one in which the fitted time is at most `limit`. It ends at
+    /// range_min or range_max if the time stays below the limit up to there. Errors: INVALID_ARGUMENT (a limit below
+    /// fit->time).
+    pub fn vox_fit_zone(fit: *const vox_time_fit, limit: f64, out_min: *mut f64, out_max: *mut f64) -> vox_result;
+}
+
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    use core::mem::{align_of, offset_of, size_of};
+    assert!(size_of::<vox_allocator>() == 24);
+    assert!(align_of::<vox_allocator>() == 8);
+    assert!(offset_of!(vox_allocator, allocate) == 0);
+    assert!(offset_of!(vox_allocator, release) == 8);
+    assert!(offset_of!(vox_allocator, user) == 16);
+    assert!(size_of::<vox_log>() == 16);
+    assert!(align_of::<vox_log>() == 8);
+    assert!(offset_of!(vox_log, write) == 0);
+    assert!(offset_of!(vox_log, user) == 8);
+    assert!(size_of::<vox_task_system>() == 24);
+    assert!(align_of::<vox_task_system>() == 8);
+    assert!(offset_of!(vox_task_system, enqueue) == 0);
+    assert!(offset_of!(vox_task_system, finish) == 8);
+    assert!(offset_of!(vox_task_system, user) == 16);
+    assert!(size_of::<vox_grid_desc>() == 168);
+    assert!(align_of::<vox_grid_desc>() == 8);
+    assert!(offset_of!(vox_grid_desc, struct_size) == 0);
+    assert!(offset_of!(vox_grid_desc, engine) == 4);
+    assert!(offset_of!(vox_grid_desc, storage) == 8);
+    assert!(offset_of!(vox_grid_desc, hash) == 12);
+    assert!(offset_of!(vox_grid_desc, cell_size) == 16);
+    assert!(offset_of!(vox_grid_desc, world_min) == 24);
+    assert!(offset_of!(vox_grid_desc, world_max) == 48);
+    assert!(offset_of!(vox_grid_desc, byte_budget) == 72);
+    assert!(offset_of!(vox_grid_desc, hash_table_size) == 80);
+    assert!(offset_of!(vox_grid_desc, allocator) == 88);
+    assert!(offset_of!(vox_grid_desc, log) == 112);
+    assert!(offset_of!(vox_grid_desc, tasks) == 128);
+    assert!(offset_of!(vox_grid_desc, worker_count) == 152);
+    assert!(offset_of!(vox_grid_desc, flags) == 156);
+    assert!(offset_of!(vox_grid_desc, closest_budget) == 160);
+    assert!(size_of::<vox_filter>() == 48);
+    assert!(align_of::<vox_filter>() == 8);
+    assert!(offset_of!(vox_filter, struct_size) == 0);
+    assert!(offset_of!(vox_filter, group) == 4);
+    assert!(offset_of!(vox_filter, category) == 8);
+    assert!(offset_of!(vox_filter, mask) == 16);
+    assert!(offset_of!(vox_filter, self_collision) == 24);
+    assert!(offset_of!(vox_filter, self_rings) == 28);
+    assert!(offset_of!(vox_filter, self_rest_distance) == 32);
+    assert!(offset_of!(vox_filter, penetration_mask) == 40);
+    assert!(size_of::<vox_mesh_desc>() == 104);
+    assert!(align_of::<vox_mesh_desc>() == 8);
+    assert!(offset_of!(vox_mesh_desc, struct_size) == 0);
+    assert!(offset_of!(vox_mesh_desc, flags) == 4);
+    assert!(offset_of!(vox_mesh_desc, positions) == 8);
+    assert!(offset_of!(vox_mesh_desc, position_byte_stride) == 16);
+    assert!(offset_of!(vox_mesh_desc, tets) == 24);
+    assert!(offset_of!(vox_mesh_desc, tet_count) == 32);
+    assert!(offset_of!(vox_mesh_desc, vertex_count) == 40);
+    assert!(offset_of!(vox_mesh_desc, user_data) == 48);
+    assert!(offset_of!(vox_mesh_desc, position_format) == 56);
+    assert!(offset_of!(vox_mesh_desc, reserved) == 60);
+    assert!(offset_of!(vox_mesh_desc, filter) == 64);
+    assert!(offset_of!(vox_mesh_desc, rest_positions) == 72);
+    assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 80);
+    assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 88);
+    assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 96);
+    assert!(size_of::<vox_vertices_desc>() == 72);
+    assert!(align_of::<vox_vertices_desc>() == 8);
+    assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
+    assert!(offset_of!(vox_vertices_desc, reserved) == 4);
+    assert!(offset_of!(vox_vertices_desc, count) == 8);
+    assert!(offset_of!(vox_vertices_desc, positions) == 16);
+    assert!(offset_of!(vox_vertices_desc, position_byte_stride) == 24);
+    assert!(offset_of!(vox_vertices_desc, copies_of) == 32);
+    assert!(offset_of!(vox_vertices_desc, rest_positions) == 40);
+    assert!(offset_of!(vox_vertices_desc, rest_position_byte_stride) == 48);
+    assert!(offset_of!(vox_vertices_desc, position_component_byte_stride) == 56);
+    assert!(offset_of!(vox_vertices_desc, rest_position_component_byte_stride) == 64);
+    assert!(size_of::<vox_failure>() == 56);
+    assert!(align_of::<vox_failure>() == 8);
+    assert!(offset_of!(vox_failure, struct_size) == 0);
+    assert!(offset_of!(vox_failure, result) == 4);
+    assert!(offset_of!(vox_failure, mesh) == 8);
+    assert!(offset_of!(vox_failure, slot) == 12);
+    assert!(offset_of!(vox_failure, user_data) == 16);
+    assert!(offset_of!(vox_failure, vertex) == 24);
+    assert!(offset_of!(vox_failure, reserved) == 28);
+    assert!(offset_of!(vox_failure, position) == 32);
+    assert!(size_of::<vox_contact>() == 32);
+    assert!(align_of::<vox_contact>() == 4);
+    assert!(offset_of!(vox_contact, mesh_a) == 0);
+    assert!(offset_of!(vox_contact, vertex) == 4);
+    assert!(offset_of!(vox_contact, mesh_b) == 8);
+    assert!(offset_of!(vox_contact, tet) == 12);
+    assert!(offset_of!(vox_contact, barycentric) == 16);
+    assert!(size_of::<vox_contact_view>() == 32);
+    assert!(align_of::<vox_contact_view>() == 8);
+    assert!(offset_of!(vox_contact_view, data) == 0);
+    assert!(offset_of!(vox_contact_view, byte_stride) == 8);
+    assert!(offset_of!(vox_contact_view, count) == 16);
+    assert!(offset_of!(vox_contact_view, epoch) == 24);
+    assert!(size_of::<vox_interior_view>() == 32);
+    assert!(align_of::<vox_interior_view>() == 8);
+    assert!(offset_of!(vox_interior_view, data) == 0);
+    assert!(offset_of!(vox_interior_view, byte_stride) == 8);
+    assert!(offset_of!(vox_interior_view, count) == 16);
+    assert!(offset_of!(vox_interior_view, epoch) == 24);
+    assert!(size_of::<vox_penetration>() == 40);
+    assert!(align_of::<vox_penetration>() == 8);
+    assert!(offset_of!(vox_penetration, mesh_a) == 0);
+    assert!(offset_of!(vox_penetration, vertex) == 4);
+    assert!(offset_of!(vox_penetration, mesh_b) == 8);
+    assert!(offset_of!(vox_penetration, state) == 12);
+    assert!(offset_of!(vox_penetration, contact) == 16);
+    assert!(offset_of!(vox_penetration, depth) == 24);
+    assert!(offset_of!(vox_penetration, direction) == 28);
+    assert!(size_of::<vox_penetration_view>() == 32);
+    assert!(align_of::<vox_penetration_view>() == 8);
+    assert!(offset_of!(vox_penetration_view, data) == 0);
+    assert!(offset_of!(vox_penetration_view, byte_stride) == 8);
+    assert!(offset_of!(vox_penetration_view, count) == 16);
+    assert!(offset_of!(vox_penetration_view, epoch) == 24);
+    assert!(size_of::<vox_depth>() == 32);
+    assert!(align_of::<vox_depth>() == 8);
+    assert!(offset_of!(vox_depth, depth) == 0);
+    assert!(offset_of!(vox_depth, direction) == 8);
+    assert!(size_of::<vox_depth_view>() == 32);
+    assert!(align_of::<vox_depth_view>() == 8);
+    assert!(offset_of!(vox_depth_view, data) == 0);
+    assert!(offset_of!(vox_depth_view, byte_stride) == 8);
+    assert!(offset_of!(vox_depth_view, count) == 16);
+    assert!(offset_of!(vox_depth_view, epoch) == 24);
+    assert!(size_of::<vox_pair>() == 48);
+    assert!(align_of::<vox_pair>() == 8);
+    assert!(offset_of!(vox_pair, mesh_a) == 0);
+    assert!(offset_of!(vox_pair, mesh_b) == 4);
+    assert!(offset_of!(vox_pair, user_data_a) == 8);
+    assert!(offset_of!(vox_pair, user_data_b) == 16);
+    assert!(offset_of!(vox_pair, first) == 24);
+    assert!(offset_of!(vox_pair, a_in_b) == 32);
+    assert!(offset_of!(vox_pair, b_in_a) == 40);
+    assert!(size_of::<vox_pair_view>() == 40);
+    assert!(align_of::<vox_pair_view>() == 8);
+    assert!(offset_of!(vox_pair_view, data) == 0);
+    assert!(offset_of!(vox_pair_view, byte_stride) == 8);
+    assert!(offset_of!(vox_pair_view, count) == 16);
+    assert!(offset_of!(vox_pair_view, epoch) == 24);
+    assert!(offset_of!(vox_pair_view, contacts) == 32);
+    assert!(size_of::<vox_touch_event>() == 32);
+    assert!(align_of::<vox_touch_event>() == 8);
+    assert!(offset_of!(vox_touch_event, mesh_a) == 0);
+    assert!(offset_of!(vox_touch_event, mesh_b) == 4);
+    assert!(offset_of!(vox_touch_event, user_data_a) == 8);
+    assert!(offset_of!(vox_touch_event, user_data_b) == 16);
+    assert!(offset_of!(vox_touch_event, kind) == 24);
+    assert!(offset_of!(vox_touch_event, pair) == 28);
+    assert!(size_of::<vox_touch_view>() == 56);
+    assert!(align_of::<vox_touch_view>() == 8);
+    assert!(offset_of!(vox_touch_view, data) == 0);
+    assert!(offset_of!(vox_touch_view, byte_stride) == 8);
+    assert!(offset_of!(vox_touch_view, count) == 16);
+    assert!(offset_of!(vox_touch_view, epoch) == 24);
+    assert!(offset_of!(vox_touch_view, began) == 32);
+    assert!(offset_of!(vox_touch_view, persisted) == 40);
+    assert!(offset_of!(vox_touch_view, ended) == 48);
+    assert!(size_of::<vox_contact_event>() == 16);
+    assert!(align_of::<vox_contact_event>() == 4);
+    assert!(offset_of!(vox_contact_event, mesh_a) == 0);
+    assert!(offset_of!(vox_contact_event, vertex) == 4);
+    assert!(offset_of!(vox_contact_event, mesh_b) == 8);
+    assert!(offset_of!(vox_contact_event, kind) == 12);
+    assert!(size_of::<vox_contact_event_view>() == 48);
+    assert!(align_of::<vox_contact_event_view>() == 8);
+    assert!(offset_of!(vox_contact_event_view, data) == 0);
+    assert!(offset_of!(vox_contact_event_view, byte_stride) == 8);
+    assert!(offset_of!(vox_contact_event_view, count) == 16);
+    assert!(offset_of!(vox_contact_event_view, epoch) == 24);
+    assert!(offset_of!(vox_contact_event_view, began) == 32);
+    assert!(offset_of!(vox_contact_event_view, ended) == 40);
+    assert!(size_of::<vox_reading>() == 168);
+    assert!(align_of::<vox_reading>() == 8);
+    assert!(offset_of!(vox_reading, contact) == 0);
+    assert!(offset_of!(vox_reading, known) == 8);
+    assert!(offset_of!(vox_reading, state) == 12);
+    assert!(offset_of!(vox_reading, depth) == 16);
+    assert!(offset_of!(vox_reading, direction) == 20);
+    assert!(offset_of!(vox_reading, position) == 32);
+    assert!(offset_of!(vox_reading, distance) == 56);
+    assert!(offset_of!(vox_reading, surface_position) == 64);
+    assert!(offset_of!(vox_reading, barycentric) == 88);
+    assert!(offset_of!(vox_reading, normal) == 112);
+    assert!(offset_of!(vox_reading, triangle) == 136);
+    assert!(offset_of!(vox_reading, reserved) == 148);
+    assert!(offset_of!(vox_reading, user_data_a) == 152);
+    assert!(offset_of!(vox_reading, user_data_b) == 160);
+    assert!(size_of::<vox_reading_view>() == 32);
+    assert!(align_of::<vox_reading_view>() == 8);
+    assert!(offset_of!(vox_reading_view, data) == 0);
+    assert!(offset_of!(vox_reading_view, byte_stride) == 8);
+    assert!(offset_of!(vox_reading_view, count) == 16);
+    assert!(offset_of!(vox_reading_view, epoch) == 24);
+    assert!(size_of::<vox_readings_desc>() == 24);
+    assert!(align_of::<vox_readings_desc>() == 8);
+    assert!(offset_of!(vox_readings_desc, struct_size) == 0);
+    assert!(offset_of!(vox_readings_desc, what) == 4);
+    assert!(offset_of!(vox_readings_desc, mesh_a) == 8);
+    assert!(offset_of!(vox_readings_desc, mesh_b) == 12);
+    assert!(offset_of!(vox_readings_desc, closest_budget) == 16);
+    assert!(size_of::<vox_point_hit>() == 28);
+    assert!(align_of::<vox_point_hit>() == 4);
+    assert!(offset_of!(vox_point_hit, point) == 0);
+    assert!(offset_of!(vox_point_hit, mesh) == 4);
+    assert!(offset_of!(vox_point_hit, tet) == 8);
+    assert!(offset_of!(vox_point_hit, barycentric) == 12);
+    assert!(size_of::<vox_tet_hit>() == 8);
+    assert!(align_of::<vox_tet_hit>() == 4);
+    assert!(offset_of!(vox_tet_hit, mesh) == 0);
+    assert!(offset_of!(vox_tet_hit, tet) == 4);
+    assert!(size_of::<vox_surface_hit>() == 72);
+    assert!(align_of::<vox_surface_hit>() == 8);
+    assert!(offset_of!(vox_surface_hit, mesh) == 0);
+    assert!(offset_of!(vox_surface_hit, tet) == 4);
+    assert!(offset_of!(vox_surface_hit, facet) == 8);
+    assert!(offset_of!(vox_surface_hit, reserved) == 12);
+    assert!(offset_of!(vox_surface_hit, barycentric) == 16);
+    assert!(offset_of!(vox_surface_hit, position) == 40);
+    assert!(offset_of!(vox_surface_hit, distance) == 64);
+    assert!(size_of::<vox_closest_desc>() == 64);
+    assert!(align_of::<vox_closest_desc>() == 8);
+    assert!(offset_of!(vox_closest_desc, struct_size) == 0);
+    assert!(offset_of!(vox_closest_desc, format) == 4);
+    assert!(offset_of!(vox_closest_desc, points) == 8);
+    assert!(offset_of!(vox_closest_desc, byte_stride) == 16);
+    assert!(offset_of!(vox_closest_desc, point_count) == 24);
+    assert!(offset_of!(vox_closest_desc, mask) == 32);
+    assert!(offset_of!(vox_closest_desc, max_distance) == 40);
+    assert!(offset_of!(vox_closest_desc, excluded) == 48);
+    assert!(offset_of!(vox_closest_desc, reserved) == 52);
+    assert!(offset_of!(vox_closest_desc, component_byte_stride) == 56);
+    assert!(size_of::<vox_closest_hit>() == 96);
+    assert!(align_of::<vox_closest_hit>() == 8);
+    assert!(offset_of!(vox_closest_hit, mesh) == 0);
+    assert!(offset_of!(vox_closest_hit, tet) == 4);
+    assert!(offset_of!(vox_closest_hit, facet) == 8);
+    assert!(offset_of!(vox_closest_hit, inside) == 12);
+    assert!(offset_of!(vox_closest_hit, barycentric) == 16);
+    assert!(offset_of!(vox_closest_hit, position) == 40);
+    assert!(offset_of!(vox_closest_hit, normal) == 64);
+    assert!(offset_of!(vox_closest_hit, distance) == 88);
+    assert!(size_of::<vox_ray_hit>() == 64);
+    assert!(align_of::<vox_ray_hit>() == 8);
+    assert!(offset_of!(vox_ray_hit, mesh) == 0);
+    assert!(offset_of!(vox_ray_hit, tet) == 4);
+    assert!(offset_of!(vox_ray_hit, t) == 8);
+    assert!(offset_of!(vox_ray_hit, surface_mesh) == 16);
+    assert!(offset_of!(vox_ray_hit, surface_tet) == 20);
+    assert!(offset_of!(vox_ray_hit, surface_facet) == 24);
+    assert!(offset_of!(vox_ray_hit, surface_side) == 28);
+    assert!(offset_of!(vox_ray_hit, surface_t) == 32);
+    assert!(offset_of!(vox_ray_hit, surface_barycentric) == 40);
+    assert!(size_of::<vox_facet_hit>() == 48);
+    assert!(align_of::<vox_facet_hit>() == 8);
+    assert!(offset_of!(vox_facet_hit, mesh) == 0);
+    assert!(offset_of!(vox_facet_hit, tet) == 4);
+    assert!(offset_of!(vox_facet_hit, facet) == 8);
+    assert!(offset_of!(vox_facet_hit, side) == 12);
+    assert!(offset_of!(vox_facet_hit, t) == 16);
+    assert!(offset_of!(vox_facet_hit, barycentric) == 24);
+    assert!(size_of::<vox_counters>() == 256);
+    assert!(align_of::<vox_counters>() == 8);
+    assert!(offset_of!(vox_counters, struct_size) == 0);
+    assert!(offset_of!(vox_counters, meshes) == 4);
+    assert!(offset_of!(vox_counters, vertices) == 8);
+    assert!(offset_of!(vox_counters, tets) == 16);
+    assert!(offset_of!(vox_counters, cells) == 24);
+    assert!(offset_of!(vox_counters, entries) == 32);
+    assert!(offset_of!(vox_counters, fullest_cell) == 40);
+    assert!(offset_of!(vox_counters, visited_cells) == 48);
+    assert!(offset_of!(vox_counters, visited_entries) == 56);
+    assert!(offset_of!(vox_counters, candidates) == 64);
+    assert!(offset_of!(vox_counters, exact_tests) == 72);
+    assert!(offset_of!(vox_counters, contacts) == 80);
+    assert!(offset_of!(vox_counters, skipped_degenerate) == 88);
+    assert!(offset_of!(vox_counters, bytes) == 96);
+    assert!(offset_of!(vox_counters, peak_bytes) == 104);
+    assert!(offset_of!(vox_counters, moved_meshes) == 112);
+    assert!(offset_of!(vox_counters, carried_contacts) == 120);
+    assert!(offset_of!(vox_counters, penetrations) == 128);
+    assert!(offset_of!(vox_counters, leaving_edges) == 136);
+    assert!(offset_of!(vox_counters, edge_tests) == 144);
+    assert!(offset_of!(vox_counters, closest_searches) == 152);
+    assert!(offset_of!(vox_counters, closest_tests) == 160);
+    assert!(offset_of!(vox_counters, disabled_meshes) == 168);
+    assert!(offset_of!(vox_counters, filtered) == 176);
+    assert!(offset_of!(vox_counters, cell_size_changes) == 184);
+    assert!(offset_of!(vox_counters, unknown_penetrations) == 192);
+    assert!(offset_of!(vox_counters, carried_penetrations) == 200);
+    assert!(offset_of!(vox_counters, skipped_meshes) == 208);
+    assert!(offset_of!(vox_counters, meshes_without_tets) == 216);
+    assert!(offset_of!(vox_counters, total_touches_began) == 224);
+    assert!(offset_of!(vox_counters, total_touches_ended) == 232);
+    assert!(offset_of!(vox_counters, total_contacts_began) == 240);
+    assert!(offset_of!(vox_counters, total_contacts_ended) == 248);
+    assert!(size_of::<vox_profile>() == 112);
+    assert!(align_of::<vox_profile>() == 8);
+    assert!(offset_of!(vox_profile, struct_size) == 0);
+    assert!(offset_of!(vox_profile, reserved) == 4);
+    assert!(offset_of!(vox_profile, step_ns) == 8);
+    assert!(offset_of!(vox_profile, bin_ns) == 16);
+    assert!(offset_of!(vox_profile, broad_ns) == 24);
+    assert!(offset_of!(vox_profile, narrow_ns) == 32);
+    assert!(offset_of!(vox_profile, contacts_ns) == 40);
+    assert!(offset_of!(vox_profile, depth_ns) == 48);
+    assert!(offset_of!(vox_profile, events_ns) == 56);
+    assert!(offset_of!(vox_profile, stream_ns) == 64);
+    assert!(offset_of!(vox_profile, winding_ns) == 72);
+    assert!(offset_of!(vox_profile, broad_phase_ns) == 80);
+    assert!(offset_of!(vox_profile, windows_ns) == 88);
+    assert!(offset_of!(vox_profile, lookup_ns) == 96);
+    assert!(offset_of!(vox_profile, decide_ns) == 104);
+    assert!(size_of::<vox_suggest_desc>() == 104);
+    assert!(align_of::<vox_suggest_desc>() == 8);
+    assert!(offset_of!(vox_suggest_desc, struct_size) == 0);
+    assert!(offset_of!(vox_suggest_desc, model) == 4);
+    assert!(offset_of!(vox_suggest_desc, size_reading) == 8);
+    assert!(offset_of!(vox_suggest_desc, area_reading) == 12);
+    assert!(offset_of!(vox_suggest_desc, p_nc) == 16);
+    assert!(offset_of!(vox_suggest_desc, cost_ratio) == 24);
+    assert!(offset_of!(vox_suggest_desc, world_edge) == 32);
+    assert!(offset_of!(vox_suggest_desc, zone_loss) == 40);
+    assert!(offset_of!(vox_suggest_desc, mean_edge_factor) == 48);
+    assert!(offset_of!(vox_suggest_desc, resolution) == 56);
+    assert!(offset_of!(vox_suggest_desc, byte_budget) == 64);
+    assert!(offset_of!(vox_suggest_desc, storage) == 72);
+    assert!(offset_of!(vox_suggest_desc, reserved) == 76);
+    assert!(offset_of!(vox_suggest_desc, allocator) == 80);
+    assert!(size_of::<vox_geometry_stats>() == 160);
+    assert!(align_of::<vox_geometry_stats>() == 8);
+    assert!(offset_of!(vox_geometry_stats, vertices) == 0);
+    assert!(offset_of!(vox_geometry_stats, tets) == 8);
+    assert!(offset_of!(vox_geometry_stats, edges) == 16);
+    assert!(offset_of!(vox_geometry_stats, facets) == 24);
+    assert!(offset_of!(vox_geometry_stats, boundary_facets) == 32);
+    assert!(offset_of!(vox_geometry_stats, degenerate_tets) == 40);
+    assert!(offset_of!(vox_geometry_stats, mean_edge) == 48);
+    assert!(offset_of!(vox_geometry_stats, mean_longest_edge) == 56);
+    assert!(offset_of!(vox_geometry_stats, mean_box_side) == 64);
+    assert!(offset_of!(vox_geometry_stats, median_box_side) == 72);
+    assert!(offset_of!(vox_geometry_stats, mean_facet_area) == 80);
+    assert!(offset_of!(vox_geometry_stats, mean_tet_facet_area) == 88);
+    assert!(offset_of!(vox_geometry_stats, mean_boundary_facet_area) == 96);
+    assert!(offset_of!(vox_geometry_stats, mean_volume) == 104);
+    assert!(offset_of!(vox_geometry_stats, bounds_min) == 112);
+    assert!(offset_of!(vox_geometry_stats, bounds_max) == 136);
+    assert!(size_of::<vox_cell_size_rules>() == 48);
+    assert!(align_of::<vox_cell_size_rules>() == 8);
+    assert!(offset_of!(vox_cell_size_rules, mean_edge) == 0);
+    assert!(offset_of!(vox_cell_size_rules, mean_edge_multiple) == 8);
+    assert!(offset_of!(vox_cell_size_rules, object_512) == 16);
+    assert!(offset_of!(vox_cell_size_rules, resolution) == 24);
+    assert!(offset_of!(vox_cell_size_rules, mean_volume) == 32);
+    assert!(offset_of!(vox_cell_size_rules, median_box_side) == 40);
+    assert!(size_of::<vox_cost_sample>() == 16);
+    assert!(align_of::<vox_cost_sample>() == 8);
+    assert!(offset_of!(vox_cost_sample, cell_size) == 0);
+    assert!(offset_of!(vox_cost_sample, cost) == 8);
+    assert!(size_of::<vox_cost_share>() == 48);
+    assert!(align_of::<vox_cost_share>() == 8);
+    assert!(offset_of!(vox_cost_share, name) == 0);
+    assert!(offset_of!(vox_cost_share, count) == 24);
+    assert!(offset_of!(vox_cost_share, cost) == 32);
+    assert!(offset_of!(vox_cost_share, share) == 40);
+    assert!(size_of::<vox_suggestion>() == 1968);
+    assert!(align_of::<vox_suggestion>() == 8);
+    assert!(offset_of!(vox_suggestion, struct_size) == 0);
+    assert!(offset_of!(vox_suggestion, model) == 4);
+    assert!(offset_of!(vox_suggestion, cell_size) == 8);
+    assert!(offset_of!(vox_suggestion, cells_per_axis) == 16);
+    assert!(offset_of!(vox_suggestion, zone_min) == 24);
+    assert!(offset_of!(vox_suggestion, zone_max) == 32);
+    assert!(offset_of!(vox_suggestion, predicted_cost) == 40);
+    assert!(offset_of!(vox_suggestion, rules) == 48);
+    assert!(offset_of!(vox_suggestion, stats) == 96);
+    assert!(offset_of!(vox_suggestion, curve) == 256);
+    assert!(offset_of!(vox_suggestion, curve_count) == 1280);
+    assert!(offset_of!(vox_suggestion, term_count) == 1284);
+    assert!(offset_of!(vox_suggestion, terms) == 1288);
+    assert!(offset_of!(vox_suggestion, rule_costs) == 1864);
+    assert!(offset_of!(vox_suggestion, budget_cell_size) == 1912);
+    assert!(offset_of!(vox_suggestion, uniform_loss) == 1920);
+    assert!(offset_of!(vox_suggestion, levels) == 1928);
+    assert!(offset_of!(vox_suggestion, level_count) == 1960);
+    assert!(offset_of!(vox_suggestion, reserved) == 1964);
+    assert!(size_of::<vox_cost_prediction>() == 600);
+    assert!(align_of::<vox_cost_prediction>() == 8);
+    assert!(offset_of!(vox_cost_prediction, struct_size) == 0);
+    assert!(offset_of!(vox_cost_prediction, term_count) == 4);
+    assert!(offset_of!(vox_cost_prediction, cell_size) == 8);
+    assert!(offset_of!(vox_cost_prediction, cost) == 16);
+    assert!(offset_of!(vox_cost_prediction, terms) == 24);
+    assert!(size_of::<vox_cost_weights>() == 136);
+    assert!(align_of::<vox_cost_weights>() == 8);
+    assert!(offset_of!(vox_cost_weights, struct_size) == 0);
+    assert!(offset_of!(vox_cost_weights, measured) == 4);
+    assert!(offset_of!(vox_cost_weights, reference_classify_vertex) == 8);
+    assert!(offset_of!(vox_cost_weights, reference_prepare_tet) == 16);
+    assert!(offset_of!(vox_cost_weights, reference_visit_cell) == 24);
+    assert!(offset_of!(vox_cost_weights, reference_scan_cell) == 32);
+    assert!(offset_of!(vox_cost_weights, reference_read_vertex) == 40);
+    assert!(offset_of!(vox_cost_weights, reference_test_box) == 48);
+    assert!(offset_of!(vox_cost_weights, reference_test_tet) == 56);
+    assert!(offset_of!(vox_cost_weights, reference_clear_bucket) == 64);
+    assert!(offset_of!(vox_cost_weights, fast_bin_vertex) == 72);
+    assert!(offset_of!(vox_cost_weights, fast_clear_cell) == 80);
+    assert!(offset_of!(vox_cost_weights, fast_visit_tile) == 88);
+    assert!(offset_of!(vox_cost_weights, fast_visit_row) == 96);
+    assert!(offset_of!(vox_cost_weights, fast_read_vertex) == 104);
+    assert!(offset_of!(vox_cost_weights, fast_test_vertex) == 112);
+    assert!(offset_of!(vox_cost_weights, reference_changed_list) == 120);
+    assert!(offset_of!(vox_cost_weights, reference_fetch_vertex) == 128);
+    assert!(size_of::<vox_cost_term>() == 16);
+    assert!(align_of::<vox_cost_term>() == 8);
+    assert!(offset_of!(vox_cost_term, coefficient) == 0);
+    assert!(offset_of!(vox_cost_term, power) == 8);
+    assert!(size_of::<vox_cost_bounds>() == 32);
+    assert!(align_of::<vox_cost_bounds>() == 8);
+    assert!(offset_of!(vox_cost_bounds, struct_size) == 0);
+    assert!(offset_of!(vox_cost_bounds, reserved) == 4);
+    assert!(offset_of!(vox_cost_bounds, min) == 8);
+    assert!(offset_of!(vox_cost_bounds, max) == 16);
+    assert!(offset_of!(vox_cost_bounds, zone_loss) == 24);
+    assert!(size_of::<vox_cost_minimum>() == 1064);
+    assert!(align_of::<vox_cost_minimum>() == 8);
+    assert!(offset_of!(vox_cost_minimum, struct_size) == 0);
+    assert!(offset_of!(vox_cost_minimum, curve_count) == 4);
+    assert!(offset_of!(vox_cost_minimum, cell_size) == 8);
+    assert!(offset_of!(vox_cost_minimum, cost) == 16);
+    assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
+    assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
+    assert!(offset_of!(vox_cost_minimum, curve) == 40);
+    assert!(size_of::<vox_io_load_desc>() == 40);
+    assert!(align_of::<vox_io_load_desc>() == 8);
+    assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_load_desc, format) == 4);
+    assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
+    assert!(offset_of!(vox_io_load_desc, reserved) == 12);
+    assert!(offset_of!(vox_io_load_desc, allocator) == 16);
+    assert!(size_of::<vox_io_source>() == 24);
+    assert!(align_of::<vox_io_source>() == 8);
+    assert!(offset_of!(vox_io_source, name) == 0);
+    assert!(offset_of!(vox_io_source, data) == 8);
+    assert!(offset_of!(vox_io_source, size) == 16);
+    assert!(size_of::<vox_io_mesh_view>() == 48);
+    assert!(align_of::<vox_io_mesh_view>() == 8);
+    assert!(offset_of!(vox_io_mesh_view, positions) == 0);
+    assert!(offset_of!(vox_io_mesh_view, vertex_count) == 8);
+    assert!(offset_of!(vox_io_mesh_view, tets) == 16);
+    assert!(offset_of!(vox_io_mesh_view, tet_count) == 24);
+    assert!(offset_of!(vox_io_mesh_view, triangles) == 32);
+    assert!(offset_of!(vox_io_mesh_view, triangle_count) == 40);
+    assert!(size_of::<vox_io_report>() == 208);
+    assert!(align_of::<vox_io_report>() == 8);
+    assert!(offset_of!(vox_io_report, struct_size) == 0);
+    assert!(offset_of!(vox_io_report, format) == 4);
+    assert!(offset_of!(vox_io_report, vertices) == 8);
+    assert!(offset_of!(vox_io_report, tets) == 16);
+    assert!(offset_of!(vox_io_report, triangles) == 24);
+    assert!(offset_of!(vox_io_report, skipped_elements) == 32);
+    assert!(offset_of!(vox_io_report, second_order_tets) == 40);
+    assert!(offset_of!(vox_io_report, inverted_tets) == 48);
+    assert!(offset_of!(vox_io_report, degenerate_tets) == 56);
+    assert!(offset_of!(vox_io_report, nearly_flat_tets) == 64);
+    assert!(offset_of!(vox_io_report, duplicate_tets) == 72);
+    assert!(offset_of!(vox_io_report, degenerate_triangles) == 80);
+    assert!(offset_of!(vox_io_report, duplicate_vertices) == 88);
+    assert!(offset_of!(vox_io_report, unused_vertices) == 96);
+    assert!(offset_of!(vox_io_report, boundary_facets) == 104);
+    assert!(offset_of!(vox_io_report, non_manifold_facets) == 112);
+    assert!(offset_of!(vox_io_report, open_edges) == 120);
+    assert!(offset_of!(vox_io_report, misoriented_edges) == 128);
+    assert!(offset_of!(vox_io_report, components) == 136);
+    assert!(offset_of!(vox_io_report, volume) == 144);
+    assert!(offset_of!(vox_io_report, bounds_min) == 152);
+    assert!(offset_of!(vox_io_report, bounds_max) == 176);
+    assert!(offset_of!(vox_io_report, unit_in_metres) == 200);
+    assert!(size_of::<vox_io_tetrahedralize_desc>() == 80);
+    assert!(align_of::<vox_io_tetrahedralize_desc>() == 8);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, kind) == 4);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, cell) == 8);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, max_tets) == 16);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, max_distance) == 24);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, coarsen) == 32);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, reserved) == 36);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, progress) == 40);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, progress_user) == 48);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, allocator) == 56);
+    assert!(size_of::<vox_io_quality>() == 88);
+    assert!(align_of::<vox_io_quality>() == 8);
+    assert!(offset_of!(vox_io_quality, struct_size) == 0);
+    assert!(offset_of!(vox_io_quality, reserved) == 4);
+    assert!(offset_of!(vox_io_quality, vertices) == 8);
+    assert!(offset_of!(vox_io_quality, tets) == 16);
+    assert!(offset_of!(vox_io_quality, boundary_facets) == 24);
+    assert!(offset_of!(vox_io_quality, min_dihedral) == 32);
+    assert!(offset_of!(vox_io_quality, max_dihedral) == 40);
+    assert!(offset_of!(vox_io_quality, volume) == 48);
+    assert!(offset_of!(vox_io_quality, surface_volume) == 56);
+    assert!(offset_of!(vox_io_quality, mesh_to_surface) == 64);
+    assert!(offset_of!(vox_io_quality, surface_to_mesh) == 72);
+    assert!(offset_of!(vox_io_quality, hausdorff) == 80);
+    assert!(size_of::<vox_io_point_data>() == 24);
+    assert!(align_of::<vox_io_point_data>() == 8);
+    assert!(offset_of!(vox_io_point_data, name) == 0);
+    assert!(offset_of!(vox_io_point_data, values) == 8);
+    assert!(offset_of!(vox_io_point_data, components) == 16);
+    assert!(offset_of!(vox_io_point_data, reserved) == 20);
+    assert!(size_of::<vox_io_write_desc>() == 48);
+    assert!(align_of::<vox_io_write_desc>() == 8);
+    assert!(offset_of!(vox_io_write_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_write_desc, format) == 4);
+    assert!(offset_of!(vox_io_write_desc, binary) == 8);
+    assert!(offset_of!(vox_io_write_desc, reserved) == 12);
+    assert!(offset_of!(vox_io_write_desc, point_data) == 16);
+    assert!(offset_of!(vox_io_write_desc, point_data_count) == 24);
+    assert!(offset_of!(vox_io_write_desc, cell_data) == 32);
+    assert!(offset_of!(vox_io_write_desc, cell_data_count) == 40);
+    assert!(size_of::<vox_io_sink>() == 16);
+    assert!(align_of::<vox_io_sink>() == 8);
+    assert!(offset_of!(vox_io_sink, write) == 0);
+    assert!(offset_of!(vox_io_sink, user) == 8);
+    assert!(size_of::<vox_sim_desc>() == 160);
+    assert!(align_of::<vox_sim_desc>() == 8);
+    assert!(offset_of!(vox_sim_desc, struct_size) == 0);
+    assert!(offset_of!(vox_sim_desc, substeps) == 4);
+    assert!(offset_of!(vox_sim_desc, detect_every) == 8);
+    assert!(offset_of!(vox_sim_desc, reserved) == 12);
+    assert!(offset_of!(vox_sim_desc, gravity) == 16);
+    assert!(offset_of!(vox_sim_desc, max_time_step) == 40);
+    assert!(offset_of!(vox_sim_desc, floor_normal) == 48);
+    assert!(offset_of!(vox_sim_desc, floor_offset) == 72);
+    assert!(offset_of!(vox_sim_desc, friction) == 80);
+    assert!(offset_of!(vox_sim_desc, contact_compliance) == 88);
+    assert!(offset_of!(vox_sim_desc, max_push_speed) == 96);
+    assert!(offset_of!(vox_sim_desc, contact_slop) == 104);
+    assert!(offset_of!(vox_sim_desc, grid) == 112);
+    assert!(offset_of!(vox_sim_desc, log) == 120);
+    assert!(offset_of!(vox_sim_desc, allocator) == 136);
+    assert!(size_of::<vox_sim_body_desc>() == 96);
+    assert!(align_of::<vox_sim_body_desc>() == 8);
+    assert!(offset_of!(vox_sim_body_desc, struct_size) == 0);
+    assert!(offset_of!(vox_sim_body_desc, flags) == 4);
+    assert!(offset_of!(vox_sim_body_desc, positions) == 8);
+    assert!(offset_of!(vox_sim_body_desc, rest_positions) == 16);
+    assert!(offset_of!(vox_sim_body_desc, velocities) == 24);
+    assert!(offset_of!(vox_sim_body_desc, tets) == 32);
+    assert!(offset_of!(vox_sim_body_desc, vertex_count) == 40);
+    assert!(offset_of!(vox_sim_body_desc, tet_count) == 48);
+    assert!(offset_of!(vox_sim_body_desc, density) == 56);
+    assert!(offset_of!(vox_sim_body_desc, youngs_modulus) == 64);
+    assert!(offset_of!(vox_sim_body_desc, bulk_modulus) == 72);
+    assert!(offset_of!(vox_sim_body_desc, damping) == 80);
+    assert!(offset_of!(vox_sim_body_desc, user_data) == 88);
+    assert!(size_of::<vox_sim_body_view>() == 56);
+    assert!(align_of::<vox_sim_body_view>() == 8);
+    assert!(offset_of!(vox_sim_body_view, positions) == 0);
+    assert!(offset_of!(vox_sim_body_view, velocities) == 8);
+    assert!(offset_of!(vox_sim_body_view, masses) == 16);
+    assert!(offset_of!(vox_sim_body_view, grid_positions) == 24);
+    assert!(offset_of!(vox_sim_body_view, tets) == 32);
+    assert!(offset_of!(vox_sim_body_view, vertex_count) == 40);
+    assert!(offset_of!(vox_sim_body_view, tet_count) == 48);
+    assert!(size_of::<vox_sim_energies>() == 96);
+    assert!(align_of::<vox_sim_energies>() == 8);
+    assert!(offset_of!(vox_sim_energies, struct_size) == 0);
+    assert!(offset_of!(vox_sim_energies, reserved) == 4);
+    assert!(offset_of!(vox_sim_energies, kinetic) == 8);
+    assert!(offset_of!(vox_sim_energies, potential) == 16);
+    assert!(offset_of!(vox_sim_energies, elastic) == 24);
+    assert!(offset_of!(vox_sim_energies, mass) == 32);
+    assert!(offset_of!(vox_sim_energies, momentum) == 40);
+    assert!(offset_of!(vox_sim_energies, centre) == 64);
+    assert!(offset_of!(vox_sim_energies, max_speed) == 88);
+    assert!(size_of::<vox_sim_counts>() == 144);
+    assert!(align_of::<vox_sim_counts>() == 8);
+    assert!(offset_of!(vox_sim_counts, struct_size) == 0);
+    assert!(offset_of!(vox_sim_counts, bodies) == 4);
+    assert!(offset_of!(vox_sim_counts, vertices) == 8);
+    assert!(offset_of!(vox_sim_counts, tets) == 16);
+    assert!(offset_of!(vox_sim_counts, edges) == 24);
+    assert!(offset_of!(vox_sim_counts, volumes) == 32);
+    assert!(offset_of!(vox_sim_counts, flat_tets) == 40);
+    assert!(offset_of!(vox_sim_counts, inverted_tets) == 48);
+    assert!(offset_of!(vox_sim_counts, raised_masses) == 56);
+    assert!(offset_of!(vox_sim_counts, softened) == 64);
+    assert!(offset_of!(vox_sim_counts, steps) == 72);
+    assert!(offset_of!(vox_sim_counts, substeps) == 80);
+    assert!(offset_of!(vox_sim_counts, detections) == 88);
+    assert!(offset_of!(vox_sim_counts, clamped_steps) == 96);
+    assert!(offset_of!(vox_sim_counts, penetrations) == 104);
+    assert!(offset_of!(vox_sim_counts, floor_contacts) == 112);
+    assert!(offset_of!(vox_sim_counts, step_ns) == 120);
+    assert!(offset_of!(vox_sim_counts, detect_ns) == 128);
+    assert!(offset_of!(vox_sim_counts, solve_ns) == 136);
+    assert!(size_of::<vox_experiment_desc>() == 88);
+    assert!(align_of::<vox_experiment_desc>() == 8);
+    assert!(offset_of!(vox_experiment_desc, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_desc, frames) == 4);
+    assert!(offset_of!(vox_experiment_desc, a) == 8);
+    assert!(offset_of!(vox_experiment_desc, b) == 16);
+    assert!(offset_of!(vox_experiment_desc, sim) == 24);
+    assert!(offset_of!(vox_experiment_desc, grid) == 32);
+    assert!(offset_of!(vox_experiment_desc, axis) == 40);
+    assert!(offset_of!(vox_experiment_desc, contact_share) == 64);
+    assert!(offset_of!(vox_experiment_desc, time_step) == 72);
+    assert!(offset_of!(vox_experiment_desc, turn) == 80);
+    assert!(offset_of!(vox_experiment_desc, reserved) == 84);
+    assert!(size_of::<vox_experiment_facts>() == 112);
+    assert!(align_of::<vox_experiment_facts>() == 8);
+    assert!(offset_of!(vox_experiment_facts, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_facts, frames) == 4);
+    assert!(offset_of!(vox_experiment_facts, vertices) == 8);
+    assert!(offset_of!(vox_experiment_facts, tets) == 16);
+    assert!(offset_of!(vox_experiment_facts, contacts) == 24);
+    assert!(offset_of!(vox_experiment_facts, hash) == 32);
+    assert!(offset_of!(vox_experiment_facts, distance) == 40);
+    assert!(offset_of!(vox_experiment_facts, mean_share) == 48);
+    assert!(offset_of!(vox_experiment_facts, shares) == 56);
+    assert!(offset_of!(vox_experiment_facts, bounds_min) == 64);
+    assert!(offset_of!(vox_experiment_facts, bounds_max) == 88);
+    assert!(size_of::<vox_experiment_sample>() == 56);
+    assert!(align_of::<vox_experiment_sample>() == 8);
+    assert!(offset_of!(vox_experiment_sample, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_sample, reserved) == 4);
+    assert!(offset_of!(vox_experiment_sample, cell_size) == 8);
+    assert!(offset_of!(vox_experiment_sample, mean_ns) == 16);
+    assert!(offset_of!(vox_experiment_sample, contacts) == 24);
+    assert!(offset_of!(vox_experiment_sample, visited_cells) == 32);
+    assert!(offset_of!(vox_experiment_sample, visited_entries) == 40);
+    assert!(offset_of!(vox_experiment_sample, candidates) == 48);
+    assert!(size_of::<vox_time_fit>() == 136);
+    assert!(align_of::<vox_time_fit>() == 8);
+    assert!(offset_of!(vox_time_fit, struct_size) == 0);
+    assert!(offset_of!(vox_time_fit, degree) == 4);
+    assert!(offset_of!(vox_time_fit, range_min) == 8);
+    assert!(offset_of!(vox_time_fit, range_max) == 16);
+    assert!(offset_of!(vox_time_fit, coefficients) == 24);
+    assert!(offset_of!(vox_time_fit, r_squared) == 96);
+    assert!(offset_of!(vox_time_fit, prediction_error) == 104);
+    assert!(offset_of!(vox_time_fit, cell_size) == 112);
+    assert!(offset_of!(vox_time_fit, time) == 120);
+    assert!(offset_of!(vox_time_fit, bracketed) == 128);
+    assert!(offset_of!(vox_time_fit, reserved) == 132);
+};
+
+#[cfg(all(target_pointer_width = "32", not(target_arch = "x86")))]
+const _: () = {
+    use core::mem::{align_of, offset_of, size_of};
+    assert!(size_of::<vox_allocator>() == 12);
+    assert!(align_of::<vox_allocator>() == 4);
+    assert!(offset_of!(vox_allocator, allocate) == 0);
+    assert!(offset_of!(vox_allocator, release) == 4);
+    assert!(offset_of!(vox_allocator, user) == 8);
+    assert!(size_of::<vox_log>() == 8);
+    assert!(align_of::<vox_log>() == 4);
+    assert!(offset_of!(vox_log, write) == 0);
+    assert!(offset_of!(vox_log, user) == 4);
+    assert!(size_of::<vox_task_system>() == 12);
+    assert!(align_of::<vox_task_system>() == 4);
+    assert!(offset_of!(vox_task_system, enqueue) == 0);
+    assert!(offset_of!(vox_task_system, finish) == 4);
+    assert!(offset_of!(vox_task_system, user) == 8);
+    assert!(size_of::<vox_grid_desc>() == 136);
+    assert!(align_of::<vox_grid_desc>() == 8);
+    assert!(offset_of!(vox_grid_desc, struct_size) == 0);
+    assert!(offset_of!(vox_grid_desc, engine) == 4);
+    assert!(offset_of!(vox_grid_desc, storage) == 8);
+    assert!(offset_of!(vox_grid_desc, hash) == 12);
+    assert!(offset_of!(vox_grid_desc, cell_size) == 16);
+    assert!(offset_of!(vox_grid_desc, world_min) == 24);
+    assert!(offset_of!(vox_grid_desc, world_max) == 48);
+    assert!(offset_of!(vox_grid_desc, byte_budget) == 72);
+    assert!(offset_of!(vox_grid_desc, hash_table_size) == 80);
+    assert!(offset_of!(vox_grid_desc, allocator) == 88);
+    assert!(offset_of!(vox_grid_desc, log) == 100);
+    assert!(offset_of!(vox_grid_desc, tasks) == 108);
+    assert!(offset_of!(vox_grid_desc, worker_count) == 120);
+    assert!(offset_of!(vox_grid_desc, flags) == 124);
+    assert!(offset_of!(vox_grid_desc, closest_budget) == 128);
+    assert!(size_of::<vox_filter>() == 48);
+    assert!(align_of::<vox_filter>() == 8);
+    assert!(offset_of!(vox_filter, struct_size) == 0);
+    assert!(offset_of!(vox_filter, group) == 4);
+    assert!(offset_of!(vox_filter, category) == 8);
+    assert!(offset_of!(vox_filter, mask) == 16);
+    assert!(offset_of!(vox_filter, self_collision) == 24);
+    assert!(offset_of!(vox_filter, self_rings) == 28);
+    assert!(offset_of!(vox_filter, self_rest_distance) == 32);
+    assert!(offset_of!(vox_filter, penetration_mask) == 40);
+    assert!(size_of::<vox_mesh_desc>() == 96);
+    assert!(align_of::<vox_mesh_desc>() == 8);
+    assert!(offset_of!(vox_mesh_desc, struct_size) == 0);
+    assert!(offset_of!(vox_mesh_desc, flags) == 4);
+    assert!(offset_of!(vox_mesh_desc, positions) == 8);
+    assert!(offset_of!(vox_mesh_desc, position_byte_stride) == 16);
+    assert!(offset_of!(vox_mesh_desc, tets) == 24);
+    assert!(offset_of!(vox_mesh_desc, tet_count) == 32);
+    assert!(offset_of!(vox_mesh_desc, vertex_count) == 40);
+    assert!(offset_of!(vox_mesh_desc, user_data) == 48);
+    assert!(offset_of!(vox_mesh_desc, position_format) == 56);
+    assert!(offset_of!(vox_mesh_desc, reserved) == 60);
+    assert!(offset_of!(vox_mesh_desc, filter) == 64);
+    assert!(offset_of!(vox_mesh_desc, rest_positions) == 68);
+    assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 72);
+    assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 80);
+    assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 88);
+    assert!(size_of::<vox_vertices_desc>() == 64);
+    assert!(align_of::<vox_vertices_desc>() == 8);
+    assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
+    assert!(offset_of!(vox_vertices_desc, reserved) == 4);
+    assert!(offset_of!(vox_vertices_desc, count) == 8);
+    assert!(offset_of!(vox_vertices_desc, positions) == 16);
+    assert!(offset_of!(vox_vertices_desc, position_byte_stride) == 24);
+    assert!(offset_of!(vox_vertices_desc, copies_of) == 32);
+    assert!(offset_of!(vox_vertices_desc, rest_positions) == 36);
+    assert!(offset_of!(vox_vertices_desc, rest_position_byte_stride) == 40);
+    assert!(offset_of!(vox_vertices_desc, position_component_byte_stride) == 48);
+    assert!(offset_of!(vox_vertices_desc, rest_position_component_byte_stride) == 56);
+    assert!(size_of::<vox_failure>() == 56);
+    assert!(align_of::<vox_failure>() == 8);
+    assert!(offset_of!(vox_failure, struct_size) == 0);
+    assert!(offset_of!(vox_failure, result) == 4);
+    assert!(offset_of!(vox_failure, mesh) == 8);
+    assert!(offset_of!(vox_failure, slot) == 12);
+    assert!(offset_of!(vox_failure, user_data) == 16);
+    assert!(offset_of!(vox_failure, vertex) == 24);
+    assert!(offset_of!(vox_failure, reserved) == 28);
+    assert!(offset_of!(vox_failure, position) == 32);
+    assert!(size_of::<vox_contact>() == 32);
+    assert!(align_of::<vox_contact>() == 4);
+    assert!(offset_of!(vox_contact, mesh_a) == 0);
+    assert!(offset_of!(vox_contact, vertex) == 4);
+    assert!(offset_of!(vox_contact, mesh_b) == 8);
+    assert!(offset_of!(vox_contact, tet) == 12);
+    assert!(offset_of!(vox_contact, barycentric) == 16);
+    assert!(size_of::<vox_contact_view>() == 24);
+    assert!(align_of::<vox_contact_view>() == 8);
+    assert!(offset_of!(vox_contact_view, data) == 0);
+    assert!(offset_of!(vox_contact_view, byte_stride) == 4);
+    assert!(offset_of!(vox_contact_view, count) == 8);
+    assert!(offset_of!(vox_contact_view, epoch) == 16);
+    assert!(size_of::<vox_interior_view>() == 24);
+    assert!(align_of::<vox_interior_view>() == 8);
+    assert!(offset_of!(vox_interior_view, data) == 0);
+    assert!(offset_of!(vox_interior_view, byte_stride) == 4);
+    assert!(offset_of!(vox_interior_view, count) == 8);
+    assert!(offset_of!(vox_interior_view, epoch) == 16);
+    assert!(size_of::<vox_penetration>() == 40);
+    assert!(align_of::<vox_penetration>() == 8);
+    assert!(offset_of!(vox_penetration, mesh_a) == 0);
+    assert!(offset_of!(vox_penetration, vertex) == 4);
+    assert!(offset_of!(vox_penetration, mesh_b) == 8);
+    assert!(offset_of!(vox_penetration, state) == 12);
+    assert!(offset_of!(vox_penetration, contact) == 16);
+    assert!(offset_of!(vox_penetration, depth) == 24);
+    assert!(offset_of!(vox_penetration, direction) == 28);
+    assert!(size_of::<vox_penetration_view>() == 24);
+    assert!(align_of::<vox_penetration_view>() == 8);
+    assert!(offset_of!(vox_penetration_view, data) == 0);
+    assert!(offset_of!(vox_penetration_view, byte_stride) == 4);
+    assert!(offset_of!(vox_penetration_view, count) == 8);
+    assert!(offset_of!(vox_penetration_view, epoch) == 16);
+    assert!(size_of::<vox_depth>() == 32);
+    assert!(align_of::<vox_depth>() == 8);
+    assert!(offset_of!(vox_depth, depth) == 0);
+    assert!(offset_of!(vox_depth, direction) == 8);
+    assert!(size_of::<vox_depth_view>() == 24);
+    assert!(align_of::<vox_depth_view>() == 8);
+    assert!(offset_of!(vox_depth_view, data) == 0);
+    assert!(offset_of!(vox_depth_view, byte_stride) == 4);
+    assert!(offset_of!(vox_depth_view, count) == 8);
+    assert!(offset_of!(vox_depth_view, epoch) == 16);
+    assert!(size_of::<vox_pair>() == 48);
+    assert!(align_of::<vox_pair>() == 8);
+    assert!(offset_of!(vox_pair, mesh_a) == 0);
+    assert!(offset_of!(vox_pair, mesh_b) == 4);
+    assert!(offset_of!(vox_pair, user_data_a) == 8);
+    assert!(offset_of!(vox_pair, user_data_b) == 16);
+    assert!(offset_of!(vox_pair, first) == 24);
+    assert!(offset_of!(vox_pair, a_in_b) == 32);
+    assert!(offset_of!(vox_pair, b_in_a) == 40);
+    assert!(size_of::<vox_pair_view>() == 32);
+    assert!(align_of::<vox_pair_view>() == 8);
+    assert!(offset_of!(vox_pair_view, data) == 0);
+    assert!(offset_of!(vox_pair_view, byte_stride) == 4);
+    assert!(offset_of!(vox_pair_view, count) == 8);
+    assert!(offset_of!(vox_pair_view, epoch) == 16);
+    assert!(offset_of!(vox_pair_view, contacts) == 24);
+    assert!(size_of::<vox_touch_event>() == 32);
+    assert!(align_of::<vox_touch_event>() == 8);
+    assert!(offset_of!(vox_touch_event, mesh_a) == 0);
+    assert!(offset_of!(vox_touch_event, mesh_b) == 4);
+    assert!(offset_of!(vox_touch_event, user_data_a) == 8);
+    assert!(offset_of!(vox_touch_event, user_data_b) == 16);
+    assert!(offset_of!(vox_touch_event, kind) == 24);
+    assert!(offset_of!(vox_touch_event, pair) == 28);
+    assert!(size_of::<vox_touch_view>() == 48);
+    assert!(align_of::<vox_touch_view>() == 8);
+    assert!(offset_of!(vox_touch_view, data) == 0);
+    assert!(offset_of!(vox_touch_view, byte_stride) == 4);
+    assert!(offset_of!(vox_touch_view, count) == 8);
+    assert!(offset_of!(vox_touch_view, epoch) == 16);
+    assert!(offset_of!(vox_touch_view, began) == 24);
+    assert!(offset_of!(vox_touch_view, persisted) == 32);
+    assert!(offset_of!(vox_touch_view, ended) == 40);
+    assert!(size_of::<vox_contact_event>() == 16);
+    assert!(align_of::<vox_contact_event>() == 4);
+    assert!(offset_of!(vox_contact_event, mesh_a) == 0);
+    assert!(offset_of!(vox_contact_event, vertex) == 4);
+    assert!(offset_of!(vox_contact_event, mesh_b) == 8);
+    assert!(offset_of!(vox_contact_event, kind) == 12);
+    assert!(size_of::<vox_contact_event_view>() == 40);
+    assert!(align_of::<vox_contact_event_view>() == 8);
+    assert!(offset_of!(vox_contact_event_view, data) == 0);
+    assert!(offset_of!(vox_contact_event_view, byte_stride) == 4);
+    assert!(offset_of!(vox_contact_event_view, count) == 8);
+    assert!(offset_of!(vox_contact_event_view, epoch) == 16);
+    assert!(offset_of!(vox_contact_event_view, began) == 24);
+    assert!(offset_of!(vox_contact_event_view, ended) == 32);
+    assert!(size_of::<vox_reading>() == 168);
+    assert!(align_of::<vox_reading>() == 8);
+    assert!(offset_of!(vox_reading, contact) == 0);
+    assert!(offset_of!(vox_reading, known) == 8);
+    assert!(offset_of!(vox_reading, state) == 12);
+    assert!(offset_of!(vox_reading, depth) == 16);
+    assert!(offset_of!(vox_reading, direction) == 20);
+    assert!(offset_of!(vox_reading, position) == 32);
+    assert!(offset_of!(vox_reading, distance) == 56);
+    assert!(offset_of!(vox_reading, surface_position) == 64);
+    assert!(offset_of!(vox_reading, barycentric) == 88);
+    assert!(offset_of!(vox_reading, normal) == 112);
+    assert!(offset_of!(vox_reading, triangle) == 136);
+    assert!(offset_of!(vox_reading, reserved) == 148);
+    assert!(offset_of!(vox_reading, user_data_a) == 152);
+    assert!(offset_of!(vox_reading, user_data_b) == 160);
+    assert!(size_of::<vox_reading_view>() == 24);
+    assert!(align_of::<vox_reading_view>() == 8);
+    assert!(offset_of!(vox_reading_view, data) == 0);
+    assert!(offset_of!(vox_reading_view, byte_stride) == 4);
+    assert!(offset_of!(vox_reading_view, count) == 8);
+    assert!(offset_of!(vox_reading_view, epoch) == 16);
+    assert!(size_of::<vox_readings_desc>() == 24);
+    assert!(align_of::<vox_readings_desc>() == 8);
+    assert!(offset_of!(vox_readings_desc, struct_size) == 0);
+    assert!(offset_of!(vox_readings_desc, what) == 4);
+    assert!(offset_of!(vox_readings_desc, mesh_a) == 8);
+    assert!(offset_of!(vox_readings_desc, mesh_b) == 12);
+    assert!(offset_of!(vox_readings_desc, closest_budget) == 16);
+    assert!(size_of::<vox_point_hit>() == 28);
+    assert!(align_of::<vox_point_hit>() == 4);
+    assert!(offset_of!(vox_point_hit, point) == 0);
+    assert!(offset_of!(vox_point_hit, mesh) == 4);
+    assert!(offset_of!(vox_point_hit, tet) == 8);
+    assert!(offset_of!(vox_point_hit, barycentric) == 12);
+    assert!(size_of::<vox_tet_hit>() == 8);
+    assert!(align_of::<vox_tet_hit>() == 4);
+    assert!(offset_of!(vox_tet_hit, mesh) == 0);
+    assert!(offset_of!(vox_tet_hit, tet) == 4);
+    assert!(size_of::<vox_surface_hit>() == 72);
+    assert!(align_of::<vox_surface_hit>() == 8);
+    assert!(offset_of!(vox_surface_hit, mesh) == 0);
+    assert!(offset_of!(vox_surface_hit, tet) == 4);
+    assert!(offset_of!(vox_surface_hit, facet) == 8);
+    assert!(offset_of!(vox_surface_hit, reserved) == 12);
+    assert!(offset_of!(vox_surface_hit, barycentric) == 16);
+    assert!(offset_of!(vox_surface_hit, position) == 40);
+    assert!(offset_of!(vox_surface_hit, distance) == 64);
+    assert!(size_of::<vox_closest_desc>() == 64);
+    assert!(align_of::<vox_closest_desc>() == 8);
+    assert!(offset_of!(vox_closest_desc, struct_size) == 0);
+    assert!(offset_of!(vox_closest_desc, format) == 4);
+    assert!(offset_of!(vox_closest_desc, points) == 8);
+    assert!(offset_of!(vox_closest_desc, byte_stride) == 16);
+    assert!(offset_of!(vox_closest_desc, point_count) == 24);
+    assert!(offset_of!(vox_closest_desc, mask) == 32);
+    assert!(offset_of!(vox_closest_desc, max_distance) == 40);
+    assert!(offset_of!(vox_closest_desc, excluded) == 48);
+    assert!(offset_of!(vox_closest_desc, reserved) == 52);
+    assert!(offset_of!(vox_closest_desc, component_byte_stride) == 56);
+    assert!(size_of::<vox_closest_hit>() == 96);
+    assert!(align_of::<vox_closest_hit>() == 8);
+    assert!(offset_of!(vox_closest_hit, mesh) == 0);
+    assert!(offset_of!(vox_closest_hit, tet) == 4);
+    assert!(offset_of!(vox_closest_hit, facet) == 8);
+    assert!(offset_of!(vox_closest_hit, inside) == 12);
+    assert!(offset_of!(vox_closest_hit, barycentric) == 16);
+    assert!(offset_of!(vox_closest_hit, position) == 40);
+    assert!(offset_of!(vox_closest_hit, normal) == 64);
+    assert!(offset_of!(vox_closest_hit, distance) == 88);
+    assert!(size_of::<vox_ray_hit>() == 64);
+    assert!(align_of::<vox_ray_hit>() == 8);
+    assert!(offset_of!(vox_ray_hit, mesh) == 0);
+    assert!(offset_of!(vox_ray_hit, tet) == 4);
+    assert!(offset_of!(vox_ray_hit, t) == 8);
+    assert!(offset_of!(vox_ray_hit, surface_mesh) == 16);
+    assert!(offset_of!(vox_ray_hit, surface_tet) == 20);
+    assert!(offset_of!(vox_ray_hit, surface_facet) == 24);
+    assert!(offset_of!(vox_ray_hit, surface_side) == 28);
+    assert!(offset_of!(vox_ray_hit, surface_t) == 32);
+    assert!(offset_of!(vox_ray_hit, surface_barycentric) == 40);
+    assert!(size_of::<vox_facet_hit>() == 48);
+    assert!(align_of::<vox_facet_hit>() == 8);
+    assert!(offset_of!(vox_facet_hit, mesh) == 0);
+    assert!(offset_of!(vox_facet_hit, tet) == 4);
+    assert!(offset_of!(vox_facet_hit, facet) == 8);
+    assert!(offset_of!(vox_facet_hit, side) == 12);
+    assert!(offset_of!(vox_facet_hit, t) == 16);
+    assert!(offset_of!(vox_facet_hit, barycentric) == 24);
+    assert!(size_of::<vox_counters>() == 256);
+    assert!(align_of::<vox_counters>() == 8);
+    assert!(offset_of!(vox_counters, struct_size) == 0);
+    assert!(offset_of!(vox_counters, meshes) == 4);
+    assert!(offset_of!(vox_counters, vertices) == 8);
+    assert!(offset_of!(vox_counters, tets) == 16);
+    assert!(offset_of!(vox_counters, cells) == 24);
+    assert!(offset_of!(vox_counters, entries) == 32);
+    assert!(offset_of!(vox_counters, fullest_cell) == 40);
+    assert!(offset_of!(vox_counters, visited_cells) == 48);
+    assert!(offset_of!(vox_counters, visited_entries) == 56);
+    assert!(offset_of!(vox_counters, candidates) == 64);
+    assert!(offset_of!(vox_counters, exact_tests) == 72);
+    assert!(offset_of!(vox_counters, contacts) == 80);
+    assert!(offset_of!(vox_counters, skipped_degenerate) == 88);
+    assert!(offset_of!(vox_counters, bytes) == 96);
+    assert!(offset_of!(vox_counters, peak_bytes) == 104);
+    assert!(offset_of!(vox_counters, moved_meshes) == 112);
+    assert!(offset_of!(vox_counters, carried_contacts) == 120);
+    assert!(offset_of!(vox_counters, penetrations) == 128);
+    assert!(offset_of!(vox_counters, leaving_edges) == 136);
+    assert!(offset_of!(vox_counters, edge_tests) == 144);
+    assert!(offset_of!(vox_counters, closest_searches) == 152);
+    assert!(offset_of!(vox_counters, closest_tests) == 160);
+    assert!(offset_of!(vox_counters, disabled_meshes) == 168);
+    assert!(offset_of!(vox_counters, filtered) == 176);
+    assert!(offset_of!(vox_counters, cell_size_changes) == 184);
+    assert!(offset_of!(vox_counters, unknown_penetrations) == 192);
+    assert!(offset_of!(vox_counters, carried_penetrations) == 200);
+    assert!(offset_of!(vox_counters, skipped_meshes) == 208);
+    assert!(offset_of!(vox_counters, meshes_without_tets) == 216);
+    assert!(offset_of!(vox_counters, total_touches_began) == 224);
+    assert!(offset_of!(vox_counters, total_touches_ended) == 232);
+    assert!(offset_of!(vox_counters, total_contacts_began) == 240);
+    assert!(offset_of!(vox_counters, total_contacts_ended) == 248);
+    assert!(size_of::<vox_profile>() == 112);
+    assert!(align_of::<vox_profile>() == 8);
+    assert!(offset_of!(vox_profile, struct_size) == 0);
+    assert!(offset_of!(vox_profile, reserved) == 4);
+    assert!(offset_of!(vox_profile, step_ns) == 8);
+    assert!(offset_of!(vox_profile, bin_ns) == 16);
+    assert!(offset_of!(vox_profile, broad_ns) == 24);
+    assert!(offset_of!(vox_profile, narrow_ns) == 32);
+    assert!(offset_of!(vox_profile, contacts_ns) == 40);
+    assert!(offset_of!(vox_profile, depth_ns) == 48);
+    assert!(offset_of!(vox_profile, events_ns) == 56);
+    assert!(offset_of!(vox_profile, stream_ns) == 64);
+    assert!(offset_of!(vox_profile, winding_ns) == 72);
+    assert!(offset_of!(vox_profile, broad_phase_ns) == 80);
+    assert!(offset_of!(vox_profile, windows_ns) == 88);
+    assert!(offset_of!(vox_profile, lookup_ns) == 96);
+    assert!(offset_of!(vox_profile, decide_ns) == 104);
+    assert!(size_of::<vox_suggest_desc>() == 96);
+    assert!(align_of::<vox_suggest_desc>() == 8);
+    assert!(offset_of!(vox_suggest_desc, struct_size) == 0);
+    assert!(offset_of!(vox_suggest_desc, model) == 4);
+    assert!(offset_of!(vox_suggest_desc, size_reading) == 8);
+    assert!(offset_of!(vox_suggest_desc, area_reading) == 12);
+    assert!(offset_of!(vox_suggest_desc, p_nc) == 16);
+    assert!(offset_of!(vox_suggest_desc, cost_ratio) == 24);
+    assert!(offset_of!(vox_suggest_desc, world_edge) == 32);
+    assert!(offset_of!(vox_suggest_desc, zone_loss) == 40);
+    assert!(offset_of!(vox_suggest_desc, mean_edge_factor) == 48);
+    assert!(offset_of!(vox_suggest_desc, resolution) == 56);
+    assert!(offset_of!(vox_suggest_desc, byte_budget) == 64);
+    assert!(offset_of!(vox_suggest_desc, storage) == 72);
+    assert!(offset_of!(vox_suggest_desc, reserved) == 76);
+    assert!(offset_of!(vox_suggest_desc, allocator) == 80);
+    assert!(size_of::<vox_geometry_stats>() == 160);
+    assert!(align_of::<vox_geometry_stats>() == 8);
+    assert!(offset_of!(vox_geometry_stats, vertices) == 0);
+    assert!(offset_of!(vox_geometry_stats, tets) == 8);
+    assert!(offset_of!(vox_geometry_stats, edges) == 16);
+    assert!(offset_of!(vox_geometry_stats, facets) == 24);
+    assert!(offset_of!(vox_geometry_stats, boundary_facets) == 32);
+    assert!(offset_of!(vox_geometry_stats, degenerate_tets) == 40);
+    assert!(offset_of!(vox_geometry_stats, mean_edge) == 48);
+    assert!(offset_of!(vox_geometry_stats, mean_longest_edge) == 56);
+    assert!(offset_of!(vox_geometry_stats, mean_box_side) == 64);
+    assert!(offset_of!(vox_geometry_stats, median_box_side) == 72);
+    assert!(offset_of!(vox_geometry_stats, mean_facet_area) == 80);
+    assert!(offset_of!(vox_geometry_stats, mean_tet_facet_area) == 88);
+    assert!(offset_of!(vox_geometry_stats, mean_boundary_facet_area) == 96);
+    assert!(offset_of!(vox_geometry_stats, mean_volume) == 104);
+    assert!(offset_of!(vox_geometry_stats, bounds_min) == 112);
+    assert!(offset_of!(vox_geometry_stats, bounds_max) == 136);
+    assert!(size_of::<vox_cell_size_rules>() == 48);
+    assert!(align_of::<vox_cell_size_rules>() == 8);
+    assert!(offset_of!(vox_cell_size_rules, mean_edge) == 0);
+    assert!(offset_of!(vox_cell_size_rules, mean_edge_multiple) == 8);
+    assert!(offset_of!(vox_cell_size_rules, object_512) == 16);
+    assert!(offset_of!(vox_cell_size_rules, resolution) == 24);
+    assert!(offset_of!(vox_cell_size_rules, mean_volume) == 32);
+    assert!(offset_of!(vox_cell_size_rules, median_box_side) == 40);
+    assert!(size_of::<vox_cost_sample>() == 16);
+    assert!(align_of::<vox_cost_sample>() == 8);
+    assert!(offset_of!(vox_cost_sample, cell_size) == 0);
+    assert!(offset_of!(vox_cost_sample, cost) == 8);
+    assert!(size_of::<vox_cost_share>() == 48);
+    assert!(align_of::<vox_cost_share>() == 8);
+    assert!(offset_of!(vox_cost_share, name) == 0);
+    assert!(offset_of!(vox_cost_share, count) == 24);
+    assert!(offset_of!(vox_cost_share, cost) == 32);
+    assert!(offset_of!(vox_cost_share, share) == 40);
+    assert!(size_of::<vox_suggestion>() == 1968);
+    assert!(align_of::<vox_suggestion>() == 8);
+    assert!(offset_of!(vox_suggestion, struct_size) == 0);
+    assert!(offset_of!(vox_suggestion, model) == 4);
+    assert!(offset_of!(vox_suggestion, cell_size) == 8);
+    assert!(offset_of!(vox_suggestion, cells_per_axis) == 16);
+    assert!(offset_of!(vox_suggestion, zone_min) == 24);
+    assert!(offset_of!(vox_suggestion, zone_max) == 32);
+    assert!(offset_of!(vox_suggestion, predicted_cost) == 40);
+    assert!(offset_of!(vox_suggestion, rules) == 48);
+    assert!(offset_of!(vox_suggestion, stats) == 96);
+    assert!(offset_of!(vox_suggestion, curve) == 256);
+    assert!(offset_of!(vox_suggestion, curve_count) == 1280);
+    assert!(offset_of!(vox_suggestion, term_count) == 1284);
+    assert!(offset_of!(vox_suggestion, terms) == 1288);
+    assert!(offset_of!(vox_suggestion, rule_costs) == 1864);
+    assert!(offset_of!(vox_suggestion, budget_cell_size) == 1912);
+    assert!(offset_of!(vox_suggestion, uniform_loss) == 1920);
+    assert!(offset_of!(vox_suggestion, levels) == 1928);
+    assert!(offset_of!(vox_suggestion, level_count) == 1960);
+    assert!(offset_of!(vox_suggestion, reserved) == 1964);
+    assert!(size_of::<vox_cost_prediction>() == 600);
+    assert!(align_of::<vox_cost_prediction>() == 8);
+    assert!(offset_of!(vox_cost_prediction, struct_size) == 0);
+    assert!(offset_of!(vox_cost_prediction, term_count) == 4);
+    assert!(offset_of!(vox_cost_prediction, cell_size) == 8);
+    assert!(offset_of!(vox_cost_prediction, cost) == 16);
+    assert!(offset_of!(vox_cost_prediction, terms) == 24);
+    assert!(size_of::<vox_cost_weights>() == 136);
+    assert!(align_of::<vox_cost_weights>() == 8);
+    assert!(offset_of!(vox_cost_weights, struct_size) == 0);
+    assert!(offset_of!(vox_cost_weights, measured) == 4);
+    assert!(offset_of!(vox_cost_weights, reference_classify_vertex) == 8);
+    assert!(offset_of!(vox_cost_weights, reference_prepare_tet) == 16);
+    assert!(offset_of!(vox_cost_weights, reference_visit_cell) == 24);
+    assert!(offset_of!(vox_cost_weights, reference_scan_cell) == 32);
+    assert!(offset_of!(vox_cost_weights, reference_read_vertex) == 40);
+    assert!(offset_of!(vox_cost_weights, reference_test_box) == 48);
+    assert!(offset_of!(vox_cost_weights, reference_test_tet) == 56);
+    assert!(offset_of!(vox_cost_weights, reference_clear_bucket) == 64);
+    assert!(offset_of!(vox_cost_weights, fast_bin_vertex) == 72);
+    assert!(offset_of!(vox_cost_weights, fast_clear_cell) == 80);
+    assert!(offset_of!(vox_cost_weights, fast_visit_tile) == 88);
+    assert!(offset_of!(vox_cost_weights, fast_visit_row) == 96);
+    assert!(offset_of!(vox_cost_weights, fast_read_vertex) == 104);
+    assert!(offset_of!(vox_cost_weights, fast_test_vertex) == 112);
+    assert!(offset_of!(vox_cost_weights, reference_changed_list) == 120);
+    assert!(offset_of!(vox_cost_weights, reference_fetch_vertex) == 128);
+    assert!(size_of::<vox_cost_term>() == 16);
+    assert!(align_of::<vox_cost_term>() == 8);
+    assert!(offset_of!(vox_cost_term, coefficient) == 0);
+    assert!(offset_of!(vox_cost_term, power) == 8);
+    assert!(size_of::<vox_cost_bounds>() == 32);
+    assert!(align_of::<vox_cost_bounds>() == 8);
+    assert!(offset_of!(vox_cost_bounds, struct_size) == 0);
+    assert!(offset_of!(vox_cost_bounds, reserved) == 4);
+    assert!(offset_of!(vox_cost_bounds, min) == 8);
+    assert!(offset_of!(vox_cost_bounds, max) == 16);
+    assert!(offset_of!(vox_cost_bounds, zone_loss) == 24);
+    assert!(size_of::<vox_cost_minimum>() == 1064);
+    assert!(align_of::<vox_cost_minimum>() == 8);
+    assert!(offset_of!(vox_cost_minimum, struct_size) == 0);
+    assert!(offset_of!(vox_cost_minimum, curve_count) == 4);
+    assert!(offset_of!(vox_cost_minimum, cell_size) == 8);
+    assert!(offset_of!(vox_cost_minimum, cost) == 16);
+    assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
+    assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
+    assert!(offset_of!(vox_cost_minimum, curve) == 40);
+    assert!(size_of::<vox_io_load_desc>() == 28);
+    assert!(align_of::<vox_io_load_desc>() == 4);
+    assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_load_desc, format) == 4);
+    assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
+    assert!(offset_of!(vox_io_load_desc, reserved) == 12);
+    assert!(offset_of!(vox_io_load_desc, allocator) == 16);
+    assert!(size_of::<vox_io_source>() == 12);
+    assert!(align_of::<vox_io_source>() == 4);
+    assert!(offset_of!(vox_io_source, name) == 0);
+    assert!(offset_of!(vox_io_source, data) == 4);
+    assert!(offset_of!(vox_io_source, size) == 8);
+    assert!(size_of::<vox_io_mesh_view>() == 48);
+    assert!(align_of::<vox_io_mesh_view>() == 8);
+    assert!(offset_of!(vox_io_mesh_view, positions) == 0);
+    assert!(offset_of!(vox_io_mesh_view, vertex_count) == 8);
+    assert!(offset_of!(vox_io_mesh_view, tets) == 16);
+    assert!(offset_of!(vox_io_mesh_view, tet_count) == 24);
+    assert!(offset_of!(vox_io_mesh_view, triangles) == 32);
+    assert!(offset_of!(vox_io_mesh_view, triangle_count) == 40);
+    assert!(size_of::<vox_io_report>() == 208);
+    assert!(align_of::<vox_io_report>() == 8);
+    assert!(offset_of!(vox_io_report, struct_size) == 0);
+    assert!(offset_of!(vox_io_report, format) == 4);
+    assert!(offset_of!(vox_io_report, vertices) == 8);
+    assert!(offset_of!(vox_io_report, tets) == 16);
+    assert!(offset_of!(vox_io_report, triangles) == 24);
+    assert!(offset_of!(vox_io_report, skipped_elements) == 32);
+    assert!(offset_of!(vox_io_report, second_order_tets) == 40);
+    assert!(offset_of!(vox_io_report, inverted_tets) == 48);
+    assert!(offset_of!(vox_io_report, degenerate_tets) == 56);
+    assert!(offset_of!(vox_io_report, nearly_flat_tets) == 64);
+    assert!(offset_of!(vox_io_report, duplicate_tets) == 72);
+    assert!(offset_of!(vox_io_report, degenerate_triangles) == 80);
+    assert!(offset_of!(vox_io_report, duplicate_vertices) == 88);
+    assert!(offset_of!(vox_io_report, unused_vertices) == 96);
+    assert!(offset_of!(vox_io_report, boundary_facets) == 104);
+    assert!(offset_of!(vox_io_report, non_manifold_facets) == 112);
+    assert!(offset_of!(vox_io_report, open_edges) == 120);
+    assert!(offset_of!(vox_io_report, misoriented_edges) == 128);
+    assert!(offset_of!(vox_io_report, components) == 136);
+    assert!(offset_of!(vox_io_report, volume) == 144);
+    assert!(offset_of!(vox_io_report, bounds_min) == 152);
+    assert!(offset_of!(vox_io_report, bounds_max) == 176);
+    assert!(offset_of!(vox_io_report, unit_in_metres) == 200);
+    assert!(size_of::<vox_io_tetrahedralize_desc>() == 64);
+    assert!(align_of::<vox_io_tetrahedralize_desc>() == 8);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, kind) == 4);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, cell) == 8);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, max_tets) == 16);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, max_distance) == 24);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, coarsen) == 32);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, reserved) == 36);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, progress) == 40);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, progress_user) == 44);
+    assert!(offset_of!(vox_io_tetrahedralize_desc, allocator) == 48);
+    assert!(size_of::<vox_io_quality>() == 88);
+    assert!(align_of::<vox_io_quality>() == 8);
+    assert!(offset_of!(vox_io_quality, struct_size) == 0);
+    assert!(offset_of!(vox_io_quality, reserved) == 4);
+    assert!(offset_of!(vox_io_quality, vertices) == 8);
+    assert!(offset_of!(vox_io_quality, tets) == 16);
+    assert!(offset_of!(vox_io_quality, boundary_facets) == 24);
+    assert!(offset_of!(vox_io_quality, min_dihedral) == 32);
+    assert!(offset_of!(vox_io_quality, max_dihedral) == 40);
+    assert!(offset_of!(vox_io_quality, volume) == 48);
+    assert!(offset_of!(vox_io_quality, surface_volume) == 56);
+    assert!(offset_of!(vox_io_quality, mesh_to_surface) == 64);
+    assert!(offset_of!(vox_io_quality, surface_to_mesh) == 72);
+    assert!(offset_of!(vox_io_quality, hausdorff) == 80);
+    assert!(size_of::<vox_io_point_data>() == 16);
+    assert!(align_of::<vox_io_point_data>() == 4);
+    assert!(offset_of!(vox_io_point_data, name) == 0);
+    assert!(offset_of!(vox_io_point_data, values) == 4);
+    assert!(offset_of!(vox_io_point_data, components) == 8);
+    assert!(offset_of!(vox_io_point_data, reserved) == 12);
+    assert!(size_of::<vox_io_write_desc>() == 48);
+    assert!(align_of::<vox_io_write_desc>() == 8);
+    assert!(offset_of!(vox_io_write_desc, struct_size) == 0);
+    assert!(offset_of!(vox_io_write_desc, format) == 4);
+    assert!(offset_of!(vox_io_write_desc, binary) == 8);
+    assert!(offset_of!(vox_io_write_desc, reserved) == 12);
+    assert!(offset_of!(vox_io_write_desc, point_data) == 16);
+    assert!(offset_of!(vox_io_write_desc, point_data_count) == 24);
+    assert!(offset_of!(vox_io_write_desc, cell_data) == 32);
+    assert!(offset_of!(vox_io_write_desc, cell_data_count) == 40);
+    assert!(size_of::<vox_io_sink>() == 8);
+    assert!(align_of::<vox_io_sink>() == 4);
+    assert!(offset_of!(vox_io_sink, write) == 0);
+    assert!(offset_of!(vox_io_sink, user) == 4);
+    assert!(size_of::<vox_sim_desc>() == 136);
+    assert!(align_of::<vox_sim_desc>() == 8);
+    assert!(offset_of!(vox_sim_desc, struct_size) == 0);
+    assert!(offset_of!(vox_sim_desc, substeps) == 4);
+    assert!(offset_of!(vox_sim_desc, detect_every) == 8);
+    assert!(offset_of!(vox_sim_desc, reserved) == 12);
+    assert!(offset_of!(vox_sim_desc, gravity) == 16);
+    assert!(offset_of!(vox_sim_desc, max_time_step) == 40);
+    assert!(offset_of!(vox_sim_desc, floor_normal) == 48);
+    assert!(offset_of!(vox_sim_desc, floor_offset) == 72);
+    assert!(offset_of!(vox_sim_desc, friction) == 80);
+    assert!(offset_of!(vox_sim_desc, contact_compliance) == 88);
+    assert!(offset_of!(vox_sim_desc, max_push_speed) == 96);
+    assert!(offset_of!(vox_sim_desc, contact_slop) == 104);
+    assert!(offset_of!(vox_sim_desc, grid) == 112);
+    assert!(offset_of!(vox_sim_desc, log) == 116);
+    assert!(offset_of!(vox_sim_desc, allocator) == 124);
+    assert!(size_of::<vox_sim_body_desc>() == 80);
+    assert!(align_of::<vox_sim_body_desc>() == 8);
+    assert!(offset_of!(vox_sim_body_desc, struct_size) == 0);
+    assert!(offset_of!(vox_sim_body_desc, flags) == 4);
+    assert!(offset_of!(vox_sim_body_desc, positions) == 8);
+    assert!(offset_of!(vox_sim_body_desc, rest_positions) == 12);
+    assert!(offset_of!(vox_sim_body_desc, velocities) == 16);
+    assert!(offset_of!(vox_sim_body_desc, tets) == 20);
+    assert!(offset_of!(vox_sim_body_desc, vertex_count) == 24);
+    assert!(offset_of!(vox_sim_body_desc, tet_count) == 32);
+    assert!(offset_of!(vox_sim_body_desc, density) == 40);
+    assert!(offset_of!(vox_sim_body_desc, youngs_modulus) == 48);
+    assert!(offset_of!(vox_sim_body_desc, bulk_modulus) == 56);
+    assert!(offset_of!(vox_sim_body_desc, damping) == 64);
+    assert!(offset_of!(vox_sim_body_desc, user_data) == 72);
+    assert!(size_of::<vox_sim_body_view>() == 40);
+    assert!(align_of::<vox_sim_body_view>() == 8);
+    assert!(offset_of!(vox_sim_body_view, positions) == 0);
+    assert!(offset_of!(vox_sim_body_view, velocities) == 4);
+    assert!(offset_of!(vox_sim_body_view, masses) == 8);
+    assert!(offset_of!(vox_sim_body_view, grid_positions) == 12);
+    assert!(offset_of!(vox_sim_body_view, tets) == 16);
+    assert!(offset_of!(vox_sim_body_view, vertex_count) == 24);
+    assert!(offset_of!(vox_sim_body_view, tet_count) == 32);
+    assert!(size_of::<vox_sim_energies>() == 96);
+    assert!(align_of::<vox_sim_energies>() == 8);
+    assert!(offset_of!(vox_sim_energies, struct_size) == 0);
+    assert!(offset_of!(vox_sim_energies, reserved) == 4);
+    assert!(offset_of!(vox_sim_energies, kinetic) == 8);
+    assert!(offset_of!(vox_sim_energies, potential) == 16);
+    assert!(offset_of!(vox_sim_energies, elastic) == 24);
+    assert!(offset_of!(vox_sim_energies, mass) == 32);
+    assert!(offset_of!(vox_sim_energies, momentum) == 40);
+    assert!(offset_of!(vox_sim_energies, centre) == 64);
+    assert!(offset_of!(vox_sim_energies, max_speed) == 88);
+    assert!(size_of::<vox_sim_counts>() == 144);
+    assert!(align_of::<vox_sim_counts>() == 8);
+    assert!(offset_of!(vox_sim_counts, struct_size) == 0);
+    assert!(offset_of!(vox_sim_counts, bodies) == 4);
+    assert!(offset_of!(vox_sim_counts, vertices) == 8);
+    assert!(offset_of!(vox_sim_counts, tets) == 16);
+    assert!(offset_of!(vox_sim_counts, edges) == 24);
+    assert!(offset_of!(vox_sim_counts, volumes) == 32);
+    assert!(offset_of!(vox_sim_counts, flat_tets) == 40);
+    assert!(offset_of!(vox_sim_counts, inverted_tets) == 48);
+    assert!(offset_of!(vox_sim_counts, raised_masses) == 56);
+    assert!(offset_of!(vox_sim_counts, softened) == 64);
+    assert!(offset_of!(vox_sim_counts, steps) == 72);
+    assert!(offset_of!(vox_sim_counts, substeps) == 80);
+    assert!(offset_of!(vox_sim_counts, detections) == 88);
+    assert!(offset_of!(vox_sim_counts, clamped_steps) == 96);
+    assert!(offset_of!(vox_sim_counts, penetrations) == 104);
+    assert!(offset_of!(vox_sim_counts, floor_contacts) == 112);
+    assert!(offset_of!(vox_sim_counts, step_ns) == 120);
+    assert!(offset_of!(vox_sim_counts, detect_ns) == 128);
+    assert!(offset_of!(vox_sim_counts, solve_ns) == 136);
+    assert!(size_of::<vox_experiment_desc>() == 72);
+    assert!(align_of::<vox_experiment_desc>() == 8);
+    assert!(offset_of!(vox_experiment_desc, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_desc, frames) == 4);
+    assert!(offset_of!(vox_experiment_desc, a) == 8);
+    assert!(offset_of!(vox_experiment_desc, b) == 12);
+    assert!(offset_of!(vox_experiment_desc, sim) == 16);
+    assert!(offset_of!(vox_experiment_desc, grid) == 20);
+    assert!(offset_of!(vox_experiment_desc, axis) == 24);
+    assert!(offset_of!(vox_experiment_desc, contact_share) == 48);
+    assert!(offset_of!(vox_experiment_desc, time_step) == 56);
+    assert!(offset_of!(vox_experiment_desc, turn) == 64);
+    assert!(offset_of!(vox_experiment_desc, reserved) == 68);
+    assert!(size_of::<vox_experiment_facts>() == 112);
+    assert!(align_of::<vox_experiment_facts>() == 8);
+    assert!(offset_of!(vox_experiment_facts, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_facts, frames) == 4);
+    assert!(offset_of!(vox_experiment_facts, vertices) == 8);
+    assert!(offset_of!(vox_experiment_facts, tets) == 16);
+    assert!(offset_of!(vox_experiment_facts, contacts) == 24);
+    assert!(offset_of!(vox_experiment_facts, hash) == 32);
+    assert!(offset_of!(vox_experiment_facts, distance) == 40);
+    assert!(offset_of!(vox_experiment_facts, mean_share) == 48);
+    assert!(offset_of!(vox_experiment_facts, shares) == 56);
+    assert!(offset_of!(vox_experiment_facts, bounds_min) == 64);
+    assert!(offset_of!(vox_experiment_facts, bounds_max) == 88);
+    assert!(size_of::<vox_experiment_sample>() == 56);
+    assert!(align_of::<vox_experiment_sample>() == 8);
+    assert!(offset_of!(vox_experiment_sample, struct_size) == 0);
+    assert!(offset_of!(vox_experiment_sample, reserved) == 4);
+    assert!(offset_of!(vox_experiment_sample, cell_size) == 8);
+    assert!(offset_of!(vox_experiment_sample, mean_ns) == 16);
+    assert!(offset_of!(vox_experiment_sample, contacts) == 24);
+    assert!(offset_of!(vox_experiment_sample, visited_cells) == 32);
+    assert!(offset_of!(vox_experiment_sample, visited_entries) == 40);
+    assert!(offset_of!(vox_experiment_sample, candidates) == 48);
+    assert!(size_of::<vox_time_fit>() == 136);
+    assert!(align_of::<vox_time_fit>() == 8);
+    assert!(offset_of!(vox_time_fit, struct_size) == 0);
+    assert!(offset_of!(vox_time_fit, degree) == 4);
+    assert!(offset_of!(vox_time_fit, range_min) == 8);
+    assert!(offset_of!(vox_time_fit, range_max) == 16);
+    assert!(offset_of!(vox_time_fit, coefficients) == 24);
+    assert!(offset_of!(vox_time_fit, r_squared) == 96);
+    assert!(offset_of!(vox_time_fit, prediction_error) == 104);
+    assert!(offset_of!(vox_time_fit, cell_size) == 112);
+    assert!(offset_of!(vox_time_fit, time) == 120);
+    assert!(offset_of!(vox_time_fit, bracketed) == 128);
+    assert!(offset_of!(vox_time_fit, reserved) == 132);
+};
