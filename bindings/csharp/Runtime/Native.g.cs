@@ -261,6 +261,18 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double12
+    {
+        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
+        public const int Length = 12;
+        public double this[int i]
+        {
+            get { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) return p[i]; }
+            set { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) p[i] = value; }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Float4
     {
         public float x, y, z, w;
@@ -482,6 +494,37 @@ namespace Voxtet
         public ulong position_component_byte_stride;
         /// <summary>the same for rest_positions</summary>
         public ulong rest_position_component_byte_stride;
+    }
+
+    /// <summary>A mesh as it is now, e.g. after vox_grid_load.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct MeshInfo
+    {
+        public uint struct_size;
+        /// <summary>from 0</summary>
+        public uint slot;
+        /// <summary>as given at insertion</summary>
+        public ulong user_data;
+        /// <summary>with the removed ones: indices of vertices are below it</summary>
+        public ulong vertex_count;
+        /// <summary>with those that are disabled or removed: indices of tetrahedra are below it</summary>
+        public ulong tet_count;
+        public ulong enabled_tet_count;
+        /// <summary>1, or 0 (see vox_mesh_set_enabled)</summary>
+        public uint enabled;
+        /// <summary>vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's
+        /// own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's</summary>
+        public uint flags;
+        public Format position_format;
+        /// <summary>1 if vox_mesh_set_transform gave it one</summary>
+        public uint has_transform;
+        /// <summary>The positions, without the transform; null if the mesh has none.</summary>
+        public IntPtr positions;
+        /// <summary>of these, never 0 unless `positions` is null; see vox_mesh_desc</summary>
+        public ulong position_byte_stride;
+        public ulong position_component_byte_stride;
+        /// <summary>as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
+        public Double12 transform;
     }
 
     /// <summary>Vertices to append, and their positions.</summary>
@@ -1679,6 +1722,10 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_version_string();
 
+        /// <summary>VOX_ABI_VERSION of the library that is running.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint vox_abi_version();
+
         /// <summary>Compiler, language level, instruction sets and options of this build, in one line.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_build_info();
@@ -1747,6 +1794,21 @@ namespace Voxtet
         /// <summary>The user_data the mesh was inserted with.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_user_data(IntPtr grid, uint mesh, ulong* out_user_data);
+
+        /// <summary>Copies the ids of the first `capacity` meshes of the grid, disabled ones included,
+        /// ascending.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_meshes(IntPtr grid, uint* meshes, ulong capacity, ulong* out_count);
+
+        /// <summary>Writes the fields that out_info-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_get_info(IntPtr grid, uint mesh, MeshInfo* out_info);
+
+        /// <summary>Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given,
+        /// to corners[4 * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_copy_tets(IntPtr grid, uint mesh, uint* corners, byte* enabled, ulong
+        capacity, ulong* out_count);
 
         /// <summary>Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the
         /// rule of vox_mesh_desc.positions, and releases a copy made at insertion.</summary>
@@ -1836,6 +1898,12 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_step(IntPtr grid);
 
+        /// <summary>Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for
+        /// many small scenes that have nothing to do with each other.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grids_step(IntPtr* grids, ulong count, TaskSystem* tasks, uint worker_count,
+        Result* results);
+
         /// <summary>The mesh that made the last step fail (index 0), or the meshes that it left out
         /// (VOX_GRID_SKIP_BAD_MESHES): the index-th of them, in the order of ids.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1845,6 +1913,12 @@ namespace Voxtet
         /// clear.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_contacts(IntPtr grid, ContactView* out_view);
+
+        /// <summary>The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i]
+        /// and end before offsets[i + 1], where offsets has count + 1 numbers, all of which are written.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grids_copy_contacts(IntPtr* grids, ulong count, Contact* contacts, ulong
+        capacity, ulong* offsets);
 
         /// <summary>Whether each contact of the last step is interior; count 0 before the first, after a failed one and
         /// after a clear.</summary>
@@ -2423,6 +2497,27 @@ namespace Voxtet
             entries.Add(Entry("vox_mesh_desc.rest_position_byte_stride", (byte*)&s.rest_position_byte_stride - begin, 80, 72));
             entries.Add(Entry("vox_mesh_desc.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 88, 80));
             entries.Add(Entry("vox_mesh_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 96, 88));
+        }
+
+        static void AddMeshInfo(List<LayoutEntry> entries)
+        {
+            MeshInfo s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_mesh_info", sizeof(MeshInfo), 176, 176));
+            entries.Add(Entry("vox_mesh_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_mesh_info.slot", (byte*)&s.slot - begin, 4, 4));
+            entries.Add(Entry("vox_mesh_info.user_data", (byte*)&s.user_data - begin, 8, 8));
+            entries.Add(Entry("vox_mesh_info.vertex_count", (byte*)&s.vertex_count - begin, 16, 16));
+            entries.Add(Entry("vox_mesh_info.tet_count", (byte*)&s.tet_count - begin, 24, 24));
+            entries.Add(Entry("vox_mesh_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 32, 32));
+            entries.Add(Entry("vox_mesh_info.enabled", (byte*)&s.enabled - begin, 40, 40));
+            entries.Add(Entry("vox_mesh_info.flags", (byte*)&s.flags - begin, 44, 44));
+            entries.Add(Entry("vox_mesh_info.position_format", (byte*)&s.position_format - begin, 48, 48));
+            entries.Add(Entry("vox_mesh_info.has_transform", (byte*)&s.has_transform - begin, 52, 52));
+            entries.Add(Entry("vox_mesh_info.positions", (byte*)&s.positions - begin, 56, 56));
+            entries.Add(Entry("vox_mesh_info.position_byte_stride", (byte*)&s.position_byte_stride - begin, 64, 64));
+            entries.Add(Entry("vox_mesh_info.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 72, 72));
+            entries.Add(Entry("vox_mesh_info.transform", (byte*)&s.transform - begin, 80, 80));
         }
 
         static void AddVerticesDesc(List<LayoutEntry> entries)
@@ -3302,6 +3397,7 @@ namespace Voxtet
             AddGridDesc(entries);
             AddFilter(entries);
             AddMeshDesc(entries);
+            AddMeshInfo(entries);
             AddVerticesDesc(entries);
             AddFailure(entries);
             AddContact(entries);

@@ -248,6 +248,25 @@ class vox_mesh_desc(Structure):
     ]
 
 
+class vox_mesh_info(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("slot", c_uint32),
+        ("user_data", c_uint64),
+        ("vertex_count", c_uint64),
+        ("tet_count", c_uint64),
+        ("enabled_tet_count", c_uint64),
+        ("enabled", c_uint32),
+        ("flags", c_uint32),
+        ("position_format", c_int32),
+        ("has_transform", c_uint32),
+        ("positions", c_void_p),
+        ("position_byte_stride", c_uint64),
+        ("position_component_byte_stride", c_uint64),
+        ("transform", c_double * 12),
+    ]
+
+
 class vox_vertices_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1211,6 +1230,7 @@ FUNCTIONS = {
         "vox_fail": (c_int32, (c_int32, c_char_p)),
         "vox_version": (c_uint32, ()),
         "vox_version_string": (c_char_p, ()),
+        "vox_abi_version": (c_uint32, ()),
         "vox_build_info": (c_char_p, ()),
         "vox_grid_desc_init": (c_int32, (POINTER(vox_grid_desc), c_uint32)),
         "vox_grid_create": (c_int32, (POINTER(vox_grid_desc), POINTER(c_void_p))),
@@ -1228,6 +1248,9 @@ FUNCTIONS = {
         "vox_mesh_remove": (c_int32, (c_void_p, c_uint32)),
         "vox_mesh_is_valid": (c_uint32, (c_void_p, c_uint32)),
         "vox_mesh_user_data": (c_int32, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_grid_meshes": (c_int32, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_mesh_get_info": (c_int32, (c_void_p, c_uint32, POINTER(vox_mesh_info))),
+        "vox_mesh_copy_tets": (c_int32, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_mesh_bind_positions": (c_int32, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64)),
         "vox_mesh_bind_strided_positions": (c_int32, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
         "vox_mesh_mark_moved": (c_int32, (c_void_p, c_uint32)),
@@ -1246,8 +1269,10 @@ FUNCTIONS = {
         "vox_mesh_append_vertices": (c_int32, (c_void_p, c_uint32, POINTER(vox_vertices_desc), POINTER(c_uint32))),
         "vox_mesh_remove_vertices": (c_int32, (c_void_p, c_uint32, c_void_p, c_uint64)),
         "vox_grid_step": (c_int32, (c_void_p,)),
+        "vox_grids_step": (c_int32, (POINTER(c_void_p), c_uint64, POINTER(vox_task_system), c_uint32, c_void_p)),
         "vox_grid_failure": (c_int32, (c_void_p, c_uint32, POINTER(vox_failure))),
         "vox_grid_contacts": (c_int32, (c_void_p, POINTER(vox_contact_view))),
+        "vox_grids_copy_contacts": (c_int32, (c_void_p, c_uint64, POINTER(vox_contact), c_uint64, c_void_p)),
         "vox_grid_contact_interiors": (c_int32, (c_void_p, POINTER(vox_interior_view))),
         "vox_grid_epoch": (c_int32, (c_void_p, POINTER(c_uint64))),
         "vox_grid_hash": (c_int32, (c_void_p, POINTER(c_uint64))),
@@ -1372,6 +1397,9 @@ CHECKED = {
     "vox_mesh_insert",
     "vox_mesh_remove",
     "vox_mesh_user_data",
+    "vox_grid_meshes",
+    "vox_mesh_get_info",
+    "vox_mesh_copy_tets",
     "vox_mesh_bind_positions",
     "vox_mesh_bind_strided_positions",
     "vox_mesh_mark_moved",
@@ -1390,8 +1418,10 @@ CHECKED = {
     "vox_mesh_append_vertices",
     "vox_mesh_remove_vertices",
     "vox_grid_step",
+    "vox_grids_step",
     "vox_grid_failure",
     "vox_grid_contacts",
+    "vox_grids_copy_contacts",
     "vox_grid_contact_interiors",
     "vox_grid_epoch",
     "vox_grid_hash",

@@ -465,6 +465,38 @@ pub struct vox_mesh_desc {
     pub rest_position_component_byte_stride: u64,
 }
 
+/// A mesh as it is now, e.g. after vox_grid_load.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_mesh_info {
+    pub struct_size: u32,
+    /// from 0
+    pub slot: u32,
+    /// as given at insertion
+    pub user_data: u64,
+    /// with the removed ones: indices of vertices are below it
+    pub vertex_count: u64,
+    /// with those that are disabled or removed: indices of tetrahedra are below it
+    pub tet_count: u64,
+    pub enabled_tet_count: u64,
+    /// 1, or 0 (see vox_mesh_set_enabled)
+    pub enabled: u32,
+    /// vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
+    /// mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
+    pub flags: u32,
+    pub position_format: vox_format,
+    /// 1 if vox_mesh_set_transform gave it one
+    pub has_transform: u32,
+    /// The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
+    /// other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed.
+    pub positions: *const c_void,
+    /// of these, never 0 unless `positions` is null; see vox_mesh_desc
+    pub position_byte_stride: u64,
+    pub position_component_byte_stride: u64,
+    /// as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
+    pub transform: [f64; 12],
+}
+
 /// Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
 /// last.
 #[repr(C)]
@@ -1626,6 +1658,9 @@ extern "C" {
     pub fn vox_version() -> u32;
     /// The same as "major.minor.patch". Static text. Cannot fail.
     pub fn vox_version_string() -> *const c_char;
+    /// VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time
+    /// compares it with that of the header it was written for. Cannot fail.
+    pub fn vox_abi_version() -> u32;
     /// Compiler, language level, instruction sets and options of this build, in one line. Static text. Cannot fail.
     pub fn vox_build_info() -> *const c_char;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers. Errors: INVALID_ARGUMENT when desc is
@@ -1679,6 +1714,18 @@ extern "C" {
     pub fn vox_mesh_is_valid(grid: *const vox_grid, mesh: vox_mesh) -> u32;
     /// The user_data the mesh was inserted with.
     pub fn vox_mesh_user_data(grid: *const vox_grid, mesh: vox_mesh, out_user_data: *mut u64) -> vox_result;
+    /// Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how
+    /// many there are, which may be more than were copied. `meshes` may be null if capacity is 0. Errors:
+    /// INVALID_ARGUMENT.
+    pub fn vox_grid_meshes(grid: *const vox_grid, meshes: *mut vox_mesh, capacity: u64, out_count: *mut u64) -> vox_result;
+    /// Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see
+    /// vox_mesh_info. Errors: INVALID_ARGUMENT, INVALID_HANDLE.
+    pub fn vox_mesh_get_info(grid: *const vox_grid, mesh: vox_mesh, out_info: *mut vox_mesh_info) -> vox_result;
+    /// Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4
+    /// * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may
+    /// be null, and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count). Errors:
+    /// INVALID_ARGUMENT, INVALID_HANDLE.
+    pub fn vox_mesh_copy_tets(grid: *const vox_grid, mesh: vox_mesh, corners: *mut u32, enabled: *mut u8, capacity: u64, out_count: *mut u64) -> vox_result;
     /// Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule of
     /// vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory between steps
     /// need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small.
@@ -1760,6 +1807,17 @@ extern "C" {
     /// VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does vox_grid_failure. LIMIT (more than
     /// VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
+    /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
+    /// scenes that have nothing to do with each other. The grids are split among `worker_count` threads (0: one per
+    /// core; at most VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses
+    /// workers of its own, so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on
+    /// the others. Its callbacks are called on the thread that steps it. One thread at a time may change each of the
+    /// grids, so none of them may be used until the call returns. results: null, or `count` results, of the grids in
+    /// their order. If grids fail, the others are stepped nevertheless, and the call returns the result of the first of
+    /// them and its text, after its index ("grid 17: ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or
+    /// repeated grid, a worker_count) and OUT_OF_MEMORY, after which no grid was stepped and `results` is not written,
+    /// unless the task system broke its rules, see vox_task_system.
+    pub fn vox_grids_step(grids: *const *mut vox_grid, count: u64, tasks: *const vox_task_system, worker_count: u32, results: *mut vox_result) -> vox_result;
     /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
     /// index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for
     /// another reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The
@@ -1767,6 +1825,10 @@ extern "C" {
     pub fn vox_grid_failure(grid: *const vox_grid, index: u32, out_failure: *mut vox_failure) -> vox_result;
     /// The contacts of the last step; count 0 before the first, after a failed one and after a clear.
     pub fn vox_grid_contacts(grid: *const vox_grid, out_view: *mut vox_contact_view) -> vox_result;
+    /// The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end
+    /// before offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first
+    /// `capacity` contacts; `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT.
+    pub fn vox_grids_copy_contacts(grids: *const *const vox_grid, count: u64, contacts: *mut vox_contact, capacity: u64, offsets: *mut u64) -> vox_result;
     /// Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a
     /// clear.
     pub fn vox_grid_contact_interiors(grid: *const vox_grid, out_view: *mut vox_interior_view) -> vox_result;
@@ -2181,6 +2243,22 @@ const _: () = {
     assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 80);
     assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 88);
     assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 96);
+    assert!(size_of::<vox_mesh_info>() == 176);
+    assert!(align_of::<vox_mesh_info>() == 8);
+    assert!(offset_of!(vox_mesh_info, struct_size) == 0);
+    assert!(offset_of!(vox_mesh_info, slot) == 4);
+    assert!(offset_of!(vox_mesh_info, user_data) == 8);
+    assert!(offset_of!(vox_mesh_info, vertex_count) == 16);
+    assert!(offset_of!(vox_mesh_info, tet_count) == 24);
+    assert!(offset_of!(vox_mesh_info, enabled_tet_count) == 32);
+    assert!(offset_of!(vox_mesh_info, enabled) == 40);
+    assert!(offset_of!(vox_mesh_info, flags) == 44);
+    assert!(offset_of!(vox_mesh_info, position_format) == 48);
+    assert!(offset_of!(vox_mesh_info, has_transform) == 52);
+    assert!(offset_of!(vox_mesh_info, positions) == 56);
+    assert!(offset_of!(vox_mesh_info, position_byte_stride) == 64);
+    assert!(offset_of!(vox_mesh_info, position_component_byte_stride) == 72);
+    assert!(offset_of!(vox_mesh_info, transform) == 80);
     assert!(size_of::<vox_vertices_desc>() == 72);
     assert!(align_of::<vox_vertices_desc>() == 8);
     assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
@@ -2831,6 +2909,22 @@ const _: () = {
     assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 72);
     assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 80);
     assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 88);
+    assert!(size_of::<vox_mesh_info>() == 176);
+    assert!(align_of::<vox_mesh_info>() == 8);
+    assert!(offset_of!(vox_mesh_info, struct_size) == 0);
+    assert!(offset_of!(vox_mesh_info, slot) == 4);
+    assert!(offset_of!(vox_mesh_info, user_data) == 8);
+    assert!(offset_of!(vox_mesh_info, vertex_count) == 16);
+    assert!(offset_of!(vox_mesh_info, tet_count) == 24);
+    assert!(offset_of!(vox_mesh_info, enabled_tet_count) == 32);
+    assert!(offset_of!(vox_mesh_info, enabled) == 40);
+    assert!(offset_of!(vox_mesh_info, flags) == 44);
+    assert!(offset_of!(vox_mesh_info, position_format) == 48);
+    assert!(offset_of!(vox_mesh_info, has_transform) == 52);
+    assert!(offset_of!(vox_mesh_info, positions) == 56);
+    assert!(offset_of!(vox_mesh_info, position_byte_stride) == 64);
+    assert!(offset_of!(vox_mesh_info, position_component_byte_stride) == 72);
+    assert!(offset_of!(vox_mesh_info, transform) == 80);
     assert!(size_of::<vox_vertices_desc>() == 64);
     assert!(align_of::<vox_vertices_desc>() == 8);
     assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
