@@ -1,0 +1,720 @@
+/* Writes the vectors that every binding replays: vectors.json, a script of calls with what each has to give,
+ * and vectors.bin, the arrays that the calls name by offset. bindings/vectors/README.md describes both.
+ * usage: write_vectors FOLDER */
+#include "scenes/scenes.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+
+static FILE *script, *arrays;
+static uint64_t array_size;
+static int scene_calls; /* of the scene that is being written */
+static vox_grid* grid;
+
+/* ---- writing ---- */
+
+static void stop(const char* what) {
+    fprintf(stderr, "write_vectors: %s: %s\n", what, vox_last_error());
+    exit(EXIT_FAILURE);
+}
+
+static void expect(vox_result result, const char* what) {
+    if (result != VOX_OK) stop(what);
+}
+
+/* Appends an array to vectors.bin, at a multiple of 8 bytes; its offset. */
+static uint64_t store(const void* data, size_t size) {
+    static const char zeros[8];
+    const uint64_t offset = array_size;
+    const size_t padding = (8 - size % 8) % 8;
+    if (fwrite(data, 1, size, arrays) != size || fwrite(zeros, 1, padding, arrays) != padding) {
+        fprintf(stderr, "write_vectors: %s\n", strerror(errno));
+        exit(EXIT_FAILURE);
+    }
+    array_size += size + padding;
+    return offset;
+}
+
+static void begin_call(const char* name) {
+    fprintf(script, "%s\n   {\"call\": \"%s\"", scene_calls++ ? "," : "", name);
+}
+
+static void field(const char* name, const char* pattern, ...) {
+    va_list arguments;
+    va_start(arguments, pattern);
+    fprintf(script, ", \"%s\": ", name);
+    vfprintf(script, pattern, arguments);
+    va_end(arguments);
+}
+
+static void numbers_field(const char* name, const double* values, int count) {
+    fprintf(script, ", \"%s\": [", name);
+    for (int i = 0; i < count; ++i) fprintf(script, "%s%.17g", i ? ", " : "", values[i]);
+    fprintf(script, "]");
+}
+
+static void end_call(void) { fprintf(script, "}"); }
+
+/* Of 32-bit words. The sign of a zero, which compilers may differ in, does not count. */
+static uint64_t hash_words(const void* data, uint64_t size) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (uint64_t i = 0; i < size; i += 4) {
+        uint32_t word;
+        memcpy(&word, (const char*)data + i, 4);
+        if (word == 0x80000000u) word = 0;
+        hash = (hash ^ word) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+/* [how many, the hash of their words] */
+static void items_field(const char* name, const void* data, uint64_t count, size_t size) {
+    field(name, "[%" PRIu64 ", \"%016" PRIx64 "\"]", count, hash_words(data, count * size));
+}
+
+static void begin_scene(const char* name, const char* what, uint32_t flags, double cell_size) {
+    static int scenes;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = flags;
+    desc.cell_size = cell_size;
+    expect(vox_grid_create(&desc, &grid), name);
+    fprintf(script, "%s\n  {\"name\": \"%s\", \"what\": \"%s\", \"calls\": [", scenes++ ? "," : "", name,
+            what);
+    scene_calls = 0;
+    begin_call("create");
+    field("flags", "%u", flags);
+    field("cell_size", "%.17g", cell_size);
+    end_call();
+}
+
+static void end_scene(void) {
+    fprintf(script, "]}");
+    vox_grid_destroy(grid);
+    grid = NULL;
+}
+
+/* Ends a call: what it gave if it failed. */
+static vox_result finish(vox_result result) {
+    if (result != VOX_OK) {
+        field("fails", "%d", (int)result);
+        field("text", "\"%s\"", vox_last_error()); /* without quotation marks and backslashes */
+    }
+    end_call();
+    return result;
+}
+
+/* ---- calls ---- */
+
+static void filter_field(const vox_filter* f) {
+    fprintf(script,
+            ", \"filter\": {\"group\": %d, \"category\": \"%" PRIu64 "\", \"mask\": \"%" PRIu64
+            "\", \"self_collision\": %u, \"self_rings\": %u, \"self_rest_distance\": %.17g, "
+            "\"penetration_mask\": \"%" PRIu64 "\"}",
+            f->group, f->category, f->mask, f->self_collision, f->self_rings, f->self_rest_distance,
+            f->penetration_mask);
+}
+
+static double* as_doubles(const body* b) {
+    double* doubles = (double*)malloc(3 * sizeof *doubles * b->vertex_count);
+    for (uint32_t i = 0; i < 3 * b->vertex_count; ++i) doubles[i] = (double)b->positions[i];
+    return doubles;
+}
+
+static uint64_t store_positions(const body* b, vox_format format) {
+    double* doubles = as_doubles(b);
+    const uint64_t offset = format == VOX_FORMAT_DOUBLE3
+                                ? store(doubles, 3 * sizeof(double) * b->vertex_count)
+                                : store(b->positions, 3 * sizeof(float) * b->vertex_count);
+    free(doubles);
+    return offset;
+}
+
+/* Positions are copied, so that the vectors need no array of the caller's. */
+static vox_mesh insert(const body* b, vox_format format, const vox_filter* filter, uint64_t user_data) {
+    double* doubles = as_doubles(b);
+    vox_mesh_desc desc = body_desc(b);
+    vox_mesh mesh = VOX_NULL_MESH;
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.position_format = format;
+    desc.positions = format == VOX_FORMAT_DOUBLE3 ? (const void*)doubles : b->positions;
+    desc.filter = filter;
+    desc.user_data = user_data;
+    begin_call("insert");
+    field("format", "%d", (int)format);
+    field("positions", "%" PRIu64, store_positions(b, format));
+    field("vertices", "%u", b->vertex_count);
+    field("tets", "%" PRIu64, store(b->tets, 4 * sizeof(uint32_t) * b->tet_count));
+    field("tet_count", "%u", b->tet_count);
+    field("user_data", "\"%" PRIu64 "\"", user_data);
+    if (filter) filter_field(filter);
+    const vox_result result = vox_mesh_insert(grid, &desc, &mesh);
+    if (result == VOX_OK) field("mesh", "%u", mesh);
+    finish(result);
+    free(doubles);
+    return mesh;
+}
+
+static void move(vox_mesh mesh, const body* b, vox_format format) {
+    void* positions;
+    uint64_t stride;
+    expect(vox_mesh_map_positions(grid, mesh, &positions, &stride), "move");
+    double* doubles = as_doubles(b);
+    if (format == VOX_FORMAT_DOUBLE3)
+        memcpy(positions, doubles, 3 * sizeof(double) * b->vertex_count);
+    else
+        memcpy(positions, b->positions, 3 * sizeof(float) * b->vertex_count);
+    free(doubles);
+    begin_call("move");
+    field("mesh", "%u", mesh);
+    field("format", "%d", (int)format);
+    field("positions", "%" PRIu64, store_positions(b, format));
+    field("vertices", "%u", b->vertex_count);
+    end_call();
+}
+
+/* A step, and everything that it leaves. */
+static void step(void) {
+    begin_call("step");
+    if (finish(vox_grid_step(grid)) != VOX_OK) return;
+    vox_contact_view contacts;
+    vox_interior_view interiors;
+    vox_pair_view pairs;
+    vox_touch_view touches;
+    uint64_t hash, epoch;
+    uint32_t flags;
+    expect(vox_grid_contacts(grid, &contacts), "contacts");
+    expect(vox_grid_contact_interiors(grid, &interiors), "interiors");
+    expect(vox_grid_pairs(grid, &pairs), "pairs");
+    expect(vox_grid_touch_events(grid, &touches), "touches");
+    expect(vox_grid_hash(grid, &hash), "hash");
+    expect(vox_grid_epoch(grid, &epoch), "epoch");
+    expect(vox_grid_get_flags(grid, &flags), "flags");
+    begin_call("results");
+    field("hash", "\"%016" PRIx64 "\"", hash);
+    field("epoch", "%" PRIu64, epoch);
+    items_field("contacts", contacts.data, contacts.count, sizeof *contacts.data);
+    uint64_t inside = 0;
+    for (uint64_t i = 0; i < interiors.count; ++i) inside += interiors.data[i];
+    field("interior", "%" PRIu64, inside);
+    items_field("pairs", pairs.data, pairs.count, sizeof *pairs.data);
+    items_field("pair_contacts", pairs.contacts, contacts.count, sizeof *pairs.contacts);
+    items_field("touches", touches.data, touches.count, sizeof *touches.data);
+    field("touches_began_persisted_ended", "[%" PRIu64 ", %" PRIu64 ", %" PRIu64 "]", touches.began,
+          touches.persisted, touches.ended);
+    if (flags & VOX_GRID_PENETRATIONS) {
+        vox_penetration_view penetrations;
+        vox_depth_view depths;
+        expect(vox_grid_penetrations(grid, &penetrations), "penetrations");
+        expect(vox_grid_depths(grid, &depths), "depths");
+        items_field("penetrations", penetrations.data, penetrations.count, sizeof *penetrations.data);
+        items_field("depths", depths.data, depths.count, sizeof *depths.data);
+    }
+    if (flags & VOX_GRID_CONTACT_EVENTS) {
+        vox_contact_event_view events;
+        expect(vox_grid_contact_events(grid, &events), "contact events");
+        items_field("contact_events", events.data, events.count, sizeof *events.data);
+        field("contact_events_began_ended", "[%" PRIu64 ", %" PRIu64 "]", events.began, events.ended);
+    }
+    end_call();
+}
+
+static void read_contacts(void) {
+    vox_reading_view readings;
+    begin_call("readings");
+    expect(vox_grid_prepare_readings(grid), "prepare readings");
+    expect(vox_grid_readings(grid, &readings), "readings");
+    items_field("readings", readings.data, readings.count, sizeof *readings.data);
+    end_call();
+}
+
+/* At vertices of a body, and from each to the one that is as far from the other end. */
+static void query(const body* b) {
+    enum { count = 24, capacity = 4096 };
+    static vox_point_hit hits[capacity];
+    static vox_tet_hit tets[capacity];
+    static vox_facet_hit facets[capacity];
+    vox_closest_hit closest[count];
+    double points[count][3];
+    uint64_t hit_count = 0;
+    begin_call("prepare_queries");
+    finish(vox_grid_prepare_queries(grid));
+    for (uint32_t i = 0; i < count; ++i)
+        for (int a = 0; a < 3; ++a)
+            points[i][a] = (double)b->positions[3 * (i * (b->vertex_count - 1) / count) + (uint32_t)a];
+    const uint64_t offset = store(points, sizeof points);
+    expect(vox_grid_query_points(grid, points, VOX_FORMAT_DOUBLE3, 0, count, UINT64_MAX, hits, capacity,
+                                 &hit_count),
+           "query points");
+    begin_call("query_points");
+    field("points", "%" PRIu64, offset);
+    field("count", "%d", (int)count);
+    items_field("hits", hits, hit_count, sizeof *hits);
+    end_call();
+    vox_closest_desc desc = vox_default_closest_desc();
+    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.points = points;
+    desc.point_count = count;
+    expect(vox_grid_query_closest_points(grid, &desc, closest), "query closest points");
+    begin_call("query_closest_points");
+    field("points", "%" PRIu64, offset);
+    field("count", "%d", (int)count);
+    items_field("hits", closest, count, sizeof *closest);
+    end_call();
+    for (uint32_t i = 0; i < 4; ++i) {
+        const double *from = points[i], *to = points[count - 1 - i];
+        double min[3], max[3];
+        vox_ray_hit ray;
+        for (int a = 0; a < 3; ++a) {
+            min[a] = from[a] < to[a] ? from[a] : to[a];
+            max[a] = from[a] < to[a] ? to[a] : from[a];
+        }
+        expect(vox_grid_query_ray(grid, from, to, UINT64_MAX, &ray), "query ray");
+        begin_call("query_ray");
+        numbers_field("from", from, 3);
+        numbers_field("to", to, 3);
+        items_field("hits", &ray, 1, sizeof ray);
+        end_call();
+        expect(
+            vox_grid_query_ray_hits(grid, from, to, UINT64_MAX, VOX_NULL_MESH, facets, capacity, &hit_count),
+            "query ray hits");
+        begin_call("query_ray_hits");
+        numbers_field("from", from, 3);
+        numbers_field("to", to, 3);
+        items_field("hits", facets, hit_count, sizeof *facets);
+        end_call();
+        expect(vox_grid_query_box(grid, min, max, UINT64_MAX, tets, capacity, &hit_count), "query box");
+        begin_call("query_box");
+        numbers_field("min", min, 3);
+        numbers_field("max", max, 3);
+        items_field("hits", tets, hit_count, sizeof *tets);
+        end_call();
+    }
+}
+
+/* The bytes are the same on every machine. */
+static uint64_t save(void** out_bytes, uint64_t* out_size) {
+    expect(vox_grid_save(grid, NULL, 0, out_size), "size of a snapshot");
+    *out_bytes = calloc((*out_size + 3) / 4, 4);
+    expect(vox_grid_save(grid, *out_bytes, *out_size, out_size), "snapshot");
+    begin_call("save");
+    field("size", "%" PRIu64, *out_size);
+    field("hash", "\"%016" PRIx64 "\"",
+          hash_words(*out_bytes, (*out_size + 3) / 4 * 4)); /* zeros at the end */
+    end_call();
+    return store(*out_bytes, *out_size);
+}
+
+static void load(const void* bytes, uint64_t size, uint64_t offset) {
+    vox_grid* loaded = NULL;
+    begin_call("load");
+    field("bytes", "%" PRIu64, offset);
+    field("size", "%" PRIu64, size);
+    if (finish(vox_grid_load(bytes, size, NULL, &loaded)) != VOX_OK) return;
+    vox_grid_destroy(grid);
+    grid = loaded;
+}
+
+/* The meshes of the grid: ids, counts, and the hash of their tetrahedra. */
+static void meshes(void) {
+    vox_mesh ids[MOST_BODIES];
+    uint64_t count = 0;
+    expect(vox_grid_meshes(grid, ids, MOST_BODIES, &count), "meshes");
+    begin_call("meshes");
+    fprintf(script, ", \"meshes\": [");
+    for (uint64_t i = 0; i < count; ++i) {
+        vox_mesh_info info;
+        uint64_t tet_count;
+        info.struct_size = sizeof info;
+        expect(vox_mesh_get_info(grid, ids[i], &info), "info");
+        uint32_t* tets = (uint32_t*)malloc(4 * sizeof *tets * info.tet_count + 1);
+        expect(vox_mesh_copy_tets(grid, ids[i], tets, NULL, info.tet_count, &tet_count), "tets");
+        fprintf(script,
+                "%s{\"mesh\": %u, \"user_data\": \"%" PRIu64 "\", \"vertices\": %" PRIu64
+                ", \"tet_count\": %" PRIu64 ", \"enabled_tets\": %" PRIu64
+                ", \"enabled\": %u, \"flags\": %u, \"format\": %d, \"tets\": \"%016" PRIx64 "\"}",
+                i ? ", " : "", ids[i], info.user_data, info.vertex_count, info.tet_count,
+                info.enabled_tet_count, info.enabled, info.flags, (int)info.position_format,
+                hash_words(tets, 16 * tet_count));
+        free(tets);
+    }
+    fprintf(script, "]");
+    end_call();
+}
+
+/* To nine digits: models use functions of the C library, which machines may round differently. */
+static void suggest(const scene* s, vox_cost_model model) {
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_mesh_desc descs[MOST_BODIES];
+    vox_suggestion suggestion;
+    suggestion.struct_size = sizeof suggestion;
+    desc.model = model;
+    for (uint32_t i = 0; i < s->count; ++i) descs[i] = body_desc(&s->bodies[i]);
+    begin_call("suggest");
+    field("model", "%d", (int)model);
+    fprintf(script, ", \"meshes\": [");
+    for (uint32_t i = 0; i < s->count; ++i)
+        fprintf(script,
+                "%s{\"positions\": %" PRIu64 ", \"vertices\": %u, \"tets\": %" PRIu64 ", \"tet_count\": %u}",
+                i ? ", " : "", store_positions(&s->bodies[i], VOX_FORMAT_FLOAT3), s->bodies[i].vertex_count,
+                store(s->bodies[i].tets, 16 * (size_t)s->bodies[i].tet_count), s->bodies[i].tet_count);
+    fprintf(script, "]");
+    expect(vox_suggest_cell_size(&desc, descs, s->count, &suggestion), "suggest");
+    field("cell_size", "%.9g", suggestion.cell_size);
+    field("zone_min", "%.9g", suggestion.zone_min);
+    field("zone_max", "%.9g", suggestion.zone_max);
+    field("predicted_cost", "%.9g", suggestion.predicted_cost);
+    field("mean_edge", "%.9g", suggestion.stats.mean_edge);
+    field("curve_count", "%u", suggestion.curve_count);
+    end_call();
+}
+
+static void transform(vox_mesh mesh, const double matrix[12]) {
+    begin_call("set_transform");
+    field("mesh", "%u", mesh);
+    field("matrix", "%" PRIu64, store(matrix, 12 * sizeof *matrix));
+    finish(vox_mesh_set_transform(grid, mesh, matrix));
+}
+
+static void set_filter(vox_mesh mesh, const vox_filter* filter) {
+    begin_call("set_filter");
+    field("mesh", "%u", mesh);
+    filter_field(filter);
+    finish(vox_mesh_set_filter(grid, mesh, filter));
+}
+
+static void set_enabled(vox_mesh mesh, uint32_t enabled) {
+    begin_call("set_enabled");
+    field("mesh", "%u", mesh);
+    field("enabled", "%u", enabled);
+    finish(vox_mesh_set_enabled(grid, mesh, enabled));
+}
+
+static void set_pair_enabled(vox_mesh a, vox_mesh b, uint32_t enabled) {
+    begin_call("set_pair_enabled");
+    field("mesh_a", "%u", a);
+    field("mesh_b", "%u", b);
+    field("enabled", "%u", enabled);
+    finish(vox_grid_set_pair_enabled(grid, a, b, enabled));
+}
+
+static void remove_mesh(vox_mesh mesh) {
+    begin_call("remove");
+    field("mesh", "%u", mesh);
+    finish(vox_mesh_remove(grid, mesh));
+}
+
+static void set_flags(uint32_t flags) {
+    begin_call("set_flags");
+    field("flags", "%u", flags);
+    finish(vox_grid_set_flags(grid, flags));
+}
+
+static void clear(void) {
+    begin_call("clear");
+    finish(vox_grid_clear(grid));
+}
+
+/* "set_tets_enabled" or "remove_tets". */
+static void switch_tets(const char* name, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+                        uint32_t enabled) {
+    begin_call(name);
+    field("mesh", "%u", mesh);
+    field("indices", "%" PRIu64, store(tets, count * sizeof *tets));
+    field("count", "%" PRIu64, count);
+    if (strcmp(name, "remove_tets") == 0) {
+        finish(vox_mesh_remove_tets(grid, mesh, tets, count));
+    } else {
+        field("enabled", "%u", enabled);
+        finish(vox_mesh_set_tets_enabled(grid, mesh, tets, count, enabled));
+    }
+}
+
+/* Copies of vertices, and the tetrahedra that use them from now on. */
+static uint32_t append_copies(vox_mesh mesh, const uint32_t* copies_of, uint64_t count) {
+    vox_vertices_desc desc = vox_default_vertices_desc();
+    uint32_t first = 0;
+    desc.count = count;
+    desc.copies_of = copies_of;
+    begin_call("append_copies");
+    field("mesh", "%u", mesh);
+    field("copies_of", "%" PRIu64, store(copies_of, count * sizeof *copies_of));
+    field("count", "%" PRIu64, count);
+    const vox_result result = vox_mesh_append_vertices(grid, mesh, &desc, &first);
+    if (result == VOX_OK) field("first", "%u", first);
+    finish(result);
+    return first;
+}
+
+static void replace_tets(vox_mesh mesh, const uint32_t* tets, uint64_t count, const uint32_t* corners) {
+    begin_call("replace_tets");
+    field("mesh", "%u", mesh);
+    field("indices", "%" PRIu64, store(tets, count * sizeof *tets));
+    field("count", "%" PRIu64, count);
+    field("corners", "%" PRIu64, store(corners, 4 * count * sizeof *corners));
+    finish(vox_mesh_replace_tets(grid, mesh, tets, count, corners));
+}
+
+static void append_tets(vox_mesh mesh, const uint32_t* corners, uint64_t count) {
+    uint32_t first = 0;
+    begin_call("append_tets");
+    field("mesh", "%u", mesh);
+    field("corners", "%" PRIu64, store(corners, 4 * count * sizeof *corners));
+    field("count", "%" PRIu64, count);
+    const vox_result result = vox_mesh_append_tets(grid, mesh, corners, count, &first);
+    if (result == VOX_OK) field("first", "%u", first);
+    finish(result);
+}
+
+/* ---- scenes ---- */
+
+static const uint32_t all_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
+
+/* Frames of a scene with all that a step gives, the last one at rest. */
+static void frames(scene* s, const char* name, const char* what, double factor, vox_format format,
+                   uint32_t rings) {
+    vox_mesh ids[MOST_BODIES];
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = s->self_collision ? 1 : 0;
+    filter.self_rings = rings;
+    s->name = name;
+    if (factor != 1) scale_scene(s, factor);
+    begin_scene(name, what, all_flags, 0);
+    pose_scene(s, 0);
+    for (uint32_t b = 0; b < s->count; ++b) ids[b] = insert(&s->bodies[b], format, &filter, 100 + b);
+    step();
+    for (int frame = 1; frame < 3; ++frame) {
+        pose_scene(s, 40 * frame);
+        for (uint32_t b = 0; b < s->count; ++b) move(ids[b], &s->bodies[b], format);
+        step();
+    }
+    read_contacts();
+    query(&s->bodies[0]);
+    step();
+    end_scene();
+    free_scene(s);
+}
+
+static void readme(void) {
+    float first[12] = {5, 5, 5, 6, 5, 5, 5, 6, 5, 0.2f, 0.3f, 0.4f};
+    float second[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    uint32_t tet[4] = {0, 1, 2, 3};
+    const body bodies[2] = {{first, tet, 4, 1}, {second, tet, 4, 1}};
+    begin_scene("readme", "the two tetrahedra of the README", VOX_GRID_PENETRATIONS, 0);
+    for (uint32_t b = 0; b < 2; ++b) insert(&bodies[b], VOX_FORMAT_FLOAT3, NULL, b + 1);
+    step();
+    read_contacts();
+    end_scene();
+}
+
+/* Bodies come, go and change what they collide with. */
+static void life(void) {
+    static scene s;
+    vox_mesh ids[8];
+    const double turned[12] = {0, -1, 0, 0.5, 1, 0, 0, 0.25, 0, 0, 1, 0};
+    const double back[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    make_many(&s, 2, 2);
+    pose_scene(&s, 0);
+    begin_scene("life", "bodies come, go and change what they collide with", all_flags, 0.75);
+    for (uint32_t b = 0; b < 8; ++b)
+        ids[b] = insert(&s.bodies[b], VOX_FORMAT_FLOAT3, NULL, 1000000007ull * b);
+    step();
+    remove_mesh(ids[2]);
+    set_enabled(ids[5], 0);
+    set_pair_enabled(ids[0], ids[1], 0);
+    step();
+    meshes();
+    const vox_mesh again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE3, NULL, 0xfedcba9876543210u);
+    set_enabled(ids[5], 1);
+    transform(ids[6], turned);
+    vox_filter filter = vox_default_filter();
+    filter.category = 2;
+    filter.mask = ~(uint64_t)2;
+    set_filter(ids[3], &filter);
+    set_filter(ids[7], &filter);
+    step();
+    transform(ids[6], back);
+    set_flags(0);
+    step();
+    set_flags(VOX_GRID_PENETRATIONS);
+    step();
+    meshes();
+    remove_mesh(again);
+    clear();
+    step();
+    insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 5);
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 6);
+    step();
+    end_scene();
+    free_scene(&s);
+}
+
+/* A cut through one of two balls, and a tetrahedron more. */
+static void cutting(void) {
+    enum { most = 2000 };
+    static scene s;
+    static uint32_t tets[most], copies[most], corners[4 * most], copy_of[most];
+    uint32_t tet_count = 0, copy_count = 0;
+    make_pair(&s, 4);
+    pose_scene(&s, 0);
+    const body* b = &s.bodies[0];
+    begin_scene("cutting", "a ball is cut open and loses tetrahedra", all_flags, 0);
+    const vox_mesh first = insert(b, VOX_FORMAT_FLOAT3, NULL, 1);
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 2);
+    step();
+    /* Vertices on the cut are those of tetrahedra on both sides; the upper side gets copies. */
+    static uint8_t below[most], above[most];
+    for (uint32_t t = 0; t < b->tet_count; ++t) {
+        float middle = 0;
+        for (int c = 0; c < 4; ++c) middle += b->positions[3 * b->tets[4 * t + (uint32_t)c] + 2];
+        for (int c = 0; c < 4; ++c) (middle > 0 ? above : below)[b->tets[4 * t + (uint32_t)c]] = 1;
+    }
+    for (uint32_t v = 0; v < b->vertex_count; ++v)
+        if (below[v] && above[v]) copy_of[v] = b->vertex_count + copy_count, copies[copy_count++] = v;
+    for (uint32_t t = 0; t < b->tet_count; ++t) {
+        float middle = 0;
+        int on_cut = 0;
+        for (int c = 0; c < 4; ++c) middle += b->positions[3 * b->tets[4 * t + (uint32_t)c] + 2];
+        for (int c = 0; c < 4; ++c) {
+            const uint32_t v = b->tets[4 * t + (uint32_t)c];
+            on_cut |= copy_of[v] != 0;
+            corners[4 * tet_count + (uint32_t)c] = copy_of[v] ? copy_of[v] : v;
+        }
+        if (middle > 0 && on_cut) tets[tet_count++] = t;
+    }
+    append_copies(first, copies, copy_count);
+    replace_tets(first, tets, tet_count, corners);
+    step();
+    switch_tets("set_tets_enabled", first, tets, 20, 0);
+    step();
+    switch_tets("remove_tets", first, tets, 10, 0);
+    switch_tets("set_tets_enabled", first, tets + 10, 10, 1);
+    append_tets(first, b->tets, 3);
+    meshes();
+    step();
+    read_contacts();
+    end_scene();
+    free_scene(&s);
+}
+
+/* A snapshot, damaged and as it is; the loaded grid goes on. */
+static void snapshot(void) {
+    static scene s;
+    void* bytes;
+    uint64_t size;
+    vox_mesh ids[2];
+    make_pair(&s, 3);
+    pose_scene(&s, 0);
+    begin_scene("snapshot", "a grid is saved, and goes on from its bytes", all_flags, 0);
+    for (uint32_t b = 0; b < 2; ++b) ids[b] = insert(&s.bodies[b], VOX_FORMAT_DOUBLE3, NULL, 70 + b);
+    step();
+    const uint64_t offset = save(&bytes, &size);
+    ((char*)bytes)[size / 2] ^= 0x40;
+    load(bytes, size, store(bytes, size));
+    ((char*)bytes)[size / 2] ^= 0x40;
+    load(bytes, size - 9, offset);
+    load(bytes, size, offset);
+    meshes();
+    step();
+    pose_scene(&s, 90);
+    for (uint32_t b = 0; b < 2; ++b) move(ids[b], &s.bodies[b], VOX_FORMAT_DOUBLE3);
+    step();
+    query(&s.bodies[1]);
+    free(bytes);
+    end_scene();
+    free_scene(&s);
+}
+
+/* What is refused, with its code and text; the grid works on after each. */
+static void errors(void) {
+    static scene s;
+    double matrix[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    make_pair(&s, 3);
+    pose_scene(&s, 0);
+    begin_scene("errors", "what is refused, with its code and text", VOX_GRID_PENETRATIONS, 0);
+    const vox_mesh first = insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 11);
+    const vox_mesh second = insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 12);
+    step();
+    const uint32_t tet = s.bodies[1].tets[70];
+    s.bodies[1].tets[70] = s.bodies[1].vertex_count + 5;
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 13);
+    s.bodies[1].tets[70] = tet;
+    const uint32_t beyond[2] = {0, s.bodies[0].tet_count};
+    switch_tets("remove_tets", first, beyond, 2, 0);
+    set_flags(0x41);
+    set_enabled(first, 2);
+    set_pair_enabled(first, first, 0);
+    vox_filter filter = vox_default_filter();
+    filter.self_rings = VOX_MAX_RINGS + 1;
+    set_filter(second, &filter);
+    matrix[7] = NAN;
+    transform(second, matrix);
+    remove_mesh(first + 1);
+    const float good = s.bodies[1].positions[17];
+    s.bodies[1].positions[17] = (float)NAN;
+    move(second, &s.bodies[1], VOX_FORMAT_FLOAT3);
+    step();
+    s.bodies[1].positions[17] = good;
+    move(second, &s.bodies[1], VOX_FORMAT_FLOAT3);
+    step();
+    remove_mesh(second);
+    remove_mesh(second);
+    set_enabled(second, 1);
+    step();
+    end_scene();
+    free_scene(&s);
+}
+
+static void suggestions(void) {
+    static scene s;
+    begin_scene("suggestions", "the cell size for two balls, by each model", 0, 0);
+    make_pair(&s, 4);
+    pose_scene(&s, 0);
+    suggest(&s, VOX_COST_MODEL_PAPER);
+    suggest(&s, VOX_COST_MODEL_REFERENCE);
+    suggest(&s, VOX_COST_MODEL_FAST);
+    end_scene();
+    free_scene(&s);
+}
+
+static FILE* create(const char* folder, const char* name) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE* file = fopen(path, "wb");
+    if (!file) {
+        fprintf(stderr, "write_vectors: %s: %s\n", path, strerror(errno));
+        exit(EXIT_FAILURE);
+    }
+    return file;
+}
+
+int main(int argc, char** argv) {
+    static scene s;
+    if (argc != 2) {
+        fprintf(stderr, "usage: write_vectors FOLDER\n");
+        return 2;
+    }
+    script = create(argv[1], "vectors.json");
+    arrays = create(argv[1], "vectors.bin");
+    fprintf(script, "{\"abi\": %u, \"scenes\": [", vox_abi_version());
+    readme();
+    make_pair(&s, 4), frames(&s, "pair", "two balls that overlap", 1, VOX_FORMAT_FLOAT3, 0);
+    make_pair(&s, 3), frames(&s, "doubles", "two balls of doubles", 1, VOX_FORMAT_DOUBLE3, 0);
+    make_ring(&s, 6),
+        frames(&s, "ring", "a ring through itself, without near neighbours", 1, VOX_FORMAT_FLOAT3, 1);
+    make_tangled(&s, 3), frames(&s, "tangled", "a ball of which hardly a tetrahedron is where it was", 1,
+                                VOX_FORMAT_FLOAT3, 0);
+    make_soup(&s, 40, 60),
+        frames(&s, "soup", "flat, inverted, coincident tetrahedra", 1, VOX_FORMAT_FLOAT3, 0);
+    make_pair(&s, 3), frames(&s, "least", "positions that are denormal floats", 1e-41, VOX_FORMAT_FLOAT3, 0);
+    make_pair(&s, 3), frames(&s, "huge", "positions whose volumes are no floats", 1e30, VOX_FORMAT_FLOAT3, 0);
+    life();
+    cutting();
+    snapshot();
+    errors();
+    suggestions();
+    fprintf(script, "]}\n");
+    const int failed = ferror(script) | ferror(arrays);
+    return (fclose(script) | fclose(arrays) | failed) ? EXIT_FAILURE : EXIT_SUCCESS;
+}
