@@ -1,5 +1,5 @@
 """The description of the interface: what the public headers say, as one structure that programs can read. bindings/README.md
-explains its parts."""
+explains its parts. Nothing is guessed: a pointer of which the headers do not say enough is an error."""
 
 import json
 import os
@@ -13,24 +13,52 @@ HEADERS = ["vox", "vox_io", "vox_sim"]
 MODELS = {"lp64": 8, "wasm32": 4}  # bytes of a pointer; everything is aligned to its own size
 NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8}
 
-# 64-bit numbers that are not counts, sizes or times: all their bits may be in use.
+# 64-bit numbers all of whose bits may be in use. The others are counts, sizes, indices and times, which are below 2^53.
 BITS = re.compile(r"(^|_)(hash|mask|category|user_data|seed)(_|$)")
-# Pointers of the caller's that the library hands back and never looks behind.
+# Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")
+# What a void* with a length points to.
+ELEMENTS = {"positions": "position", "points": "position", "bytes": "byte", "data": "byte", "memory": "byte"}
+# Names that end in s and stand for one thing: a task system, a struct of arrays.
+SINGULAR = {"flags", "ns", "tasks", "arrays"}
+
+WIDTH = 200  # of api.json, where a parameter is on one line
+
+
+class Unclear(ValueError):
+    """The headers do not say enough; a line for each place."""
+
+
+def last_word(name):
+    return name.rsplit("_", 1)[-1]
 
 
 class Describer:
-    def __init__(self, headers):
+    def __init__(self, headers, events):
         self.headers = headers  # name: header.Header
         self.all = [d for parsed in headers.values() for d in parsed.declarations]
         self.types = {d.name: d for d in self.all if d.kind in ("struct", "enum", "opaque", "callback", "alias")}
         self.numbers = {name: number for parsed in headers.values() for name, (number, *_) in parsed.numbers.items()}
-        self.written, self.read = {}, {}
-        for function in (d for d in self.all if d.kind == "function"):
-            for type_text, _ in function.parameters:
-                base = self.type_of(type_text)
-                if base["kind"] == "struct":
-                    (self.read if base.get("const") else self.written).setdefault(base["base"], []).append(function.name)
+        self.faults = []
+        self.events = events
+        self.functions = {d.name: d for d in self.all if d.kind == "function"}
+        self.read, self.written = {}, {}  # struct: functions that it is given to, that fill it
+        for function in self.functions.values():
+            for parameter in function.parameters:
+                t = self.type_of(parameter[0])
+                if t["kind"] == "struct" and not function.name.endswith("_init"):
+                    self.note_use(self.read if t.get("const") else self.written, t["base"], function.name)
+
+    def note_use(self, uses, struct, function):
+        """Also of the structs inside it, and of those that it points to."""
+        found = uses.setdefault(struct, [])
+        if function in found:
+            return
+        found.append(function)
+        for type_text, _ in self.types[struct].fields:
+            t = self.type_of(type_text) if "(*)" not in type_text else {"kind": "function"}
+            if t["kind"] == "struct":
+                self.note_use(uses, t["base"], function)
 
     # ---- types ----
 
@@ -98,15 +126,202 @@ class Describer:
         return {"type": type_text, "kind": "function", "callback": call.name, **self.signature(call)}
 
     def signature(self, call):
-        return {"result": self.type_of(call.result), "parameters": [self.member(call, p) for p in call.parameters]}
+        result = self.type_of(call.result)
+        if "pointers" in result:
+            result.update(self.pointer(call, header.Member(call.result, "", call.marks), result, call.parameters))
+        return {"result": result, "parameters": [self.member(call, p, call.parameters) for p in call.parameters]}
+
+    # ---- pointers ----
+
+    def fault(self, owner, member, words):
+        place = f"{owner.name}: {member[1]}" if member[1] else owner.name
+        self.faults.append(f"line {owner.line}: {place}: {words}")
+
+    def pointer(self, owner, member, t, siblings):
+        """Direction, nullability, length and lifetime of a pointer."""
+        marks = member.marks
+        facts = {"direction": self.direction(owner, member, t)}
+        length = self.length(owner, member, t, siblings)
+        target = {"nullable": self.nullable(owner, member, length)}
+        if length is not None:
+            target["length"] = length
+        target.update(self.elements(owner, member, t, length, siblings))
+        lifetime = self.lifetime(owner, member, t)
+        if isinstance(lifetime, list) and not (set(lifetime) - set(self.functions)) <= set(self.events):
+            self.fault(owner, member, f"VOX_UNTIL({marks['VOX_UNTIL']}) names what is no function and no event")
+        target["lifetime"] = lifetime
+        if lifetime == "owned":
+            target["release"] = self.release_of(t["base"])
+        # Marks of an out-parameter speak of the pointer that the library writes there.
+        if t.get("pointers") == 2 and facts["direction"] == "out":
+            if t["kind"] == "opaque":
+                target["length"] = 1
+            return {**facts, "nullable": False, "length": 1, "lifetime": "call", "target": target}
+        return {**facts, **target}
+
+    def release_of(self, opaque):
+        found = [name for name in (opaque + "_destroy", opaque + "_release") if name in self.functions]
+        return found[0] if found else None
+
+    def direction(self, owner, member, t):
+        name = member[1]
+        if owner.kind == "struct":
+            roles = [role for role, uses in (("in", self.read), ("out", self.written)) if owner.name in uses]
+            if not roles:
+                self.fault(owner, member, "no function reads or writes the struct")
+            return "".join(roles)
+        if not name:
+            return "out"
+        if t.get("const") or "* const*" in t["type"] or OPAQUE.search(name) or t["kind"] == "callback":
+            return "in"
+        if t["kind"] == "opaque" and t.get("pointers") == 1 or owner.kind == "callback":
+            return "in"
+        if t["kind"] == "struct" and self.grows(t["base"]) and not owner.name.endswith("_init"):
+            return "inout"
+        return "out"
+
+    def grows(self, struct):
+        return self.types[struct].fields[0][1] == "struct_size"
+
+    def length(self, owner, member, t, siblings):
+        """1, "text", an expression, "opaque", or None for a function."""
+        name = member[1]
+        names = [s[1] for s in siblings]
+        following = names[names.index(name) + 1: names.index(name) + 2] if name in names else []
+        following = following[0] if following else ""
+        if t["kind"] in ("function", "callback"):
+            return None
+        if "VOX_ARRAY" in member.marks:
+            return member.marks["VOX_ARRAY"]
+        if "array" in t:
+            return t["array"][0]
+        if t["kind"] == "void" and (OPAQUE.search(name) or not name and "size" not in names):
+            return "opaque"
+        if t["base"] == "char":
+            return "text"
+        if following == "capacity":
+            return "capacity"
+        if name == "data" and {"byte_stride", "count"} <= set(names):
+            return "count"
+        if t["kind"] == "void" and owner.kind == "callback" and (following == "size" or not name):
+            return "size"
+        if t["kind"] == "void":
+            self.fault(owner, member, "what does it point to, and how many?")
+            return 1
+        if t["kind"] == "opaque" and (t["pointers"] == 1 or "* const*" not in t["type"]):
+            return 1
+        plural = name.endswith("s") and last_word(name) not in SINGULAR | {last_word(t["base"])}
+        counted = following == "count" or following.endswith("_count") and name.startswith(following[:-6])
+        number = t["kind"] not in ("struct", "opaque") and not name.startswith("out_")
+        if plural or counted or number:
+            self.fault(owner, member, "how many elements? VOX_ARRAY says it")
+        return 1
+
+    def elements(self, owner, member, t, length, siblings):
+        """Of an array: what a void* points to, how far apart, and what functions give counts that are not beside it."""
+        found, names = {}, [s[1] for s in siblings]
+        if length in (None, "opaque", "text") or isinstance(length, int):
+            return found
+        stem = re.sub(r"^out_", "", member[1])
+        if t["kind"] == "void":
+            element = ELEMENTS.get(last_word(stem) if stem else "memory")
+            if element is None:
+                self.fault(owner, member, "what does this void* point to?")
+            found["element"] = element
+        strides = [n for n in (stem[:-1] + "_byte_stride", "byte_stride", "out_byte_stride") if n in names]
+        if strides and (found.get("element") == "position" or stem == "data"):
+            found["stride"] = strides[0]
+        asked = {}
+        for word in re.findall(r"[a-z]\w*(?:(?:\.|->)\w+)*", length):
+            if word == "or" or word in names:
+                continue
+            if "->" in word and word.split("->")[0] in names:
+                base = self.type_of(siblings[names.index(word.split("->")[0])][0])["base"]
+                if word.split("->")[1] in (f[1] for f in self.types[base].fields):
+                    continue
+            elif "." in word and self.who_tells(owner, *word.split(".")):
+                asked[word] = self.who_tells(owner, *word.split("."))
+                continue
+            self.fault(owner, member, f"there is no {word} to count its elements")
+        if asked:
+            found["asked"] = asked
+        return found
+
+    def who_tells(self, owner, name, field):
+        """The function that gives `field` of what the parameter `name` stands for; of the owner's header first."""
+        found = []
+        for function in self.functions.values():
+            names = [p[1] for p in function.parameters]
+            out = self.type_of(function.parameters[-1][0]) if function.parameters else {}
+            if name in names and out.get("kind") == "struct" and not out.get("const"):
+                if field in (f[1] for f in self.types[out["base"]].fields):
+                    found.append((self.header_of(function) != self.header_of(owner), len(names), function.name))
+        return min(found)[-1] if found else None
+
+    def header_of(self, declaration):
+        return next((n for n, parsed in self.headers.items() if parsed.named(declaration.name)), None)
+
+    def nullable(self, owner, member, length):
+        if "VOX_OPTIONAL" in member.marks or length == "opaque" or owner.kind == "callback" and not member[1]:
+            return True
+        if isinstance(length, str) and length != "text":
+            # An array whose count is given in the same call may be null if that is 0.
+            beside = "." not in length or owner.kind == "struct" or member[1].startswith("out")
+            if beside and "+ 1" not in length:
+                return "if empty"
+        return False
+
+    def lifetime(self, owner, member, t):
+        """call, object (as long as what the call creates), static, owned by the caller, or a list of what ends it."""
+        until = member.marks.get("VOX_UNTIL")
+        if until:
+            words = [w.strip() for w in until.split(",")]
+            return [w if w in self.events else "vox_" + w for w in words]
+        if owner.kind == "struct" and (t["kind"] == "function" or OPAQUE.search(member[1])):
+            return "object"
+        if owner.kind == "struct" and owner.name not in self.read:
+            self.fault(owner, member, "how long is it valid? VOX_UNTIL says it")
+        if owner.kind == "callback":
+            return "object" if not member[1] else "call"
+        if t["kind"] == "opaque" and t.get("pointers") == 2 and "* const*" not in t["type"]:
+            if not self.release_of(t["base"]):
+                self.fault(owner, member, f"no function releases a {t['base']}")
+            return "owned"
+        if not member[1]:
+            if "Static text" not in owner.comment:
+                self.fault(owner, member, "how long is the result valid? VOX_UNTIL says it")
+            return "static"
+        return "call"
+
+    def flags_of(self, owner, member):
+        """The enum of flags that a number is combined from: named by a field's comment, or that of the object."""
+        named = re.match(r"(vox_\w+_flags)[,:]", member.comment)
+        if named:
+            return named[1]
+        if re.fullmatch(r"(out_)?flags", member[1]):
+            object_type = self.type_of(owner.parameters[0][0])["base"] if owner.kind == "function" else ""
+            if object_type + "_flags" not in self.types:
+                self.fault(owner, member, "which flags?")
+            return object_type + "_flags"
+        return None
 
     # ---- declarations ----
 
-    def member(self, owner, member):
+    def member(self, owner, member, siblings):
         name = member[1]
         found = {"name": name, **self.member_type(owner, member)}
-        if found.get("base") == "uint64_t" and "pointers" not in found:
+        if found.get("base") == "uint64_t":
             found["number"] = "bits" if BITS.search(name) else "count"
+        flags = self.flags_of(owner, member)
+        if flags:
+            found["flags"] = flags
+        if found["kind"] == "function" or "pointers" in found or "array" in found and owner.kind != "struct":
+            found.update(self.pointer(owner, member, found, siblings))
+        if found["kind"] == "opaque":
+            if "target" in found:
+                found["access"] = "create" if found["target"]["lifetime"] == "owned" else "get"
+            else:
+                found["access"] = "read" if found.get("const") else "change"
         if member.comment:
             found["doc"] = member.comment
         return found
@@ -124,7 +339,7 @@ class Describer:
         layouts = {model: self.layout(d, pointer) for model, pointer in MODELS.items()}
         fields = []
         for i, member in enumerate(d.fields):
-            fields.append({**self.member(d, member), "offset": {m: layouts[m][2][i] for m in MODELS}})
+            fields.append({**self.member(d, member, d.fields), "offset": {m: layouts[m][2][i] for m in MODELS}})
         init = d.name + "_init"
         return {"name": d.name, "section": d.section, "doc": d.comment,
                 "size": {m: layouts[m][0] for m in MODELS}, "alignment": {m: layouts[m][1] for m in MODELS},
@@ -133,14 +348,15 @@ class Describer:
                 "read_by": self.read.get(d.name, []), "written_by": self.written.get(d.name, []), "fields": fields}
 
     def opaque(self, d):
-        ends = [f.name for f in self.all if f.name in (d.name + "_destroy", d.name + "_release")]
-        return {"name": d.name, "section": d.section, "doc": d.comment, "destroy": ends[0]}
+        threads = "one" if "VOX_ONE_THREAD" in d.marks else "any" if "VOX_ANY_THREAD" in d.marks else "readers or one"
+        return {"name": d.name, "section": d.section, "doc": d.comment, "release": self.release_of(d.name),
+                "threads": threads}
 
     def function(self, d):
         return {"name": d.name, "section": d.section, "stable": d.stable, "doc": d.comment, **self.signature(d)}
 
     def describe(self, version):
-        found = {"version": version, "abi_version": self.numbers["VOX_ABI_VERSION"], "headers": []}
+        found = {"version": version, "abi_version": self.numbers["VOX_ABI_VERSION"], "events": self.events, "headers": []}
         for name, parsed in self.headers.items():
             of = parsed.of_kind
             found["headers"].append({
@@ -156,7 +372,19 @@ class Describer:
                 "structs": [self.struct(d) for d in of("struct")],
                 "functions": [self.function(d) for d in of("function")],
                 "inline": [{"name": d.name, "section": d.section, "doc": d.comment} for d in of("inline")]})
+        if self.faults:
+            raise Unclear("\n".join(self.faults))
         return found
+
+
+def events_of(text):
+    """What VOX_UNTIL may name beside functions, and what the comment on the marks says of it: functions, or words."""
+    lines = text[text.index(" *   VOX_UNTIL"): text.index(" *   VOX_ONE_THREAD")]
+    found = {}
+    for name, words in re.findall(r"^ \*       (\w+) +(.*(?:\n \*        .*)*)", lines, flags=re.M):
+        words = " ".join(words.replace("\n *", " ").split())
+        found[name] = words.split(", ") if words.startswith("vox_") else words
+    return found
 
 
 def text_of(name):
@@ -169,13 +397,14 @@ def describe(texts=None):
     texts = texts or {name: text_of(name) for name in HEADERS}
     version = ".".join(re.search(rf"#define VOX_VERSION_{part} (\d+)", texts["vox"])[1] for part in
                        ("MAJOR", "MINOR", "PATCH"))
-    return Describer({name: header.parse(text) for name, text in texts.items()}).describe(version)
+    parsed = {name: header.parse(text) for name, text in texts.items()}
+    return Describer(parsed, events_of(texts["vox"])).describe(version)
 
 
 def as_text(value, indent=""):
     """JSON in which everything that fits is on one line, so that a changed function is a changed line or few."""
     line = json.dumps(value, ensure_ascii=False)
-    if not isinstance(value, (dict, list)) or not value or len(indent) + len(line) <= 120:
+    if not isinstance(value, (dict, list)) or not value or len(indent) + len(line) <= WIDTH:
         return line
     inner = indent + " "
     if isinstance(value, list):

@@ -52,8 +52,3 @@ def whole_structs(api):
             found.add(struct["name"])
     return found
 
-
-def flags_type(api, doc):
-    """The enum of flags that a field's comment names: `vox_X_flags, combined with |`."""
-    match = re.match(r"(vox_\w+_flags), combined with \|", doc)
-    return match[1] if match else None

@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape
 
-from names import GENERATED, first_sentence, flags_type, pascal, sections, short_values, whole_structs, wrapped
+from names import GENERATED, first_sentence, pascal, sections, short_values, whole_structs, wrapped
 
 NUMBERS = {"uint8_t": "byte", "char": "byte", "int32_t": "int", "uint32_t": "uint", "int64_t": "long", "uint64_t": "ulong",
            "float": "float", "double": "double", "size_t": "UIntPtr", "void": "void"}
@@ -33,14 +33,15 @@ class CSharp:
             return "IntPtr" + "*" * (t.get("pointers", 0) - 1)
         if "array" in t:
             return self.value(t) + "*"
+        if "flags" in t:
+            return pascal(t["flags"]) + "*" * t.get("pointers", 0)
         return self.value(t) + "*" * t.get("pointers", 0)
 
     def field_type(self, f):
         if f["kind"] == "function" or f["kind"] in ("void", "opaque") or (f["base"] == "char" and "pointers" in f):
             return "IntPtr"
-        flags = flags_type(self.api, f.get("doc", ""))
-        if flags:
-            return pascal(flags)
+        if "flags" in f:
+            return pascal(f["flags"])
         text = self.value(f) + "*" * f.get("pointers", 0)
         for count in f.get("array", []):
             text = self.array(text, count)

@@ -2,7 +2,7 @@
 
 import json
 
-from names import GENERATED, flags_type, pascal, sections, short_values, wrapped
+from names import GENERATED, pascal, sections, short_values, wrapped
 
 NUMBERS = {"uint8_t": "u8", "char": "u8", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
            "float": "f32", "double": "f64", "size_t": "u32"}

@@ -31,11 +31,13 @@ class Python:
             return "c_void_p" if "array" in t else self.value(t)
         if self.text_pointer(t) and "const" in t:
             return "c_char_p"
+        if t["length"] != 1:
+            return "c_void_p"
         if t["pointers"] == 2:
-            return "POINTER(c_void_p)" if "const" not in t else "c_void_p"
-        if t["kind"] == "struct" and t.get("length", 1) == 1:
+            return "POINTER(c_void_p)"
+        if t["kind"] == "struct":
             return f"POINTER({t['base']})"
-        if t["name"].startswith("out") and t["kind"] not in ("void", "opaque") and t.get("length", 1) == 1:
+        if t["direction"] == "out":
             return f"POINTER({self.value(t)})"
         return "c_void_p"
 
@@ -53,8 +55,7 @@ class Python:
         if self.text_pointer(f):
             return "c_char_p"
         if "pointers" in f:
-            whole = f["kind"] == "struct" and f.get("length", 1) == 1 and f["name"] != "data"
-            return f"POINTER({f['base']})" if whole else "c_void_p"
+            return f"POINTER({f['base']})" if f["kind"] == "struct" and f["length"] == 1 else "c_void_p"
         text = self.value(f)
         for count in reversed(f.get("array", [])):
             text = f"{text} * {count}"

@@ -13,7 +13,8 @@ import re
 import sys
 
 COMMENT = re.compile(r"/\*(.*?)\*/", re.S)
-FIELD = re.compile(r"^ {4}(?:const )?(\w+)(?: const)?[ *]+(?:(\w+)(?:\[\w+\])*|\(\*(\w+)\)\(.*\));$")
+MARKS = r"(?:VOX_\w+(?:\((?:[^()]|\([^()]*\))*\))? )*"
+FIELD = re.compile(rf"^ {{4}}{MARKS}(?:const )?(\w+)(?: const)?[ *]+(?:(\w+)(?:\[\w+\])*|\(\*(\w+)\)\(.*\));$")
 
 # What a field's name alone says: the same in all structs.
 BY_NAME = {

@@ -55,6 +55,31 @@
 #define VOX_API VOX_EXPORT
 #define VOX_EXPERIMENTAL VOX_EXPORT
 
+/* Marks: what the types of C do not say about a pointer, for people and for programs that read these headers
+ * (bindings/README.md). A compiler sees nothing of them.
+ *   VOX_OPTIONAL     It may be null. Without this mark it must not be, unless it is an array of no elements.
+ *   VOX_ARRAY(n)     It points to n elements. n is written with parameters, or fields of the same struct; x.y stands
+ *                    for the field y that a function gives for the parameter x, such as mesh.vertex_count of
+ *                    vox_mesh_get_info. "or" separates what the comment tells apart. Without this mark: one element,
+ *                    zero-terminated text, or `capacity` or `count` elements where such a number follows.
+ *   VOX_UNTIL(f, g)  It is in use, or valid, until the next call of vox_f or vox_g for its object, or the end of that
+ *                    object. Without this mark it is in use during the call: what it points to is read, written or
+ *                    copied. Callbacks, and the pointers that are handed back to them, are in use as long as the
+ *                    object that they were given to. Instead of a function:
+ *       return       the call that it was given to returns
+ *       failure      the next call that fails on the same thread
+ *       epoch        vox_grid_step, vox_grids_step, vox_grid_clear, vox_grid_reserve, vox_grid_set_flags
+ *       rebind       vox_mesh_remove, vox_mesh_bind_positions, vox_mesh_bind_strided_positions,
+ *                    vox_mesh_map_positions, vox_mesh_set_topology, vox_mesh_append_vertices, vox_grid_clear
+ *   VOX_ONE_THREAD, VOX_ANY_THREAD
+ *                    An object that one thread at a time may use, even to read; one that any number may use at any
+ *                    time. Without such a mark: the rule of "Threads" above. */
+#define VOX_OPTIONAL
+#define VOX_ARRAY(count)
+#define VOX_UNTIL(...)
+#define VOX_ONE_THREAD
+#define VOX_ANY_THREAD
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -83,12 +108,12 @@ VOX_API const char* vox_result_string(vox_result result);
 
 /* The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
  * It lives until the thread's next failing call. Successful calls leave it alone. Never null. */
-VOX_API const char* vox_last_error(void);
+VOX_API VOX_UNTIL(failure) const char* vox_last_error(void);
 
 /* Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
  * libraries built on vox (vox_io among them) can report failures the same way. A null text counts as "". Cannot fail
  * itself. */
-VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, const char* text);
+VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
 
 /* ---- version ---------------------------------------------------------------------------------- */
 
@@ -110,8 +135,8 @@ VOX_API const char* vox_build_info(void);
  * thread may be one that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called
  * from vox_query_view_release, so it must be usable until then. */
 typedef struct vox_allocator {
-    void* (*allocate)(size_t size, size_t alignment, void* user);
-    void (*release)(void* memory, size_t size, size_t alignment, void* user);
+    VOX_OPTIONAL void* (*allocate)(size_t size, size_t alignment, void* user);
+    VOX_OPTIONAL void (*release)(void* memory, size_t size, size_t alignment, void* user);
     void* user;
 } vox_allocator;
 
@@ -125,7 +150,7 @@ typedef enum vox_log_level {
 /* Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
  * on the thread that called the library, and must not call the grid it came from. */
 typedef struct vox_log {
-    void (*write)(vox_log_level level, const char* text, void* user);
+    VOX_OPTIONAL void (*write)(vox_log_level level, const char* text, void* user);
     void* user;
 } vox_log;
 
@@ -144,8 +169,8 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
  * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
  * If both are null, the built-in scheduler is used. */
 typedef struct vox_task_system {
-    void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
-    void (*finish)(void* handle, void* user);
+    VOX_OPTIONAL void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
+    VOX_OPTIONAL void (*finish)(void* handle, void* user);
     void* user;
 } vox_task_system;
 
@@ -254,11 +279,11 @@ static inline vox_grid_desc vox_default_grid_desc(void) {
 
 /* Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with
  * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET. */
-VOX_API vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid);
+VOX_API vox_result vox_grid_create(VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
 /* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views, which
  * live on with their memory until they are released. Null does nothing. */
-VOX_API void vox_grid_destroy(vox_grid* grid);
+VOX_API void vox_grid_destroy(VOX_OPTIONAL vox_grid* grid);
 
 /* Removes all meshes and contacts and keeps the settings. Old mesh ids become stale. */
 VOX_API vox_result vox_grid_clear(vox_grid* grid);
@@ -369,22 +394,23 @@ typedef struct vox_mesh_desc {
     uint32_t flags; /* vox_mesh_flags, combined with | */
     /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
      * other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged. */
-    const void* positions;
+    VOX_OPTIONAL VOX_ARRAY(vertex_count) VOX_UNTIL(rebind) const void* positions;
     uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed (columns: one number) */
     /* tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted.
      * With that flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is
      * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
      * off, replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed.
      * A grid made from a snapshot has its own copy. */
-    const uint32_t* tets;
+    VOX_ARRAY(4 * tet_count) VOX_UNTIL(mesh_remove, mesh_set_topology, grid_clear) const uint32_t* tets;
     uint64_t tet_count;
     uint64_t vertex_count;
     uint64_t user_data; /* any number of the caller's, returned by vox_mesh_user_data */
     vox_format position_format;
     uint32_t reserved; /* 0 */
-    const vox_filter* filter; /* copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well */
+    /* Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well. */
+    VOX_OPTIONAL const vox_filter* filter;
     /* vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance. */
-    const void* rest_positions;
+    VOX_OPTIONAL VOX_ARRAY(vertex_count) const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
     /* From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
      * between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
@@ -436,7 +462,7 @@ VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vo
 VOX_API vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh);
 
 /* 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail. */
-VOX_API uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh);
+VOX_API uint32_t vox_mesh_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_mesh mesh);
 
 /* The user_data the mesh was inserted with. */
 VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data);
@@ -460,7 +486,7 @@ typedef struct vox_mesh_info {
     uint32_t has_transform; /* 1 if vox_mesh_set_transform gave it one */
     /* The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
      * other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed. */
-    const void* positions;
+    VOX_OPTIONAL VOX_ARRAY(vertex_count) VOX_UNTIL(rebind) const void* positions;
     uint64_t position_byte_stride;           /* of these, never 0 unless `positions` is null; see vox_mesh_desc */
     uint64_t position_component_byte_stride;
     double transform[12]; /* as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
@@ -474,17 +500,21 @@ VOX_API vox_result vox_mesh_get_info(const vox_grid* grid, vox_mesh mesh, vox_me
  * to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may be null,
  * and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count).
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh, uint32_t* corners, uint8_t* enabled,
-                                      uint64_t capacity, uint64_t* out_count);
+VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh,
+                                      VOX_OPTIONAL VOX_ARRAY(4 * capacity) uint32_t* corners,
+                                      VOX_OPTIONAL VOX_ARRAY(capacity) uint8_t* enabled, uint64_t capacity,
+                                      uint64_t* out_count);
 
 /* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
  * of vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory
  * between steps need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
-VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh,
+                                           VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                            vox_format format, uint64_t byte_stride);
 
 /* The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns. */
-VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh,
+                                                   VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                                    vox_format format, uint64_t byte_stride,
                                                    uint64_t component_byte_stride);
 
@@ -529,7 +559,8 @@ VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vo
  * destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS it is the copy
  * made then.
  * Errors: BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_positions,
+VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh,
+                                          VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) void** out_positions,
                                           uint64_t* out_byte_stride);
 
 /* Moves a mesh as a whole. In the following steps a vertex has the position
@@ -539,7 +570,7 @@ VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** 
  * affine map, three rows of four numbers, copied. Null (the default) means no transform. The transform stays when
  * other positions are bound.
  * Errors: INVALID_ARGUMENT (an element that is not finite). */
-VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]);
+VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, VOX_OPTIONAL const double matrix[12]);
 
 /* ---- cutting and growing ---------------------------------------------------------------------- */
 
@@ -569,22 +600,23 @@ VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vo
 /* Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges and
  * facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
  * Errors: INVALID_ARGUMENT for other numbers. */
-VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
-                                             uint32_t enabled);
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+                                             uint64_t count, uint32_t enabled);
 
 /* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If an
  * index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open, append
  * copies of the vertices on the cut and let the tetrahedra of one side use those. */
-VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
-                                         const uint32_t* corners);
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+                                         uint64_t count, VOX_ARRAY(4 * count) const uint32_t* corners);
 
 /* Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
  * following indices. */
-VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
-                                        uint32_t* out_first);
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(4 * count) const uint32_t* corners,
+                                        uint64_t count, uint32_t* out_first);
 
 /* Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices. */
-VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count);
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+                                        uint64_t count);
 
 /* Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
  * last. */
@@ -597,14 +629,14 @@ typedef struct vox_vertices_desc {
      * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
      * vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
      * copies_of, for a mesh with positions of its own. */
-    const void* positions;
+    VOX_OPTIONAL VOX_ARRAY(count or mesh.vertex_count + count) VOX_UNTIL(rebind) const void* positions;
     uint64_t position_byte_stride; /* 0: tightly packed */
     /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
      * the rest position of that vertex and, if `positions` is null, its position, too. */
-    const uint32_t* copies_of;
+    VOX_OPTIONAL VOX_ARRAY(count) const uint32_t* copies_of;
     /* For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. Null: those of
      * copies_of or, if that is null too, the present positions of the new vertices. */
-    const void* rest_positions;
+    VOX_OPTIONAL VOX_ARRAY(count) const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
     /* As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number. */
     uint64_t position_component_byte_stride;
@@ -629,7 +661,8 @@ VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const
 /* Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more contacts,
  * and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is best to leave
  * them as they are. */
-VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count);
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* vertices,
+                                            uint64_t count);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
@@ -657,8 +690,9 @@ VOX_API vox_result vox_grid_step(vox_grid* grid);
  * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
  * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
  * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
-VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task_system* tasks,
-                                  uint32_t worker_count, vox_result* results);
+VOX_API vox_result vox_grids_step(VOX_ARRAY(count) vox_grid* const* grids, uint64_t count,
+                                  VOX_OPTIONAL const vox_task_system* tasks, uint32_t worker_count,
+                                  VOX_OPTIONAL VOX_ARRAY(count) vox_result* results);
 
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
@@ -698,7 +732,7 @@ typedef struct vox_contact {
 /* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the next step,
  * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
 typedef struct vox_contact_view {
-    const vox_contact* data;
+    VOX_UNTIL(epoch) const vox_contact* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -710,15 +744,16 @@ VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out
 /* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
  * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
  * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
-                                           uint64_t capacity, uint64_t* offsets);
+VOX_API vox_result vox_grids_copy_contacts(VOX_ARRAY(count) const vox_grid* const* grids, uint64_t count,
+                                           vox_contact* contacts, uint64_t capacity,
+                                           VOX_ARRAY(count + 1) uint64_t* offsets);
 
 /* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
  * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
  * with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh, keeps the
  * rule with this flag. Not part of vox_grid_hash. The data lives as long as that of the contacts' view. */
 typedef struct vox_interior_view {
-    const uint8_t* data;
+    VOX_UNTIL(epoch) const uint8_t* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -778,7 +813,7 @@ typedef struct vox_penetration {
  * unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
  * of the contacts' view. */
 typedef struct vox_penetration_view {
-    const vox_penetration* data;
+    VOX_UNTIL(epoch) const vox_penetration* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -797,7 +832,7 @@ typedef struct vox_depth {
 
 /* `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to. */
 typedef struct vox_depth_view {
-    const vox_depth* data;
+    VOX_UNTIL(epoch, grid_prepare_readings, grid_prepare_readings_of) const vox_depth* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -827,11 +862,11 @@ typedef struct vox_pair {
 /* `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts` holds the index of every contact of
  * vox_grid_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
 typedef struct vox_pair_view {
-    const vox_pair* data;
+    VOX_UNTIL(epoch) const vox_pair* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
-    const uint32_t* contacts;
+    VOX_ARRAY(grid.contacts) VOX_UNTIL(epoch) const uint32_t* contacts;
 } vox_pair_view;
 
 /* The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear. */
@@ -876,7 +911,7 @@ typedef struct vox_touch_event {
  * a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
  * total_touches_ended show the loss. */
 typedef struct vox_touch_view {
-    const vox_touch_event* data;
+    VOX_UNTIL(grid_step, grids_step) const vox_touch_event* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -903,7 +938,7 @@ typedef struct vox_contact_event {
  * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
  * vox_counters.total_contacts_began and total_contacts_ended. */
 typedef struct vox_contact_event_view {
-    const vox_contact_event* data;
+    VOX_UNTIL(grid_step, grids_step, grid_set_flags) const vox_contact_event* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -962,6 +997,7 @@ typedef struct vox_reading {
  * contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
  * prepared again or the next step, clear or destroy of the grid. */
 typedef struct vox_reading_view {
+    VOX_UNTIL(grid_prepare_readings, grid_prepare_readings_of, grid_step, grids_step, grid_clear)
     const vox_reading* data;
     size_t byte_stride;
     uint64_t count;
@@ -1004,7 +1040,7 @@ static inline vox_readings_desc vox_default_readings_desc(void) {
  * readings of some contacts. All others are missing from the views and copies of the following functions.
  * Errors: as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
  * earlier readings stay. */
-VOX_API vox_result vox_grid_prepare_readings_of(vox_grid* grid, const vox_readings_desc* desc);
+VOX_API vox_result vox_grid_prepare_readings_of(vox_grid* grid, VOX_OPTIONAL const vox_readings_desc* desc);
 
 /* The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear. */
 VOX_API vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view);
@@ -1030,7 +1066,7 @@ VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a,
  * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not saved.
  * *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first. Allocates
  * nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
-VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t capacity, uint64_t* out_size);
+VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes, uint64_t capacity, uint64_t* out_size);
 
 /* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
  * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
@@ -1041,7 +1077,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, void* bytes, uint64_t cap
  * stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* desc, vox_grid** out_grid);
+VOX_API vox_result vox_grid_load(VOX_ARRAY(size) const void* bytes, uint64_t size,
+                                 VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
 /* ---- queries ---------------------------------------------------------------------------------- */
 
@@ -1085,8 +1122,8 @@ VOX_API vox_result vox_grid_query_point(const vox_grid* grid, const double point
 
 /* The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh, tet).
  * Faster than single queries. */
-VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points, vox_format format,
-                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask,
+VOX_API vox_result vox_grid_query_points(const vox_grid* grid, VOX_ARRAY(point_count) const void* points,
+                                         vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
                                          vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
 /* Tetrahedron `tet` of `mesh`. */
@@ -1124,7 +1161,7 @@ VOX_API vox_result vox_grid_query_closest(const vox_grid* grid, const double poi
 typedef struct vox_closest_desc {
     uint32_t struct_size;
     vox_format format;
-    const void* points;   /* point_count of them, read during the call; may be null if there are none */
+    VOX_ARRAY(point_count) const void* points; /* read during the call; may be null if there are none */
     uint64_t byte_stride; /* from one point to the next; 0: tightly packed */
     uint64_t point_count; /* at most 2^32 - 1 */
     uint64_t mask;        /* default UINT64_MAX: all meshes */
@@ -1162,7 +1199,7 @@ typedef struct vox_closest_hit {
  * Each search begins at the facet found for the point before, so points close together should follow each other.
  * Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points. */
 VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox_closest_desc* desc,
-                                                 vox_closest_hit* out_hits);
+                                                 VOX_ARRAY(desc->point_count) vox_closest_hit* out_hits);
 
 typedef enum vox_side {
     VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
@@ -1233,7 +1270,7 @@ VOX_API vox_result vox_grid_query_ray_any(const vox_grid* grid, const double fro
  * taken. Errors of all: INVALID_ARGUMENT, NON_FINITE, LIMIT, OUT_OF_MEMORY. */
 
 /* What vox_grid_take_query_view takes. */
-typedef struct vox_query_view vox_query_view;
+typedef VOX_ANY_THREAD struct vox_query_view vox_query_view;
 
 /* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
  * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
@@ -1246,7 +1283,7 @@ VOX_API vox_result vox_grid_take_query_view(vox_grid* grid, vox_query_view** out
 VOX_API vox_result vox_query_view_retain(vox_query_view* view);
 
 /* Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing. */
-VOX_API void vox_query_view_release(vox_query_view* view);
+VOX_API void vox_query_view_release(VOX_OPTIONAL vox_query_view* view);
 
 /* vox_grid_epoch when the view was taken: which step it shows. */
 VOX_API vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch);
@@ -1259,8 +1296,8 @@ VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double
                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
 /* As vox_grid_query_points. */
-VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points, vox_format format,
-                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask,
+VOX_API vox_result vox_query_view_points(const vox_query_view* view, VOX_ARRAY(point_count) const void* points,
+                                         vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
                                          vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
 /* As vox_grid_query_box. */
@@ -1273,7 +1310,7 @@ VOX_API vox_result vox_query_view_closest(const vox_query_view* view, const doub
 
 /* As vox_grid_query_closest_points. */
 VOX_API vox_result vox_query_view_closest_points(const vox_query_view* view, const vox_closest_desc* desc,
-                                                 vox_closest_hit* out_hits);
+                                                 VOX_ARRAY(desc->point_count) vox_closest_hit* out_hits);
 
 /* As vox_grid_query_ray. */
 VOX_API vox_result vox_query_view_ray(const vox_query_view* view, const double from[3], const double to[3],
@@ -1499,8 +1536,9 @@ typedef struct vox_suggestion {
  * proportional to vertices and tets.
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT,
  * OUT_OF_MEMORY. */
-VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
-                                         uint64_t mesh_count, vox_suggestion* out);
+VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc,
+                                         VOX_ARRAY(mesh_count) const vox_mesh_desc* meshes, uint64_t mesh_count,
+                                         vox_suggestion* out);
 
 /* The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's storage
  * and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the default p_nc.
@@ -1509,7 +1547,7 @@ VOX_API vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox
  * The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 10 KB on the C++ runtime's
  * heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as vox_suggest_cell_size, and
  * INVALID_STATE for a mesh without positions. */
-VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
+VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, VOX_OPTIONAL const vox_suggest_desc* desc,
                                               vox_suggestion* out);
 
 /* A cost at one cell size, term by term. */
@@ -1523,7 +1561,8 @@ typedef struct vox_cost_prediction {
 
 /* The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
  * vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0. */
-VOX_API vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uint64_t mesh_count,
+VOX_API vox_result vox_cost_predict(VOX_OPTIONAL const vox_suggest_desc* desc,
+                                    VOX_ARRAY(mesh_count) const vox_mesh_desc* meshes, uint64_t mesh_count,
                                     double cell_size, vox_cost_prediction* out);
 
 /* The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
@@ -1552,14 +1591,14 @@ typedef struct vox_cost_weights {
 /* Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for all
  * suggestions and grids of the process. The first call takes about ten milliseconds; later ones use its result.
  * out may be null; otherwise set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY. */
-VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
+VOX_API vox_result vox_cost_calibrate(VOX_OPTIONAL vox_cost_weights* out);
 
 /* The weights in use: those calibrated or set last, or else those shipped with the library. Any thread. */
 VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
 /* Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the last
  * two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values. Any thread.
  * Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
-VOX_API vox_result vox_cost_set_weights(const vox_cost_weights* weights);
+VOX_API vox_result vox_cost_set_weights(VOX_OPTIONAL const vox_cost_weights* weights);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */
 
@@ -1610,7 +1649,7 @@ VOX_API vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const 
                                      vox_cost_minimum* out);
 
 /* The same for the sum of `term_count` terms. */
-VOX_API vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
+VOX_API vox_result vox_cost_minimise_terms(VOX_ARRAY(term_count) const vox_cost_term* terms, uint64_t term_count,
                                            const vox_cost_bounds* bounds, vox_cost_minimum* out);
 
 /* Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n = n_opt

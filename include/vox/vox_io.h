@@ -57,8 +57,8 @@ VOX_API vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct
 
 /* One file in memory. `name` supplies the extension and appears in error texts; may be null. */
 typedef struct vox_io_source {
-    const char* name;
-    const void* data;
+    VOX_OPTIONAL const char* name;
+    VOX_ARRAY(size) const void* data;
     size_t size;
 } vox_io_source;
 
@@ -71,22 +71,23 @@ typedef struct vox_io_mesh vox_io_mesh;
  * and must not be shortened meanwhile.
  * Errors: FILE, FORMAT (the text names the file, the line or byte, and what was expected there),
  * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT. */
-VOX_API vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
+VOX_API vox_result vox_io_load(const char* path, VOX_OPTIONAL const vox_io_load_desc* desc,
+                               vox_io_mesh** out_mesh);
 
 /* The same from memory. `sources` holds one file or, for TetGen, two: .node and .ele in any order. */
-VOX_API vox_result vox_io_read(const vox_io_source* sources, size_t source_count,
-                               const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
+VOX_API vox_result vox_io_read(VOX_ARRAY(source_count) const vox_io_source* sources, size_t source_count,
+                               VOX_OPTIONAL const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
 
 /* Releases a mesh. Null does nothing. */
-VOX_API void vox_io_mesh_destroy(vox_io_mesh* mesh);
+VOX_API void vox_io_mesh_destroy(VOX_OPTIONAL vox_io_mesh* mesh);
 
 /* Arrays of a mesh; they live until vox_io_mesh_destroy. Indices count from 0. */
 typedef struct vox_io_mesh_view {
-    const double* positions;   /* 3 * vertex_count */
+    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(io_mesh_destroy) const double* positions;
     uint64_t vertex_count;
-    const uint32_t* tets;      /* 4 * tet_count, corners in the file's order */
+    VOX_ARRAY(4 * tet_count) VOX_UNTIL(io_mesh_destroy) const uint32_t* tets; /* corners in the file's order */
     uint64_t tet_count;
-    const uint32_t* triangles; /* 3 * triangle_count; the triangles of the file */
+    VOX_ARRAY(3 * triangle_count) VOX_UNTIL(io_mesh_destroy) const uint32_t* triangles; /* those of the file */
     uint64_t triangle_count;
 } vox_io_mesh_view;
 
@@ -140,7 +141,7 @@ VOX_API vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* ou
 
 /* The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
  * vox_io_mesh_destroy. Cannot fail; null for a null mesh. */
-VOX_API const char* vox_io_mesh_warnings(const vox_io_mesh* mesh);
+VOX_API VOX_OPTIONAL VOX_UNTIL(io_mesh_destroy) const char* vox_io_mesh_warnings(VOX_OPTIONAL const vox_io_mesh* mesh);
 
 /* Name of a format, e.g. "Gmsh .msh". Static text; never null. */
 VOX_API const char* vox_io_format_string(vox_io_format format);
@@ -171,8 +172,8 @@ typedef struct vox_io_tetrahedralize_desc {
     uint32_t reserved; /* 0 */
     /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1. A result
      * other than 0 cancels. May be null. */
-    int32_t (*progress)(double fraction, void* user);
-    void* progress_user;
+    VOX_OPTIONAL VOX_UNTIL(return) int32_t (*progress)(double fraction, void* user);
+    VOX_UNTIL(return) void* progress_user;
     vox_allocator allocator; /* as vox_io_load_desc.allocator */
 } vox_io_tetrahedralize_desc;
 
@@ -189,8 +190,8 @@ VOX_API vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* d
  * Errors: INVALID_ARGUMENT (no triangles, no volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is
  * open; not for CUBES), LIMIT (more than 4096 cells along an axis, more than max_tets), INVALID_STATE (cancelled),
  * OUT_OF_MEMORY. */
-VOX_API vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrahedralize_desc* desc,
-                                         vox_io_mesh** out_mesh);
+VOX_API vox_result vox_io_tetrahedralize(const vox_io_mesh* surface,
+                                         VOX_OPTIONAL const vox_io_tetrahedralize_desc* desc, vox_io_mesh** out_mesh);
 
 /* How good a tet mesh is, and how close its boundary is to a surface. */
 typedef struct vox_io_quality {
@@ -213,7 +214,7 @@ typedef struct vox_io_quality {
 
 /* Measures `mesh` against the triangles of `surface`, which may be null. Writes the fields that
  * out_quality->struct_size covers (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-VOX_API vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* surface,
+VOX_API vox_result vox_io_measure_quality(const vox_io_mesh* mesh, VOX_OPTIONAL const vox_io_mesh* surface,
                                           vox_io_quality* out_quality);
 
 /* ---- writing ---------------------------------------------------------------------------------- */
@@ -229,8 +230,10 @@ typedef enum vox_io_write_format {
 /* Numbers attached to the vertices or cells, e.g. contacts or penetration depths. Cells are the triangles, then the
  * tets. */
 typedef struct vox_io_point_data {
-    const char* name;     /* not empty, without control characters and double quotes */
-    const double* values; /* components * the number of vertices, or of cells; finite */
+    const char* name; /* not empty, without control characters and double quotes */
+    /* Finite numbers, `components` for each vertex, or for each cell. */
+    VOX_ARRAY(components * mesh.vertex_count or components * (mesh.triangle_count + mesh.tet_count))
+    const double* values;
     uint32_t components;  /* 1 (scalars), 3 (vectors) or 9 (tensors) */
     uint32_t reserved;    /* 0 */
 } vox_io_point_data;
@@ -240,9 +243,9 @@ typedef struct vox_io_write_desc {
     vox_io_write_format format;
     uint32_t binary;   /* 0: text, from which the same doubles are read back; 1: binary, in this machine's byte order */
     uint32_t reserved; /* 0 */
-    const vox_io_point_data* point_data; /* point_data_count of them; read during the call */
+    VOX_ARRAY(point_data_count) const vox_io_point_data* point_data; /* read during the call */
     uint64_t point_data_count;
-    const vox_io_point_data* cell_data; /* cell_data_count of them, with values for each cell */
+    VOX_ARRAY(cell_data_count) const vox_io_point_data* cell_data; /* with values for each cell */
     uint64_t cell_data_count;
 } vox_io_write_desc;
 
@@ -253,7 +256,8 @@ VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t stru
  * is replaced at the end, and only if everything was written.
  * Errors: FILE, INVALID_ARGUMENT (names the field), NON_FINITE, UNSUPPORTED (the extension), LIMIT (more
  * elements than .msh 2.2 can number), OUT_OF_MEMORY. */
-VOX_API vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc);
+VOX_API vox_result vox_io_write(const vox_io_mesh* mesh, const char* path,
+                                VOX_OPTIONAL const vox_io_write_desc* desc);
 
 /* Receives `size` bytes of a file, in order, on the thread that writes. Returns 0 on success; any other value stops the
  * writing. */

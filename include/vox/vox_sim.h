@@ -29,7 +29,7 @@ extern "C" {
 /* ---- simulation ------------------------------------------------------------------------------- */
 
 /* Bodies, and the grid they collide in. */
-typedef struct vox_sim vox_sim;
+typedef VOX_ONE_THREAD struct vox_sim vox_sim;
 
 typedef struct vox_sim_desc {
     uint32_t struct_size;
@@ -56,8 +56,8 @@ typedef struct vox_sim_desc {
                             * to the velocities of the bodies */
     double contact_slop;   /* penetration depth that is tolerated, so that resting contacts persist. Negative (the
                             * default is -1): a hundredth of the mean rest edge of the two bodies */
-    const vox_grid_desc* grid; /* settings of the grid inside, read during create; null: defaults */
-    vox_log log;               /* log of the simulation; the grid has one of its own in its desc */
+    VOX_OPTIONAL const vox_grid_desc* grid; /* settings of the grid inside, read during create; null: defaults */
+    vox_log log; /* log of the simulation; the grid has one of its own in its desc */
     /* Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
      * from functions of the simulation and its grid, one call at a time. Default: the C++ runtime's heap. */
     vox_allocator allocator;
@@ -74,17 +74,17 @@ static inline vox_sim_desc vox_default_sim_desc(void) {
 
 /* Creates a simulation without bodies. desc null: all defaults. The caller owns *out_sim and releases it with
  * vox_sim_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET. */
-VOX_API vox_result vox_sim_create(const vox_sim_desc* desc, vox_sim** out_sim);
+VOX_API vox_result vox_sim_create(VOX_OPTIONAL const vox_sim_desc* desc, vox_sim** out_sim);
 
 /* Destroys a simulation with its bodies and its grid. All views become invalid. Null does nothing. */
-VOX_API void vox_sim_destroy(vox_sim* sim);
+VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
 
 /* The grid inside, for reading the contacts and penetrations of the last detection, counters and profile, and for
  * setting the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not
  * destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
  * mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it elsewhere:
  * vox_sim_step fails once a contact does not fit the body. */
-VOX_API vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid);
+VOX_API vox_result vox_sim_grid(const vox_sim* sim, VOX_UNTIL(sim_destroy) vox_grid** out_grid);
 
 /* Moves everything forward by `time_step`, or by max_time_step if that is less.
  * Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies
@@ -104,11 +104,12 @@ typedef enum vox_sim_body_flags {
 
 typedef struct vox_sim_body_desc {
     uint32_t struct_size;
-    uint32_t flags;               /* vox_sim_body_flags, combined with | */
-    const double* positions;      /* 3 * vertex_count; within 1e15 of the origin on each axis */
-    const double* rest_positions; /* the undeformed shape; null (the default): `positions` */
-    const double* velocities;     /* 3 * vertex_count; null (the default): at rest */
-    const uint32_t* tets;         /* 4 * tet_count; both windings are accepted */
+    uint32_t flags; /* vox_sim_body_flags, combined with | */
+    VOX_ARRAY(3 * vertex_count) const double* positions; /* within 1e15 of the origin on each axis */
+    /* The undeformed shape; null (the default): `positions`. */
+    VOX_OPTIONAL VOX_ARRAY(3 * vertex_count) const double* rest_positions;
+    VOX_OPTIONAL VOX_ARRAY(3 * vertex_count) const double* velocities; /* null (the default): at rest */
+    VOX_ARRAY(4 * tet_count) const uint32_t* tets; /* both windings are accepted */
     uint64_t vertex_count;
     uint64_t tet_count; /* at least 1 */
     double density;     /* mass per rest volume, > 0; default 1000. Lumped to the vertices. No vertex gets less than a
@@ -143,11 +144,12 @@ VOX_API vox_result vox_sim_body_remove(vox_sim* sim, vox_mesh body);
 /* Arrays of a body with its state after the last step. Until the body is removed, the pointers stay the same and every
  * step updates the contents. */
 typedef struct vox_sim_body_view {
-    const double* positions;     /* 3 * vertex_count */
-    const double* velocities;    /* 3 * vertex_count */
-    const double* masses;        /* vertex_count */
-    const float* grid_positions; /* 3 * vertex_count; `positions` rounded to float, which the grid borrows */
-    const uint32_t* tets;        /* 4 * tet_count */
+    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const double* positions;
+    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const double* velocities;
+    VOX_ARRAY(vertex_count) VOX_UNTIL(sim_body_remove) const double* masses;
+    /* `positions` rounded to float, which the grid borrows. */
+    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const float* grid_positions;
+    VOX_ARRAY(4 * tet_count) VOX_UNTIL(sim_body_remove) const uint32_t* tets;
     uint64_t vertex_count;
     uint64_t tet_count;
 } vox_sim_body_view;
@@ -157,8 +159,9 @@ VOX_API vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_b
 
 /* Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest shape
  * stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15). */
-VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body, const double* positions,
-                                          const double* velocities);
+VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body,
+                                          VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* positions,
+                                          VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* velocities);
 
 /* Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first.
  * Errors: INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size). */
@@ -219,16 +222,19 @@ VOX_API vox_result vox_sim_counters(const vox_sim* sim, vox_sim_counts* out_coun
  * vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
  * vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
  * vox_fit_zone, vox_experiment_suggest and vox_zone_distance. `vox sweep` does exactly that. */
-typedef struct vox_experiment vox_experiment;
+typedef VOX_ONE_THREAD struct vox_experiment vox_experiment;
 
 typedef struct vox_experiment_desc {
     uint32_t struct_size;
     uint32_t frames;               /* detections in a sample, 1 to 1000; default 10 */
     const vox_sim_body_desc* a;    /* keeps its place */
-    const vox_sim_body_desc* b;    /* is moved until it touches a; null (the default): a copy of a */
-    const vox_sim_desc* sim;       /* settings of the motion; null (the default): vox_sim's defaults, without a floor */
-    const vox_grid_desc* grid;     /* settings of the grid that is measured, except its cell size; null (the default):
-                                    * vox's defaults with the reference engine */
+    /* Is moved until it touches a; null (the default): a copy of a. */
+    VOX_OPTIONAL const vox_sim_body_desc* b;
+    /* Settings of the motion; null (the default): vox_sim's defaults, without a floor. */
+    VOX_OPTIONAL const vox_sim_desc* sim;
+    /* Settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
+     * reference engine. */
+    VOX_OPTIONAL const vox_grid_desc* grid;
     double axis[3];                /* direction from a to b. The centre of b moves along this line through the centre
                                     * of a (centres of the bounding boxes); default 1, 0, 0 */
     double contact_share;          /* required share of all tets that contain a vertex of the other body, as the mean
@@ -259,7 +265,7 @@ static inline vox_experiment_desc vox_default_experiment_desc(void) {
 VOX_API vox_result vox_experiment_create(const vox_experiment_desc* desc, vox_experiment** out_experiment);
 
 /* Destroys an experiment. Null does nothing. */
-VOX_API void vox_experiment_destroy(vox_experiment* experiment);
+VOX_API void vox_experiment_destroy(VOX_OPTIONAL vox_experiment* experiment);
 
 /* Placement and motion of the two bodies. */
 typedef struct vox_experiment_facts {
@@ -271,7 +277,8 @@ typedef struct vox_experiment_facts {
     uint64_t hash;     /* combines vox_grid_hash of all frames; the same for every cell size and engine */
     double distance;   /* initial distance of the centres, along the axis */
     double mean_share; /* mean over the frames of the share of tets in contact */
-    const double* shares; /* that share in each of the `frames` frames; lives until vox_experiment_destroy */
+    /* That share in each frame; lives until vox_experiment_destroy. */
+    VOX_ARRAY(frames) VOX_UNTIL(experiment_destroy) const double* shares;
     double bounds_min[3]; /* bounding box of all vertices in all frames */
     double bounds_max[3];
 } vox_experiment_facts;
@@ -280,8 +287,8 @@ typedef struct vox_experiment_facts {
 VOX_API vox_result vox_experiment_get(const vox_experiment* experiment, vox_experiment_facts* out_facts);
 
 /* vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors. */
-VOX_API vox_result vox_experiment_suggest(const vox_experiment* experiment, const vox_suggest_desc* desc,
-                                          vox_suggestion* out);
+VOX_API vox_result vox_experiment_suggest(const vox_experiment* experiment,
+                                          VOX_OPTIONAL const vox_suggest_desc* desc, vox_suggestion* out);
 
 /* One sample: the detection of all frames at one cell size. The counts are sums over the frames. */
 typedef struct vox_experiment_sample {
@@ -301,20 +308,23 @@ typedef struct vox_experiment_sample {
  * Set out_sample->struct_size first. The contacts are compared with those found during the simulation.
  * Errors: INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
  * differ). */
-VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size, uint64_t* frame_ns,
+VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size,
+                                          VOX_OPTIONAL VOX_ARRAY(experiment.frames) uint64_t* frame_ns,
                                           vox_experiment_sample* out_sample);
 
 /* The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for each
  * round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not always hit the
  * same cell sizes. Errors: INVALID_ARGUMENT (count 0). */
-VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round, uint64_t* out_order);
+VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round,
+                                        VOX_ARRAY(count) uint64_t* out_order);
 
 /* The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns holds
  * `frames` times for each round, round after round. A frame means the same work in every round, so a disturbance
  * affects only the frames in which it happens, not the whole round. Medians are used because on a busy machine the
  * minimum over the rounds depends on a few lucky ones (docs/paper.md has figures).
  * Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
-VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
+VOX_API vox_result vox_experiment_time(VOX_ARRAY(rounds * frames) const uint64_t* frame_ns, uint64_t rounds,
+                                       uint64_t frames, double* out_ns);
 
 #define VOX_FIT_CAPACITY 9u /* most coefficients of a fit */
 
@@ -338,8 +348,8 @@ typedef struct vox_time_fit {
 /* Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first.
  * Errors: INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
  * sizes), OUT_OF_MEMORY. */
-VOX_API vox_result vox_fit_times(const double* cell_sizes, const double* times, uint64_t count,
-                                 vox_time_fit* out_fit);
+VOX_API vox_result vox_fit_times(VOX_ARRAY(count) const double* cell_sizes, VOX_ARRAY(count) const double* times,
+                                 uint64_t count, vox_time_fit* out_fit);
 
 /* The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a `fit`
  * that vox_fit_times did not fill). */

@@ -483,7 +483,7 @@ namespace Voxtet
         public Format position_format;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>copied; null: the defaults.</summary>
+        /// <summary>Copied; null: the defaults.</summary>
         public Filter* filter;
         /// <summary>vertex_count positions of the rest pose, in position_format, copied; null: see
         /// vox_filter.self_rest_distance.</summary>
@@ -514,7 +514,7 @@ namespace Voxtet
         public uint enabled;
         /// <summary>vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's
         /// own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's</summary>
-        public uint flags;
+        public MeshFlags flags;
         public Format position_format;
         /// <summary>1 if vox_mesh_set_transform gave it one</summary>
         public uint has_transform;
@@ -830,7 +830,7 @@ namespace Voxtet
     {
         public uint struct_size;
         public Format format;
-        /// <summary>point_count of them, read during the call; may be null if there are none</summary>
+        /// <summary>read during the call; may be null if there are none</summary>
         public IntPtr points;
         /// <summary>from one point to the next; 0: tightly packed</summary>
         public ulong byte_stride;
@@ -1240,13 +1240,12 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct IoMeshView
     {
-        /// <summary>3 * vertex_count</summary>
         public double* positions;
         public ulong vertex_count;
-        /// <summary>4 * tet_count, corners in the file's order</summary>
+        /// <summary>corners in the file's order</summary>
         public uint* tets;
         public ulong tet_count;
-        /// <summary>3 * triangle_count; the triangles of the file</summary>
+        /// <summary>those of the file</summary>
         public uint* triangles;
         public ulong triangle_count;
     }
@@ -1354,7 +1353,7 @@ namespace Voxtet
     {
         /// <summary>not empty, without control characters and double quotes</summary>
         public IntPtr name;
-        /// <summary>components * the number of vertices, or of cells; finite</summary>
+        /// <summary>Finite numbers, `components` for each vertex, or for each cell.</summary>
         public double* values;
         /// <summary>1 (scalars), 3 (vectors) or 9 (tensors)</summary>
         public uint components;
@@ -1372,10 +1371,10 @@ namespace Voxtet
         public uint binary;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>point_data_count of them; read during the call</summary>
+        /// <summary>read during the call</summary>
         public IoPointData* point_data;
         public ulong point_data_count;
-        /// <summary>cell_data_count of them, with values for each cell</summary>
+        /// <summary>with values for each cell</summary>
         public IoPointData* cell_data;
         public ulong cell_data_count;
     }
@@ -1432,13 +1431,13 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_sim_body_flags, combined with |</summary>
         public SimBodyFlags flags;
-        /// <summary>3 * vertex_count; within 1e15 of the origin on each axis</summary>
+        /// <summary>within 1e15 of the origin on each axis</summary>
         public double* positions;
-        /// <summary>the undeformed shape; null (the default): `positions`</summary>
+        /// <summary>The undeformed shape; null (the default): `positions`.</summary>
         public double* rest_positions;
-        /// <summary>3 * vertex_count; null (the default): at rest</summary>
+        /// <summary>null (the default): at rest</summary>
         public double* velocities;
-        /// <summary>4 * tet_count; both windings are accepted</summary>
+        /// <summary>both windings are accepted</summary>
         public uint* tets;
         public ulong vertex_count;
         /// <summary>at least 1</summary>
@@ -1460,15 +1459,11 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SimBodyView
     {
-        /// <summary>3 * vertex_count</summary>
         public double* positions;
-        /// <summary>3 * vertex_count</summary>
         public double* velocities;
-        /// <summary>vertex_count</summary>
         public double* masses;
-        /// <summary>3 * vertex_count; `positions` rounded to float, which the grid borrows</summary>
+        /// <summary>`positions` rounded to float, which the grid borrows.</summary>
         public float* grid_positions;
-        /// <summary>4 * tet_count</summary>
         public uint* tets;
         public ulong vertex_count;
         public ulong tet_count;
@@ -1537,12 +1532,12 @@ namespace Voxtet
         public uint frames;
         /// <summary>keeps its place</summary>
         public SimBodyDesc* a;
-        /// <summary>is moved until it touches a; null (the default): a copy of a</summary>
+        /// <summary>Is moved until it touches a; null (the default): a copy of a.</summary>
         public SimBodyDesc* b;
-        /// <summary>settings of the motion; null (the default): vox_sim's defaults, without a floor</summary>
+        /// <summary>Settings of the motion; null (the default): vox_sim's defaults, without a floor.</summary>
         public SimDesc* sim;
-        /// <summary>settings of the grid that is measured, except its cell size; null (the default): vox's defaults
-        /// with the reference engine</summary>
+        /// <summary>Settings of the grid that is measured, except its cell size; null (the default): vox's defaults
+        /// with the reference engine.</summary>
         public GridDesc* grid;
         /// <summary>direction from a to b.</summary>
         public Double3 axis;
@@ -1577,7 +1572,7 @@ namespace Voxtet
         public double distance;
         /// <summary>mean over the frames of the share of tets in contact</summary>
         public double mean_share;
-        /// <summary>that share in each of the `frames` frames; lives until vox_experiment_destroy</summary>
+        /// <summary>That share in each frame; lives until vox_experiment_destroy.</summary>
         public double* shares;
         /// <summary>bounding box of all vertices in all frames</summary>
         public Double3 bounds_min;
@@ -1765,11 +1760,11 @@ namespace Voxtet
 
         /// <summary>Sets vox_grid_desc.flags (all of them) for the following steps.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_set_flags(IntPtr grid, uint flags);
+        internal static extern Result vox_grid_set_flags(IntPtr grid, GridFlags flags);
 
         /// <summary>The flags in use.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_flags(IntPtr grid, uint* out_flags);
+        internal static extern Result vox_grid_get_flags(IntPtr grid, GridFlags* out_flags);
 
         /// <summary>Fills `filter` with the defaults for the fields that `struct_size` covers.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -451,7 +451,7 @@ pub struct vox_mesh_desc {
     pub position_format: vox_format,
     /// 0
     pub reserved: u32,
-    /// copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well
+    /// Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well.
     pub filter: *const vox_filter,
     /// vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance.
     pub rest_positions: *const c_void,
@@ -833,7 +833,7 @@ pub struct vox_surface_hit {
 pub struct vox_closest_desc {
     pub struct_size: u32,
     pub format: vox_format,
-    /// point_count of them, read during the call; may be null if there are none
+    /// read during the call; may be null if there are none
     pub points: *const c_void,
     /// from one point to the next; 0: tightly packed
     pub byte_stride: u64,
@@ -1249,13 +1249,12 @@ pub struct vox_io_source {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_io_mesh_view {
-    /// 3 * vertex_count
     pub positions: *const f64,
     pub vertex_count: u64,
-    /// 4 * tet_count, corners in the file's order
+    /// corners in the file's order
     pub tets: *const u32,
     pub tet_count: u64,
-    /// 3 * triangle_count; the triangles of the file
+    /// those of the file
     pub triangles: *const u32,
     pub triangle_count: u64,
 }
@@ -1366,7 +1365,7 @@ pub struct vox_io_quality {
 pub struct vox_io_point_data {
     /// not empty, without control characters and double quotes
     pub name: *const c_char,
-    /// components * the number of vertices, or of cells; finite
+    /// Finite numbers, `components` for each vertex, or for each cell.
     pub values: *const f64,
     /// 1 (scalars), 3 (vectors) or 9 (tensors)
     pub components: u32,
@@ -1383,10 +1382,10 @@ pub struct vox_io_write_desc {
     pub binary: u32,
     /// 0
     pub reserved: u32,
-    /// point_data_count of them; read during the call
+    /// read during the call
     pub point_data: *const vox_io_point_data,
     pub point_data_count: u64,
-    /// cell_data_count of them, with values for each cell
+    /// with values for each cell
     pub cell_data: *const vox_io_point_data,
     pub cell_data_count: u64,
 }
@@ -1448,13 +1447,13 @@ pub struct vox_sim_body_desc {
     pub struct_size: u32,
     /// vox_sim_body_flags, combined with |
     pub flags: u32,
-    /// 3 * vertex_count; within 1e15 of the origin on each axis
+    /// within 1e15 of the origin on each axis
     pub positions: *const f64,
-    /// the undeformed shape; null (the default): `positions`
+    /// The undeformed shape; null (the default): `positions`.
     pub rest_positions: *const f64,
-    /// 3 * vertex_count; null (the default): at rest
+    /// null (the default): at rest
     pub velocities: *const f64,
-    /// 4 * tet_count; both windings are accepted
+    /// both windings are accepted
     pub tets: *const u32,
     pub vertex_count: u64,
     /// at least 1
@@ -1478,15 +1477,11 @@ pub struct vox_sim_body_desc {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_sim_body_view {
-    /// 3 * vertex_count
     pub positions: *const f64,
-    /// 3 * vertex_count
     pub velocities: *const f64,
-    /// vertex_count
     pub masses: *const f64,
-    /// 3 * vertex_count; `positions` rounded to float, which the grid borrows
+    /// `positions` rounded to float, which the grid borrows.
     pub grid_positions: *const f32,
-    /// 4 * tet_count
     pub tets: *const u32,
     pub vertex_count: u64,
     pub tet_count: u64,
@@ -1555,12 +1550,12 @@ pub struct vox_experiment_desc {
     pub frames: u32,
     /// keeps its place
     pub a: *const vox_sim_body_desc,
-    /// is moved until it touches a; null (the default): a copy of a
+    /// Is moved until it touches a; null (the default): a copy of a.
     pub b: *const vox_sim_body_desc,
-    /// settings of the motion; null (the default): vox_sim's defaults, without a floor
+    /// Settings of the motion; null (the default): vox_sim's defaults, without a floor.
     pub sim: *const vox_sim_desc,
-    /// settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
-    /// reference engine
+    /// Settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
+    /// reference engine.
     pub grid: *const vox_grid_desc,
     /// direction from a to b. The centre of b moves along this line through the centre of a (centres of the bounding
     /// boxes); default 1, 0, 0
@@ -1595,7 +1590,7 @@ pub struct vox_experiment_facts {
     pub distance: f64,
     /// mean over the frames of the share of tets in contact
     pub mean_share: f64,
-    /// that share in each of the `frames` frames; lives until vox_experiment_destroy
+    /// That share in each frame; lives until vox_experiment_destroy.
     pub shares: *const f64,
     /// bounding box of all vertices in all frames
     pub bounds_min: [f64; 3],
