@@ -13,8 +13,10 @@ HEADERS = ["vox", "vox_io", "vox_sim"]
 MODELS = {"lp64": 8, "wasm32": 4}  # bytes of a pointer; everything is aligned to its own size
 NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8}
 
-# 64-bit numbers all of whose bits may be in use. The others are counts, sizes, indices and times, which are below 2^53.
-BITS = re.compile(r"(^|_)(hash|mask|category|user_data|seed)(_|$)")
+# 64-bit numbers all of whose bits may be in use, and those that are counts, sizes, indices or times, below 2^53.
+BITS = re.compile(r"(^|_)(hash|mask|category|user_data(_[ab])?|seed)$")
+COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|contact|count|end|ended|epoch|filtered|first|order|"
+                   r"persisted|range|round|size|skipped_degenerate|softened|stride)|_in_[ab])$")
 # Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")
 # What a void* with a length points to.
@@ -22,7 +24,7 @@ ELEMENTS = {"positions": "position", "points": "position", "bytes": "byte", "dat
 # Names that end in s and stand for one thing: a task system, a struct of arrays.
 SINGULAR = {"flags", "ns", "tasks", "arrays"}
 
-WIDTH = 200  # of api.json, where a parameter is on one line
+WIDTH = 260  # of api.json, where a parameter is on one line
 
 
 class Unclear(ValueError):
@@ -311,6 +313,8 @@ class Describer:
         name = member[1]
         found = {"name": name, **self.member_type(owner, member)}
         if found.get("base") == "uint64_t":
+            if bool(BITS.search(name)) == bool(COUNT.search(name)):
+                self.fault(owner, member, "a count, or bits? describe.py has a list of each")
             found["number"] = "bits" if BITS.search(name) else "count"
         flags = self.flags_of(owner, member)
         if flags:

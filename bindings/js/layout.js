@@ -86,7 +86,7 @@ export const structs = {
     world_min: [24, "f64", 3],
     world_max: [48, "f64", 3],
     byte_budget: [72, "count", 1],
-    hash_table_size: [80, "u64", 1],
+    hash_table_size: [80, "count", 1],
     allocator: [88, "vox_allocator", 1],
     log: [100, "vox_log", 1],
     tasks: [108, "vox_task_system", 1],

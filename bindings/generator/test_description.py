@@ -1,0 +1,268 @@
+"""bindings/api.json says what the headers say, and what a compiler sees; nothing in it is guessed; the low layers of the
+languages are made from it. With clang, an independent reader confirms names, types, values, sizes and offsets."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+BINDINGS = os.path.dirname(HERE)
+ROOT = os.path.dirname(BINDINGS)
+sys.path[:0] = [HERE, BINDINGS]
+import describe  # noqa: E402
+import generate  # noqa: E402
+from names import sections  # noqa: E402
+
+TEXTS = {name: describe.text_of(name) for name in describe.HEADERS}
+with open(os.path.join(BINDINGS, "api.json"), encoding="utf-8") as api_file:
+    API = json.load(api_file)
+CLANG = next((c for c in (os.environ.get("VOX_CLANG"), shutil.which("clang"), shutil.which("clang-14")) if c), None)
+
+
+def type_texts(call):
+    return ", ".join(p["type"] for p in call["parameters"]) or "void"
+
+
+def lines_of(part):
+    """What tests/abi/layout.py writes of a header, from the description."""
+    for f in part["functions"]:
+        yield f"{'stable' if f['stable'] else 'experimental'} {f['result']['type']} {f['name']}({type_texts(f)})"
+    for c in part["callbacks"]:
+        yield f"callback {c['result']['type']} {c['name']}({type_texts(c)})"
+    for c in part["constants"]:
+        yield f"constant {c['name']} {c['value']}"
+    for e in part["enums"]:
+        yield f"sizeof {e['name']} 4"
+        for v in e["values"]:
+            yield f"enumerator {v['name']} {v['value']}"
+    for a in part["aliases"]:
+        yield f"sizeof {a['name']} {describe.NUMBERS[a['base']]}"
+    for s in part["structs"]:
+        yield f"sizeof {s['name']} {s['size']['lp64']}"
+        for f in s["fields"]:
+            yield f"field {s['name']}.{f['name']}: {f['type']}, at {f['offset']['lp64']}"
+
+
+def pointers(value, place=""):
+    """(place, description) of every parameter, field and result that is a pointer."""
+    if isinstance(value, list):
+        for item in value:
+            yield from pointers(item, place)
+    elif isinstance(value, dict):
+        place = f"{place}/{value['name']}" if "name" in value else place
+        if "pointers" in value or value.get("kind") == "function" or "array" in value and "offset" not in value:
+            yield place, value
+        for key, item in value.items():
+            yield from pointers(item, place if key != "result" else place + "/result")
+
+
+class Description(unittest.TestCase):
+    def test_headers_description_and_layers_agree(self):
+        self.assertEqual(list(generate.differences(BINDINGS)), [], "to write them again: ./dev generate")
+
+    def test_same_numbers_as_the_compiler(self):
+        for part in API["headers"]:
+            with open(os.path.join(ROOT, "tests", "abi", part["name"] + ".txt"), encoding="ascii") as file:
+                expected = {line for line in file.read().splitlines() if "FORCE_32_BITS" not in line}
+            self.assertEqual(expected ^ set(lines_of(part)), set(), part["name"])
+
+    def test_every_pointer_is_described(self):
+        found = list(pointers(API["headers"]))
+        self.assertGreater(len(found), 350)
+        for place, pointer in found:
+            with self.subTest(place=place):
+                self.assertIn(pointer["direction"], ("in", "out", "inout"))
+                for target in [pointer] + [pointer[key] for key in ("target",) if key in pointer]:
+                    self.assertIn(target["nullable"], (True, False, "if empty"))
+                    if pointer["kind"] not in ("function", "callback"):
+                        self.assertTrue(isinstance(target["length"], int) or target["length"])
+                    if isinstance(target["lifetime"], list):
+                        self.assertTrue(target["lifetime"])
+                    else:
+                        self.assertIn(target["lifetime"], ("call", "object", "static", "owned"))
+                    self.assertEqual(target["lifetime"] == "owned", "release" in target)
+
+    def test_every_object_is_released_and_says_its_threads(self):
+        for o in sections(API, "opaque"):
+            self.assertIn(o["release"], {f["name"] for f in sections(API, "functions")})
+            self.assertIn(o["threads"], ("readers or one", "one", "any"))
+        self.assertEqual({o["name"]: o["threads"] for o in sections(API, "opaque")},
+                         {"vox_grid": "readers or one", "vox_query_view": "any", "vox_io_mesh": "readers or one",
+                          "vox_sim": "one", "vox_experiment": "one"})
+
+    def test_events_are_functions_of_the_header(self):
+        names = {f["name"] for f in sections(API, "functions")}
+        for event, functions in API["events"].items():
+            if isinstance(functions, list):
+                self.assertLessEqual(set(functions), names, event)
+        self.assertEqual(set(API["events"]), {"return", "failure", "epoch", "rebind"})
+
+    def test_everything_has_words(self):
+        for kind in ("functions", "constants", "opaque", "aliases", "callbacks", "inline"):
+            for d in sections(API, kind):
+                if not d["name"].startswith(("vox_default_",)):
+                    self.assertTrue(d["doc"], d["name"])
+
+
+@unittest.skipUnless(CLANG, "no clang")
+class Clang(unittest.TestCase):
+    """What clang makes of the headers."""
+
+    def test_layouts(self):
+        for target, model in (("wasm32", "wasm32"), ("x86_64-linux-gnu", "lp64")):
+            if subprocess.run([CLANG, "--target=" + target, "-fsyntax-only", "-x", "c", "-"], input="", text=True,
+                              stderr=subprocess.DEVNULL, check=False).returncode != 0:
+                self.skipTest(f"this clang does not know {target}")
+            lines = [f"#include <vox/{name}.h>" for name in describe.HEADERS]
+            for s in sections(API, "structs"):
+                lines.append(f"_Static_assert(sizeof({s['name']}) == {s['size'][model]}, \"\");")
+                lines.append(f"_Static_assert(_Alignof({s['name']}) == {s['alignment'][model]}, \"\");")
+                lines += [f"_Static_assert(__builtin_offsetof({s['name']}, {f['name']}) == {f['offset'][model]}, \"\");"
+                          for f in s["fields"]]
+            run = subprocess.run([CLANG, "--target=" + target, "-ffreestanding", "-nostdlibinc", "-std=c11", "-fsyntax-only",
+                                  "-I", os.path.join(ROOT, "include"), "-x", "c", "-"], input="\n".join(lines) + "\n",
+                                 text=True, stderr=subprocess.PIPE, check=False)
+            self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_names_types_and_values(self):
+        source = "".join(f"#include <vox/{name}.h>\n" for name in describe.HEADERS)
+        run = subprocess.run([CLANG, "-ffreestanding", "-nostdlibinc", "-std=c11", "-fsyntax-only", "-Xclang",
+                              "-ast-dump=json", "-I", os.path.join(ROOT, "include"), "-x", "c", "-"], input=source, text=True,
+                             stdout=subprocess.PIPE, check=True)
+        seen = set(clang_lines(json.loads(run.stdout)))
+        self.assertEqual(seen ^ set(own_lines()), set())
+
+
+def plain_type(text):
+    """Clang's words for a type, and the header's: without struct and enum, names of parameters and blanks. An array that
+    is a parameter is a pointer."""
+    text = re.sub(r"\b(struct|enum) ", "", text)
+    return re.sub(r"\s+", "", text)
+
+
+def clang_lines(tree):
+    for node in tree["inner"]:
+        name = node.get("name", "")
+        inner = node.get("inner", [])
+        if node["kind"] == "FunctionDecl" and name.startswith("vox_") and not node.get("inline"):
+            yield f"function {name}: {plain_type(node['type']['qualType'])}"
+            for p in (n for n in inner if n["kind"] == "ParmVarDecl"):
+                yield f"parameter {name}: {p['name']}"
+        elif node["kind"] == "FunctionDecl" and name.startswith("vox_"):
+            yield f"inline {name}"
+        elif node["kind"] == "RecordDecl" and name.startswith("vox_") and node.get("completeDefinition"):
+            for f in (n for n in inner if n["kind"] == "FieldDecl"):
+                yield f"field {name}.{f['name']}: {plain_type(f['type']['qualType'])}"
+        elif node["kind"] == "RecordDecl" and name.startswith("vox_"):
+            yield f"opaque {name}"
+        elif node["kind"] == "EnumDecl" and name.startswith("vox_"):
+            for e in inner:
+                value = "0"
+                for constant in e.get("inner", []):
+                    value = constant.get("value", value)
+                if not e["name"].endswith("FORCE_32_BITS"):
+                    yield f"enumerator {e['name']} {value}"
+
+
+def prototype(call):
+    decayed = [re.sub(r"\[\w+\]", "*", p["type"]) for p in call["parameters"]]
+    return plain_type(call["result"]["type"] + "(" + ", ".join(decayed or ["void"]) + ")")
+
+
+def own_lines():
+    for f in sections(API, "functions"):
+        yield f"function {f['name']}: {prototype(f)}"
+        for p in f["parameters"]:
+            yield f"parameter {f['name']}: {p['name']}"
+    for d in sections(API, "inline"):
+        yield f"inline {d['name']}"
+    for s in sections(API, "structs"):
+        for f in s["fields"]:
+            if f["kind"] == "function":
+                text = prototype(f).replace("(", "(*)(", 1)
+            else:
+                text = re.sub(r"\[\w+\]", "", f["type"]) + "".join(f"[{n}]" for n in f.get("array", []))
+            yield f"field {s['name']}.{f['name']}: {plain_type(text)}"
+    for o in sections(API, "opaque"):
+        yield f"opaque {o['name']}"
+    for e in sections(API, "enums"):
+        for v in e["values"]:
+            yield f"enumerator {v['name']} {v['value']}"
+
+
+class Faults(unittest.TestCase):
+    """The description, and this test, notice a header that changed or says too little."""
+
+    def changed(self, old, new, name="vox"):
+        self.assertEqual(TEXTS[name].count(old), 1, old)
+        return {**TEXTS, name: TEXTS[name].replace(old, new)}
+
+    def test_a_header_that_says_too_little(self):
+        for old, new, words in [
+            ("VOX_ARRAY(count) const uint32_t* vertices", "const uint32_t* vertices", "vertices: how many elements?"),
+            ("VOX_ARRAY(term_count) const vox_cost_term*", "const vox_cost_term*", "terms: how many elements?"),
+            ("VOX_ARRAY(term_count) const vox_cost_term*", "VOX_ARRAY(terms_count) const vox_cost_term*",
+             "there is no terms_count"),
+            ("VOX_ARRAY(size) const void* bytes", "const void* bytes", "bytes: what does it point to"),
+            ("VOX_ARRAY(size) const void* bytes", "VOX_ARRAY(size) const void* stuff", "stuff: what does this void*"),
+            ("VOX_ARRAY(grid.contacts)", "VOX_ARRAY(grid.contact)", "there is no grid.contact"),
+            ("VOX_UNTIL(epoch) const vox_pair* data", "const vox_pair* data", "data: how long is it valid?"),
+            ("VOX_UNTIL(epoch) const vox_pair* data", "VOX_UNTIL(grid_stop) const vox_pair* data", "no function and no event"),
+            ("VOX_API VOX_UNTIL(failure) const char*", "VOX_API const char*", "vox_last_error: how long is the result"),
+            ('The same as "major.minor.patch". Static text.', 'The same as "major.minor.patch".',
+             "vox_version_string: how long is the result"),
+            ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)", "no function releases a vox_grid"),
+            ("uint64_t fullest_cell;", "uint64_t fullness;", "fullness: a count, or bits?"),
+            ("uint32_t flags; /* vox_grid_flags, combined", "uint32_t flags; /* of several kinds, combined", "which flags?"),
+        ]:
+            with self.subTest(old=old, new=new), self.assertRaises(describe.Unclear) as raised:
+                describe.describe(self.changed(old, new))
+            self.assertIn(words, str(raised.exception))
+
+    def test_a_wrong_mark(self):
+        for old, new in [("VOX_OPTIONAL const char* text", "VOX_OPTIONAL(1) const char* text"),
+                         ("VOX_OPTIONAL const char* text", "VOX_ARRAY const char* text"),
+                         ("VOX_OPTIONAL const char* text", "VOX_OPTIONNAL const char* text"),
+                         ("VOX_OPTIONAL const char* text", "const VOX_OPTIONAL char* text")]:
+            with self.subTest(new=new), self.assertRaises(ValueError):
+                describe.describe(self.changed(old, new))
+
+    def test_a_changed_header_is_noticed_in_every_file(self):
+        everything = {"bindings/" + path for path in generate.files()}
+        for old, new, without in [
+            ("    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    float barycentric[4];",
+             "    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    double barycentric[4];", {"enums.d.ts", "exports.txt"}),
+            ("VOX_API vox_result vox_grid_clear(vox_grid* grid);", "VOX_API vox_result vox_grid_clear(vox_grid* grid, double rest);",
+             {"enums.d.ts", "exports.txt"}),
+            ("VOX_SIDE_LEAVES = 2,", "VOX_SIDE_LEAVES = 3,", {"exports.txt"}),
+        ]:
+            with self.subTest(new=new):
+                found = " ".join(generate.differences(BINDINGS, self.changed(old, new)))
+                for path in everything:
+                    self.assertEqual(path in found, os.path.basename(path) not in without, path)
+
+    def test_a_changed_comment_is_noticed(self):
+        found = list(generate.differences(BINDINGS, self.changed("Removes all meshes and contacts", "Removes meshes")))
+        self.assertIn("bindings/api.json does not fit the headers", found)
+
+    def test_a_changed_or_missing_file_is_noticed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for path, text in generate.files().items():
+                os.makedirs(os.path.dirname(os.path.join(folder, path)), exist_ok=True)
+                with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
+                    file.write(text)
+            self.assertEqual(list(generate.differences(folder)), [])
+            with open(os.path.join(folder, "js", "layout.js"), "a", encoding="utf-8") as file:
+                file.write("\n")
+            os.remove(os.path.join(folder, "js", "exports.txt"))
+            self.assertEqual(list(generate.differences(folder)), ["bindings/js/layout.js does not fit the headers",
+                                                                  "bindings/js/exports.txt is missing"])
+
+
+if __name__ == "__main__":
+    unittest.main()
