@@ -332,7 +332,8 @@ class Describer:
 
     def constants(self, parsed):
         for name, (number, _, section) in parsed.numbers.items():
-            yield {"name": name, "value": number, "section": section, "doc": parsed.constants[name]}
+            limit = re.search(r"_MAX_|_CAPACITY$", name) is not None
+            yield {"name": name, "value": number, "limit": limit, "section": section, "doc": parsed.constants[name]}
 
     def enum(self, d):
         return {"name": d.name, "section": d.section, "flags": d.name.endswith("_flags"), "doc": d.comment,

@@ -181,7 +181,7 @@ def parse(text):
         code = plain(statement)
         constant = re.match(r"#define (VOX_\w+) \(?(-?[0-9.x]\w*)\)?", code)
         if constant and not constant[1].startswith("VOX_VERSION"):
-            header.constants[constant[1]] = (words_of(above) if above else "") + comments_in(statement)
+            header.constants[constant[1]] = comments_in(statement) or (words_of(above) if above else "")
             header.numbers[constant[1]] = (int(constant[2].rstrip("u"), 0), line, section)
         if code.startswith("#"):
             continue

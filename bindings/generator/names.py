@@ -1,6 +1,5 @@
 """Names in the style of a language, from those of C."""
 
-import os
 import re
 import textwrap
 
@@ -17,15 +16,14 @@ def pascal(name):
 
 
 def short_values(enum):
-    """(name without what all enumerators begin with, number, comment): VOX_LOG_INFO gives INFO."""
-    names = [v["name"] for v in enum["values"]]
-    prefix = os.path.commonprefix(names) if len(names) > 1 else ""
-    if len(names) > 1:
-        prefix = prefix[: prefix.rfind("_") + 1]
-    else:
-        prefix = "VOX_"
-    for value in enum["values"]:
-        yield value["name"][len(prefix):], value["value"], value["doc"]
+    """(name without the words that it shares with all others and with the enum, number, comment): VOX_LOG_INFO of
+    vox_log_level gives INFO."""
+    split = [v["name"].split("_") for v in enum["values"]]
+    common, known = 1, words(enum["name"])  # after VOX
+    while all(len(s) > common + 1 and s[common] == split[0][common] for s in split) and split[0][common].lower() in known:
+        common += 1
+    for value, parts in zip(enum["values"], split):
+        yield "_".join(parts[common:]), value["value"], value["doc"]
 
 
 def sections(api, kind):
@@ -39,8 +37,10 @@ def first_sentence(doc):
     return match[0] if match else doc
 
 
-def wrapped(doc, prefix, width=120):
-    return [prefix + line for line in textwrap.wrap(doc, width - len(prefix), break_long_words=False)]
+def wrapped(doc, prefix, width=120, further=None):
+    """Lines that begin with `prefix`, those after the first with `further`, if it is given."""
+    return textwrap.wrap(doc, width, initial_indent=prefix, subsequent_indent=prefix if further is None else further,
+                         break_long_words=False, break_on_hyphens=False)
 
 
 def whole_structs(api):

@@ -94,14 +94,14 @@ class CSharp:
         yield "    [StructLayout(LayoutKind.Sequential)]"
         yield f"    public unsafe struct {name}"
         yield "    {"
-        yield from wrapped(f"public {element} {', '.join(fields)};", "        ")
+        yield from wrapped(f"public {element} {', '.join(fields)};", "        ", further=" " * 12)
         yield f"        public const int Length = {count};"
         yield f"        public {element} this[int i]"
         yield "        {"
-        check = f"if ((uint)i >= {count}u) throw new IndexOutOfRangeException();"
-        yield f"            get {{ {check} fixed ({element}* p = &{fields[0]}) return p[i]; }}"
-        yield f"            set {{ {check} fixed ({element}* p = &{fields[0]}) p[i] = value; }}"
+        yield f"            get {{ Check(i); fixed ({element}* p = &{fields[0]}) return p[i]; }}"
+        yield f"            set {{ Check(i); fixed ({element}* p = &{fields[0]}) p[i] = value; }}"
         yield "        }"
+        yield "        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }"
         if element == "byte":
             yield "        public override string ToString()"
             yield "        {"
@@ -190,7 +190,7 @@ class CSharp:
                 yield from self.summary(f["doc"], "        ")
                 yield f"        [DllImport({part['name']}, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]"
                 yield from wrapped(f"internal static extern {self.result(f['result'])} {f['name']}({self.parameters(f)});",
-                                   "        ")
+                                   "        ", further=" " * 12)
         yield "    }"
 
     def text(self):

@@ -1,7 +1,5 @@
 """JavaScript: layouts of wasm32, enums as objects, the functions to export; their types for TypeScript."""
 
-import json
-
 from names import GENERATED, pascal, sections, short_values, wrapped
 
 NUMBERS = {"uint8_t": "u8", "char": "u8", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
@@ -28,13 +26,11 @@ class JavaScript:
         return "pointer" if "array" in p else self.type(p)
 
     def layout(self):
-        lines = [f"// {GENERATED}", "", f"export const ABI_VERSION = {self.api['abi_version']};", ""]
-        for c in sections(self.api, "constants"):
-            if c["name"] != "VOX_ABI_VERSION":
-                lines.append(f"export const {c['name'][4:]} = {c['value']};")
+        lines = [f"// {GENERATED}", ""]
+        lines += [f"export const {c['name'][4:]} = {c['value']};" for c in sections(self.api, "constants")]
         for e in sections(self.api, "enums"):
-            values = ", ".join(f"{name}: {value}" for name, value, _ in short_values(e))
-            lines += ["", *wrapped(f"export const {pascal(e['name'])} = Object.freeze({{ {values} }});", "")]
+            lines += ["", f"export const {pascal(e['name'])} = Object.freeze({{"]
+            lines += [f"  {name}: {value}," for name, value, _ in short_values(e)] + ["});"]
         lines += ["", "// Of each struct: size, and [offset, type, elements] of each field.", "export const structs = {"]
         for s in sections(self.api, "structs"):
             lines.append(f"  {s['name']}: {{ size: {s['size']['wasm32']}, fields: {{")
@@ -72,8 +68,7 @@ class JavaScript:
             kind = "number" if e["flags"] else f"(typeof {name})[keyof typeof {name}]"
             lines += ["}>;", f"export type {name} = {kind};", ""]
         for c in sections(self.api, "constants"):
-            name = c["name"] if c["name"] != "VOX_ABI_VERSION" else "VOX_ABI_VERSION"
-            lines += [*self.comment(c["doc"]), f"export declare const {name[4:]}: {c['value']};"]
+            lines += [*self.comment(c["doc"]), f"export declare const {c['name'][4:]}: {c['value']};"]
         return "\n".join(lines) + "\n"
 
     def exports(self):

@@ -1,6 +1,6 @@
 """Python: ctypes structures and prototypes, enums, numpy dtypes."""
 
-from names import GENERATED, pascal, sections, short_values, whole_structs
+from names import GENERATED, pascal, sections, short_values, whole_structs, wrapped
 
 NUMBERS = {"uint8_t": "c_uint8", "char": "c_char", "int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64",
            "uint64_t": "c_uint64", "float": "c_float", "double": "c_double", "size_t": "c_size_t"}
@@ -80,17 +80,18 @@ class Python:
         yield ""
         if s["name"] in whole:
             yield f'dtypes["{s["name"]}"] = dtype({{'
-            yield '    "names": [' + ", ".join(f'"{f["name"]}"' for f in s["fields"]) + "],"
-            yield '    "formats": [' + ", ".join(self.dtype(f) for f in s["fields"]) + "],"
-            yield '    "offsets": [' + ", ".join(str(f["offset"]["lp64"]) for f in s["fields"]) + "],"
+            for key, values in (("names", [f'"{f["name"]}"' for f in s["fields"]]),
+                                ("formats", [self.dtype(f) for f in s["fields"]]),
+                                ("offsets", [str(f["offset"]["lp64"]) for f in s["fields"]])):
+                yield from wrapped(f'"{key}": [{", ".join(values)}],', "    ", further=" " * 8)
             yield f'    "itemsize": {s["size"]["lp64"]}}})'
             yield ""
         yield ""
 
     def text(self):
         lines = [f'"""{GENERATED}"""', "", "import enum",
-                 "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t,",
-                 "                    c_uint8, c_uint32, c_uint64, c_void_p)", "", "from numpy import dtype", ""]
+                 "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,",
+                 "                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)", "", "from numpy import dtype", ""]
         for c in sections(self.api, "constants"):
             lines.append(f"{c['name']} = {c['value']}")
         for e in sections(self.api, "enums"):
@@ -107,8 +108,9 @@ class Python:
         for part in self.api["headers"]:
             lines.append(f'    "{part["name"]}": {{')
             for f in part["functions"]:
-                types = "".join(self.parameter(p) + ", " for p in f["parameters"])
-                lines.append(f'        "{f["name"]}": ({self.result(f["result"])}, ({types.rstrip() if len(f["parameters"]) == 1 else types.rstrip(", ")})),')
+                types = [self.parameter(p) for p in f["parameters"]]
+                types = f"({', '.join(types)}{',' if len(types) == 1 else ''})"
+                lines += wrapped(f'"{f["name"]}": ({self.result(f["result"])}, {types}),', " " * 8, further=" " * 12)
             lines.append("    },")
         lines += ["}",
                   "# Functions whose result is a vox_result: a failure unless it is 0.",

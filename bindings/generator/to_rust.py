@@ -36,6 +36,14 @@ class Rust:
         nothing = call["result"]["kind"] == "void" and "pointers" not in call["result"]
         return "" if nothing else f" -> {self.type(call['result'])}"
 
+    def declaration(self, f):
+        """On one line if it fits."""
+        line = f"    pub fn {f['name']}({self.parameters(f)}){self.result(f)};"
+        if len(line) <= 100:
+            return [line]
+        parameters = [f"        {p}," for p in self.parameters(f).split(", ")]
+        return [f"    pub fn {f['name']}(", *parameters, f"    ){self.result(f)};"]
+
     def function(self, call):
         return f'unsafe extern "C" fn({self.parameters(call)}){self.result(call)}'
 
@@ -59,21 +67,23 @@ class Rust:
             lines += ["", *wrapped(o["doc"], "/// "), "#[repr(C)]", f"pub struct {o['name']} {{", "    _data: [u8; 0],",
                       "    _marker: PhantomData<(*mut u8, PhantomPinned)>,", "}"]
         for c in sections(self.api, "callbacks"):
-            lines += ["", *wrapped(c["doc"], "/// "), f"pub type {c['name']} = Option<{self.function(c)}>;"]
+            lines += ["", *wrapped(c["doc"], "/// "), "#[rustfmt::skip]", f"pub type {c['name']} = Option<{self.function(c)}>;"]
         whole = whole_structs(self.api)
         for s in sections(self.api, "structs"):
             traits = "Clone, Copy, Debug, PartialEq" if s["name"] in whole else "Clone, Copy, Debug"
             lines += ["", *wrapped(s["doc"], "/// "), "#[repr(C)]", f"#[derive({traits})]", f"pub struct {s['name']} {{"]
             for f in s["fields"]:
+                if f["kind"] == "function":
+                    lines.append("    #[rustfmt::skip]")
                 lines += wrapped(f.get("doc", ""), "    /// ") + [f"    pub {self.name(f)}: {self.type(f)},"]
             lines.append("}")
         for part in self.api["headers"]:
             lines.append("")
             if part["name"] != "vox":
                 lines.append(f'#[cfg(feature = "{part["name"][4:]}")]')
-            lines.append('extern "C" {')
+            lines += ["#[rustfmt::skip]", 'extern "C" {']
             for f in part["functions"]:
-                lines += wrapped(f["doc"], "    /// ") + [f"    pub fn {f['name']}({self.parameters(f)}){self.result(f)};"]
+                lines += wrapped(f["doc"], "    /// ") + self.declaration(f)
             lines.append("}")
         for model, condition in MODELS:
             lines += ["", f"#[cfg({condition})]", "const _: () = {", "    use core::mem::{align_of, offset_of, size_of};"]

@@ -188,11 +188,11 @@ export type CostModel = (typeof CostModel)[keyof typeof CostModel];
 /** How s, the size of a tetrahedron in Eq. 4, is measured. */
 export declare const SizeReading: Readonly<{
   /** mean length of the unique edges; reproduces the paper's tables */
-  EDGE: 0;
+  MEAN_EDGE: 0;
   /** mean over tets of the longest edge; as worded in Sect. 4.2 */
-  LONGEST_EDGE: 1;
+  MEAN_LONGEST_EDGE: 1;
   /** mean over tets of the longest side of the bounding box */
-  BOX_SIDE: 2;
+  MEAN_BOX_SIDE: 2;
 }>;
 export type SizeReading = (typeof SizeReading)[keyof typeof SizeReading];
 
@@ -273,10 +273,7 @@ export declare const ABI_VERSION: 1;
 export declare const MAX_TASKS: 64;
 /** workers of a grid */
 export declare const MAX_WORKERS: 256;
-/**
- * Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others.per grid, at one time,
- * including retired slots
- */
+/** per grid, at one time, including retired slots */
 export declare const MAX_MESHES: 1048576;
 /** uses of one mesh slot before it is retired */
 export declare const MAX_GENERATIONS: 4095;

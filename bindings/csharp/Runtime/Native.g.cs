@@ -176,11 +176,11 @@ namespace Voxtet
     public enum SizeReading : int
     {
         /// <summary>mean length of the unique edges; reproduces the paper's tables</summary>
-        Edge = 0,
+        MeanEdge = 0,
         /// <summary>mean over tets of the longest edge; as worded in Sect. 4.2</summary>
-        LongestEdge = 1,
+        MeanLongestEdge = 1,
         /// <summary>mean over tets of the longest side of the bounding box</summary>
-        BoxSide = 2,
+        MeanBoxSide = 2,
     }
 
     /// <summary>How A, the facet area in Eqs. 5-7, is measured.</summary>
@@ -255,9 +255,10 @@ namespace Voxtet
         public const int Length = 3;
         public double this[int i]
         {
-            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (double* p = &x) return p[i]; }
-            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (double* p = &x) p[i] = value; }
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -267,9 +268,10 @@ namespace Voxtet
         public const int Length = 12;
         public double this[int i]
         {
-            get { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) return p[i]; }
-            set { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) p[i] = value; }
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -279,9 +281,10 @@ namespace Voxtet
         public const int Length = 4;
         public float this[int i]
         {
-            get { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (float* p = &x) return p[i]; }
-            set { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (float* p = &x) p[i] = value; }
+            get { Check(i); fixed (float* p = &x) return p[i]; }
+            set { Check(i); fixed (float* p = &x) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -291,9 +294,10 @@ namespace Voxtet
         public const int Length = 3;
         public float this[int i]
         {
-            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (float* p = &x) return p[i]; }
-            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (float* p = &x) p[i] = value; }
+            get { Check(i); fixed (float* p = &x) return p[i]; }
+            set { Check(i); fixed (float* p = &x) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -303,22 +307,24 @@ namespace Voxtet
         public const int Length = 3;
         public uint this[int i]
         {
-            get { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (uint* p = &x) return p[i]; }
-            set { if ((uint)i >= 3u) throw new IndexOutOfRangeException(); fixed (uint* p = &x) p[i] = value; }
+            get { Check(i); fixed (uint* p = &x) return p[i]; }
+            set { Check(i); fixed (uint* p = &x) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Byte24
     {
         public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
-        e22, e23;
+            e22, e23;
         public const int Length = 24;
         public byte this[int i]
         {
-            get { if ((uint)i >= 24u) throw new IndexOutOfRangeException(); fixed (byte* p = &e0) return p[i]; }
-            set { if ((uint)i >= 24u) throw new IndexOutOfRangeException(); fixed (byte* p = &e0) p[i] = value; }
+            get { Check(i); fixed (byte* p = &e0) return p[i]; }
+            set { Check(i); fixed (byte* p = &e0) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
         public override string ToString()
         {
             fixed (byte* p = &e0)
@@ -334,14 +340,16 @@ namespace Voxtet
     public unsafe struct CostSample64
     {
         public CostSample e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
-        e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31, e32, e33, e34, e35, e36, e37, e38, e39, e40, e41, e42,
-        e43, e44, e45, e46, e47, e48, e49, e50, e51, e52, e53, e54, e55, e56, e57, e58, e59, e60, e61, e62, e63;
+            e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31, e32, e33, e34, e35, e36, e37, e38, e39, e40, e41,
+            e42, e43, e44, e45, e46, e47, e48, e49, e50, e51, e52, e53, e54, e55, e56, e57, e58, e59, e60, e61, e62,
+            e63;
         public const int Length = 64;
         public CostSample this[int i]
         {
-            get { if ((uint)i >= 64u) throw new IndexOutOfRangeException(); fixed (CostSample* p = &e0) return p[i]; }
-            set { if ((uint)i >= 64u) throw new IndexOutOfRangeException(); fixed (CostSample* p = &e0) p[i] = value; }
+            get { Check(i); fixed (CostSample* p = &e0) return p[i]; }
+            set { Check(i); fixed (CostSample* p = &e0) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -351,9 +359,10 @@ namespace Voxtet
         public const int Length = 12;
         public CostShare this[int i]
         {
-            get { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (CostShare* p = &e0) return p[i]; }
-            set { if ((uint)i >= 12u) throw new IndexOutOfRangeException(); fixed (CostShare* p = &e0) p[i] = value; }
+            get { Check(i); fixed (CostShare* p = &e0) return p[i]; }
+            set { Check(i); fixed (CostShare* p = &e0) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -363,9 +372,10 @@ namespace Voxtet
         public const int Length = 4;
         public double this[int i]
         {
-            get { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (double* p = &x) return p[i]; }
-            set { if ((uint)i >= 4u) throw new IndexOutOfRangeException(); fixed (double* p = &x) p[i] = value; }
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -375,9 +385,10 @@ namespace Voxtet
         public const int Length = 9;
         public double this[int i]
         {
-            get { if ((uint)i >= 9u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) return p[i]; }
-            set { if ((uint)i >= 9u) throw new IndexOutOfRangeException(); fixed (double* p = &e0) p[i] = value; }
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
         }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
     /// <summary>Per-grid allocator.</summary>
@@ -1656,7 +1667,7 @@ namespace Voxtet
         internal const uint VOX_MAX_TASKS = 64;
         /// <summary>workers of a grid</summary>
         internal const uint VOX_MAX_WORKERS = 256;
-        /// <summary>Limits.</summary>
+        /// <summary>per grid, at one time, including retired slots</summary>
         internal const uint VOX_MAX_MESHES = 1048576;
         /// <summary>uses of one mesh slot before it is retired</summary>
         internal const uint VOX_MAX_GENERATIONS = 4095;
@@ -1803,19 +1814,19 @@ namespace Voxtet
         /// to corners[4 * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_copy_tets(IntPtr grid, uint mesh, uint* corners, byte* enabled, ulong
-        capacity, ulong* out_count);
+            capacity, ulong* out_count);
 
         /// <summary>Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the
         /// rule of vox_mesh_desc.positions, and releases a copy made at insertion.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint mesh, IntPtr positions, Format format,
-        ulong byte_stride);
+            ulong byte_stride);
 
         /// <summary>The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for
         /// columns.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint mesh, IntPtr positions, Format
-        format, ulong byte_stride, ulong component_byte_stride);
+            format, ulong byte_stride, ulong component_byte_stride);
 
         /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1844,7 +1855,7 @@ namespace Voxtet
         /// packed, in the format it was inserted with or bound to last.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_map_positions(IntPtr grid, uint mesh, IntPtr* out_positions, ulong*
-        out_byte_stride);
+            out_byte_stride);
 
         /// <summary>Moves a mesh as a whole.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1859,18 +1870,18 @@ namespace Voxtet
         /// have no edges and facets, or enables them again (1, as at insertion).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_set_tets_enabled(IntPtr grid, uint mesh, uint* tets, ulong count, uint
-        enabled);
+            enabled);
 
         /// <summary>Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i
         /// below count.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_replace_tets(IntPtr grid, uint mesh, uint* tets, ulong count, uint*
-        corners);
+            corners);
 
         /// <summary>Adds `count` tetrahedra with 4 corners each, copied.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_append_tets(IntPtr grid, uint mesh, uint* corners, ulong count, uint*
-        out_first);
+            out_first);
 
         /// <summary>Removes tetrahedra, disabled ones included.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1883,7 +1894,7 @@ namespace Voxtet
         /// <summary>Adds vertices, which belong to no tetrahedron yet.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_append_vertices(IntPtr grid, uint mesh, VerticesDesc* desc, uint*
-        out_first);
+            out_first);
 
         /// <summary>Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1897,7 +1908,7 @@ namespace Voxtet
         /// many small scenes that have nothing to do with each other.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grids_step(IntPtr* grids, ulong count, TaskSystem* tasks, uint worker_count,
-        Result* results);
+            Result* results);
 
         /// <summary>The mesh that made the last step fail (index 0), or the meshes that it left out
         /// (VOX_GRID_SKIP_BAD_MESHES): the index-th of them, in the order of ids.</summary>
@@ -1913,7 +1924,7 @@ namespace Voxtet
         /// and end before offsets[i + 1], where offsets has count + 1 numbers, all of which are written.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grids_copy_contacts(IntPtr* grids, ulong count, Contact* contacts, ulong
-        capacity, ulong* offsets);
+            capacity, ulong* offsets);
 
         /// <summary>Whether each contact of the last step is interior; count 0 before the first, after a failed one and
         /// after a clear.</summary>
@@ -1946,13 +1957,13 @@ namespace Voxtet
         /// by pair, in the order of vox_grid_pairs.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_copy_contacts(IntPtr grid, uint mesh, Contact* contacts, ulong capacity,
-        ulong* out_count);
+            ulong* out_count);
 
         /// <summary>The same for the contacts between two meshes, given in either order, or of one mesh with itself
         /// (mesh_a = mesh_b): the contacts of their vox_pair.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_pair_copy_contacts(IntPtr grid, uint mesh_a, uint mesh_b, Contact* contacts,
-        ulong capacity, ulong* out_count);
+            ulong capacity, ulong* out_count);
 
         /// <summary>What the last step changed; count 0 before the first one.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1990,13 +2001,13 @@ namespace Voxtet
         /// order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_copy_readings(IntPtr grid, uint mesh, Reading* readings, ulong capacity,
-        ulong* out_count);
+            ulong* out_count);
 
         /// <summary>As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same
         /// order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_pair_copy_readings(IntPtr grid, uint mesh_a, uint mesh_b, Reading* readings,
-        ulong capacity, ulong* out_count);
+            ulong capacity, ulong* out_count);
 
         /// <summary>Writes the grid as it is now to `bytes`, in a format that is the same on every machine
         /// (docs/snapshot.md): settings, meshes with their ids, positions (borrowed ones too, read during the call),
@@ -2015,25 +2026,25 @@ namespace Voxtet
         /// <summary>The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_point(IntPtr grid, double* point, ulong mask, PointHit* hits, ulong
-        capacity, ulong* out_count);
+            capacity, ulong* out_count);
 
         /// <summary>The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by
         /// (point, mesh, tet).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_points(IntPtr grid, IntPtr points, Format format, ulong
-        byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
+            byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
 
         /// <summary>The tetrahedra whose bounding box has a point in common with the closed box from min to max,
         /// decided exactly and sorted by (mesh, tet).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_box(IntPtr grid, double* min, double* max, ulong mask, TetHit*
-        hits, ulong capacity, ulong* out_count);
+            hits, ulong capacity, ulong* out_count);
 
         /// <summary>The closest point to `point` on the surfaces of all meshes, if it is no further away than radius
         /// (which may be infinite).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_closest(IntPtr grid, double* point, double radius, ulong mask,
-        SurfaceHit* out_hit);
+            SurfaceHit* out_hit);
 
         /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2043,23 +2054,23 @@ namespace Voxtet
         /// that of point i.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_closest_points(IntPtr grid, ClosestDesc* desc, ClosestHit*
-        out_hits);
+            out_hits);
 
         /// <summary>Finds the first tetrahedron and the first facet in one call. from = to queries a single
         /// point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_ray(IntPtr grid, double* from, double* to, ulong mask, RayHit*
-        out_hit);
+            out_hit);
 
         /// <summary>All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_ray_hits(IntPtr grid, double* from, double* to, ulong mask, uint
-        excluded, FacetHit* hits, ulong capacity, ulong* out_count);
+            excluded, FacetHit* hits, ulong capacity, ulong* out_count);
 
         /// <summary>1 if the closed segment hits any tetrahedron that has a volume, else 0; exact.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_ray_any(IntPtr grid, double* from, double* to, ulong mask, uint
-        excluded, uint* out_any);
+            excluded, uint* out_any);
 
         /// <summary>Takes a view of the grid as it is now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2084,42 +2095,42 @@ namespace Voxtet
         /// <summary>As vox_grid_query_point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_point(IntPtr view, double* point, ulong mask, PointHit* hits, ulong
-        capacity, ulong* out_count);
+            capacity, ulong* out_count);
 
         /// <summary>As vox_grid_query_points.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_points(IntPtr view, IntPtr points, Format format, ulong
-        byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
+            byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
 
         /// <summary>As vox_grid_query_box.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_box(IntPtr view, double* min, double* max, ulong mask, TetHit*
-        hits, ulong capacity, ulong* out_count);
+            hits, ulong capacity, ulong* out_count);
 
         /// <summary>As vox_grid_query_closest.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_closest(IntPtr view, double* point, double radius, ulong mask,
-        SurfaceHit* out_hit);
+            SurfaceHit* out_hit);
 
         /// <summary>As vox_grid_query_closest_points.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_closest_points(IntPtr view, ClosestDesc* desc, ClosestHit*
-        out_hits);
+            out_hits);
 
         /// <summary>As vox_grid_query_ray.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_ray(IntPtr view, double* from, double* to, ulong mask, RayHit*
-        out_hit);
+            out_hit);
 
         /// <summary>As vox_grid_query_ray_hits.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_ray_hits(IntPtr view, double* from, double* to, ulong mask, uint
-        excluded, FacetHit* hits, ulong capacity, ulong* out_count);
+            excluded, FacetHit* hits, ulong capacity, ulong* out_count);
 
         /// <summary>As vox_grid_query_ray_any.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_ray_any(IntPtr view, double* from, double* to, ulong mask, uint
-        excluded, uint* out_any);
+            excluded, uint* out_any);
 
         /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2137,7 +2148,7 @@ namespace Voxtet
         /// desc null: defaults.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_suggest_cell_size(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count,
-        Suggestion* @out);
+            Suggestion* @out);
 
         /// <summary>The same for the meshes of a grid.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2147,7 +2158,7 @@ namespace Voxtet
         /// size.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_predict(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count, double
-        cell_size, CostPrediction* @out);
+            cell_size, CostPrediction* @out);
 
         /// <summary>Measures the weights by running steps of both engines over a small built-in scene, and puts them
         /// into use for all suggestions and grids of the process.</summary>
@@ -2171,18 +2182,18 @@ namespace Voxtet
         /// even in the logarithm of the cell size, then a golden-section search around its best point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_minimise(IntPtr cost, IntPtr user, CostBounds* bounds, CostMinimum*
-        @out);
+            @out);
 
         /// <summary>The same for the sum of `term_count` terms.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_minimise_terms(CostTerm* terms, ulong term_count, CostBounds* bounds,
-        CostMinimum* @out);
+            CostMinimum* @out);
 
         /// <summary>Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min,
         /// n_max].</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double*
-        out_epsilon);
+            out_epsilon);
 
         /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
         /// covers.</summary>
@@ -2197,7 +2208,7 @@ namespace Voxtet
         /// <summary>The same from memory.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_read(IoSource* sources, UIntPtr source_count, IoLoadDesc* desc, IntPtr*
-        out_mesh);
+            out_mesh);
 
         /// <summary>Releases a mesh.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2238,7 +2249,7 @@ namespace Voxtet
         /// tetrahedra. desc null: defaults.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_tetrahedralize(IntPtr surface, IoTetrahedralizeDesc* desc, IntPtr*
-        out_mesh);
+            out_mesh);
 
         /// <summary>Measures `mesh` against the triangles of `surface`, which may be null.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2268,7 +2279,7 @@ namespace Voxtet
         /// <summary>A torus around the z axis.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_make_torus(double radius, double tube_radius, double cell, IntPtr*
-        out_mesh);
+            out_mesh);
 
         /// <summary>A capsule along the z axis.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2282,7 +2293,7 @@ namespace Voxtet
         /// each side, and split into five tets each.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_make_box(double size_x, double size_y, double size_z, double cell, IntPtr*
-        out_mesh);
+            out_mesh);
 
         /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2325,7 +2336,7 @@ namespace Voxtet
         /// are.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_set_state(IntPtr sim, uint body, double* positions, double*
-        velocities);
+            velocities);
 
         /// <summary>Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at
         /// first.</summary>
@@ -2365,7 +2376,7 @@ namespace Voxtet
         /// may be null.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_experiment_measure(IntPtr experiment, double cell_size, ulong* frame_ns,
-        ExperimentSample* out_sample);
+            ExperimentSample* out_sample);
 
         /// <summary>The order in which a round measures `count` cell sizes: the numbers 0 to count - 1,
         /// shuffled.</summary>

@@ -1,8 +1,8 @@
 """Written by bindings/generate.py from bindings/api.json. Do not edit."""
 
 import enum
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t,
-                    c_uint8, c_uint32, c_uint64, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,
+                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)
 
 from numpy import dtype
 
@@ -114,9 +114,9 @@ class CostModel(enum.IntEnum):
 
 
 class SizeReading(enum.IntEnum):
-    EDGE = 0
-    LONGEST_EDGE = 1
-    BOX_SIDE = 2
+    MEAN_EDGE = 0
+    MEAN_LONGEST_EDGE = 1
+    MEAN_BOX_SIDE = 2
 
 
 class AreaReading(enum.IntEnum):
@@ -222,7 +222,8 @@ class vox_filter(Structure):
     ]
 
 dtypes["vox_filter"] = dtype({
-    "names": ["struct_size", "group", "category", "mask", "self_collision", "self_rings", "self_rest_distance", "penetration_mask"],
+    "names": ["struct_size", "group", "category", "mask", "self_collision", "self_rings", "self_rest_distance",
+        "penetration_mask"],
     "formats": ["u4", "i4", "u8", "u8", "u4", "u4", "f8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 28, 32, 40],
     "itemsize": 48})
@@ -486,8 +487,10 @@ class vox_reading(Structure):
     ]
 
 dtypes["vox_reading"] = dtype({
-    "names": ["contact", "known", "state", "depth", "direction", "position", "distance", "surface_position", "barycentric", "normal", "triangle", "reserved", "user_data_a", "user_data_b"],
-    "formats": ["u8", "u4", "i4", "f4", ("f4", (3,)), ("f8", (3,)), "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), ("u4", (3,)), "u4", "u8", "u8"],
+    "names": ["contact", "known", "state", "depth", "direction", "position", "distance", "surface_position",
+        "barycentric", "normal", "triangle", "reserved", "user_data_a", "user_data_b"],
+    "formats": ["u8", "u4", "i4", "f4", ("f4", (3,)), ("f8", (3,)), "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)),
+        ("u4", (3,)), "u4", "u8", "u8"],
     "offsets": [0, 8, 12, 16, 20, 32, 56, 64, 88, 112, 136, 148, 152, 160],
     "itemsize": 168})
 
@@ -611,7 +614,8 @@ class vox_ray_hit(Structure):
     ]
 
 dtypes["vox_ray_hit"] = dtype({
-    "names": ["mesh", "tet", "t", "surface_mesh", "surface_tet", "surface_facet", "surface_side", "surface_t", "surface_barycentric"],
+    "names": ["mesh", "tet", "t", "surface_mesh", "surface_tet", "surface_facet", "surface_side", "surface_t",
+        "surface_barycentric"],
     "formats": ["u4", "u4", "f8", "u4", "u4", "u4", "i4", "f8", ("f8", (3,))],
     "offsets": [0, 4, 8, 16, 20, 24, 28, 32, 40],
     "itemsize": 64})
@@ -672,9 +676,16 @@ class vox_counters(Structure):
     ]
 
 dtypes["vox_counters"] = dtype({
-    "names": ["struct_size", "meshes", "vertices", "tets", "cells", "entries", "fullest_cell", "visited_cells", "visited_entries", "candidates", "exact_tests", "contacts", "skipped_degenerate", "bytes", "peak_bytes", "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches", "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations", "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended", "total_contacts_began", "total_contacts_ended"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176, 184, 192, 200, 208, 216, 224, 232, 240, 248],
+    "names": ["struct_size", "meshes", "vertices", "tets", "cells", "entries", "fullest_cell", "visited_cells",
+        "visited_entries", "candidates", "exact_tests", "contacts", "skipped_degenerate", "bytes", "peak_bytes",
+        "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches",
+        "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations",
+        "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended",
+        "total_contacts_began", "total_contacts_ended"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
+        "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176,
+        184, 192, 200, 208, 216, 224, 232, 240, 248],
     "itemsize": 256})
 
 
@@ -698,7 +709,8 @@ class vox_profile(Structure):
     ]
 
 dtypes["vox_profile"] = dtype({
-    "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns", "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns"],
+    "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns",
+        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns"],
     "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104],
     "itemsize": 112})
@@ -744,8 +756,11 @@ class vox_geometry_stats(Structure):
     ]
 
 dtypes["vox_geometry_stats"] = dtype({
-    "names": ["vertices", "tets", "edges", "facets", "boundary_facets", "degenerate_tets", "mean_edge", "mean_longest_edge", "mean_box_side", "median_box_side", "mean_facet_area", "mean_tet_facet_area", "mean_boundary_facet_area", "mean_volume", "bounds_min", "bounds_max"],
-    "formats": ["u8", "u8", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8", (3,))],
+    "names": ["vertices", "tets", "edges", "facets", "boundary_facets", "degenerate_tets", "mean_edge",
+        "mean_longest_edge", "mean_box_side", "median_box_side", "mean_facet_area", "mean_tet_facet_area",
+        "mean_boundary_facet_area", "mean_volume", "bounds_min", "bounds_max"],
+    "formats": ["u8", "u8", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8",
+        (3,))],
     "offsets": [0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 136],
     "itemsize": 160})
 
@@ -819,8 +834,12 @@ class vox_suggestion(Structure):
     ]
 
 dtypes["vox_suggestion"] = dtype({
-    "names": ["struct_size", "model", "cell_size", "cells_per_axis", "zone_min", "zone_max", "predicted_cost", "rules", "stats", "curve", "curve_count", "term_count", "terms", "rule_costs", "budget_cell_size", "uniform_loss", "levels", "level_count", "reserved"],
-    "formats": ["u4", "i4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_cell_size_rules"], dtypes["vox_geometry_stats"], (dtypes["vox_cost_sample"], (64,)), "u4", "u4", (dtypes["vox_cost_share"], (12,)), dtypes["vox_cell_size_rules"], "f8", "f8", ("f8", (4,)), "u4", "u4"],
+    "names": ["struct_size", "model", "cell_size", "cells_per_axis", "zone_min", "zone_max", "predicted_cost", "rules",
+        "stats", "curve", "curve_count", "term_count", "terms", "rule_costs", "budget_cell_size", "uniform_loss",
+        "levels", "level_count", "reserved"],
+    "formats": ["u4", "i4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_cell_size_rules"], dtypes["vox_geometry_stats"],
+        (dtypes["vox_cost_sample"], (64,)), "u4", "u4", (dtypes["vox_cost_share"], (12,)),
+        dtypes["vox_cell_size_rules"], "f8", "f8", ("f8", (4,)), "u4", "u4"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 256, 1280, 1284, 1288, 1864, 1912, 1920, 1928, 1960, 1964],
     "itemsize": 1968})
 
@@ -864,8 +883,12 @@ class vox_cost_weights(Structure):
     ]
 
 dtypes["vox_cost_weights"] = dtype({
-    "names": ["struct_size", "measured", "reference_classify_vertex", "reference_prepare_tet", "reference_visit_cell", "reference_scan_cell", "reference_read_vertex", "reference_test_box", "reference_test_tet", "reference_clear_bucket", "fast_bin_vertex", "fast_clear_cell", "fast_visit_tile", "fast_visit_row", "fast_read_vertex", "fast_test_vertex", "reference_changed_list", "reference_fetch_vertex"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8"],
+    "names": ["struct_size", "measured", "reference_classify_vertex", "reference_prepare_tet", "reference_visit_cell",
+        "reference_scan_cell", "reference_read_vertex", "reference_test_box", "reference_test_tet",
+        "reference_clear_bucket", "fast_bin_vertex", "fast_clear_cell", "fast_visit_tile", "fast_visit_row",
+        "fast_read_vertex", "fast_test_vertex", "reference_changed_list", "reference_fetch_vertex"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8",
+        "f8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128],
     "itemsize": 136})
 
@@ -974,8 +997,12 @@ class vox_io_report(Structure):
     ]
 
 dtypes["vox_io_report"] = dtype({
-    "names": ["struct_size", "format", "vertices", "tets", "triangles", "skipped_elements", "second_order_tets", "inverted_tets", "degenerate_tets", "nearly_flat_tets", "duplicate_tets", "degenerate_triangles", "duplicate_vertices", "unused_vertices", "boundary_facets", "non_manifold_facets", "open_edges", "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres"],
-    "formats": ["u4", "i4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
+    "names": ["struct_size", "format", "vertices", "tets", "triangles", "skipped_elements", "second_order_tets",
+        "inverted_tets", "degenerate_tets", "nearly_flat_tets", "duplicate_tets", "degenerate_triangles",
+        "duplicate_vertices", "unused_vertices", "boundary_facets", "non_manifold_facets", "open_edges",
+        "misoriented_edges", "components", "volume", "bounds_min", "bounds_max", "unit_in_metres"],
+    "formats": ["u4", "i4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
+        "u8", "u8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 176, 200],
     "itemsize": 208})
 
@@ -1013,7 +1040,8 @@ class vox_io_quality(Structure):
     ]
 
 dtypes["vox_io_quality"] = dtype({
-    "names": ["struct_size", "reserved", "vertices", "tets", "boundary_facets", "min_dihedral", "max_dihedral", "volume", "surface_volume", "mesh_to_surface", "surface_to_mesh", "hausdorff"],
+    "names": ["struct_size", "reserved", "vertices", "tets", "boundary_facets", "min_dihedral", "max_dihedral",
+        "volume", "surface_volume", "mesh_to_surface", "surface_to_mesh", "hausdorff"],
     "formats": ["u4", "u4", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80],
     "itemsize": 88})
@@ -1143,8 +1171,11 @@ class vox_sim_counts(Structure):
     ]
 
 dtypes["vox_sim_counts"] = dtype({
-    "names": ["struct_size", "bodies", "vertices", "tets", "edges", "volumes", "flat_tets", "inverted_tets", "raised_masses", "softened", "steps", "substeps", "detections", "clamped_steps", "penetrations", "floor_contacts", "step_ns", "detect_ns", "solve_ns"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "names": ["struct_size", "bodies", "vertices", "tets", "edges", "volumes", "flat_tets", "inverted_tets",
+        "raised_masses", "softened", "steps", "substeps", "detections", "clamped_steps", "penetrations",
+        "floor_contacts", "step_ns", "detect_ns", "solve_ns"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
+        "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136],
     "itemsize": 144})
 
@@ -1194,7 +1225,8 @@ class vox_experiment_sample(Structure):
     ]
 
 dtypes["vox_experiment_sample"] = dtype({
-    "names": ["struct_size", "reserved", "cell_size", "mean_ns", "contacts", "visited_cells", "visited_entries", "candidates"],
+    "names": ["struct_size", "reserved", "cell_size", "mean_ns", "contacts", "visited_cells", "visited_entries",
+        "candidates"],
     "formats": ["u4", "u4", "f8", "f8", "u8", "u8", "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48],
     "itemsize": 56})
@@ -1216,7 +1248,8 @@ class vox_time_fit(Structure):
     ]
 
 dtypes["vox_time_fit"] = dtype({
-    "names": ["struct_size", "degree", "range_min", "range_max", "coefficients", "r_squared", "prediction_error", "cell_size", "time", "bracketed", "reserved"],
+    "names": ["struct_size", "degree", "range_min", "range_max", "coefficients", "r_squared", "prediction_error",
+        "cell_size", "time", "bracketed", "reserved"],
     "formats": ["u4", "u4", "f8", "f8", ("f8", (9,)), "f8", "f8", "f8", "f8", "u4", "u4"],
     "offsets": [0, 4, 8, 16, 24, 96, 104, 112, 120, 128, 132],
     "itemsize": 136})
@@ -1294,13 +1327,16 @@ FUNCTIONS = {
         "vox_grid_load": (c_int32, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
         "vox_grid_prepare_queries": (c_int32, (c_void_p,)),
         "vox_grid_query_point": (c_int32, (c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_grid_query_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_grid_query_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p,
+            c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64,
+            POINTER(c_uint64))),
         "vox_grid_query_closest": (c_int32, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
         "vox_closest_desc_init": (c_int32, (POINTER(vox_closest_desc), c_uint32)),
         "vox_grid_query_closest_points": (c_int32, (c_void_p, POINTER(vox_closest_desc), c_void_p)),
         "vox_grid_query_ray": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
-        "vox_grid_query_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_grid_query_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
+            POINTER(c_uint64))),
         "vox_grid_query_ray_any": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
         "vox_grid_take_query_view": (c_int32, (c_void_p, POINTER(c_void_p))),
         "vox_query_view_retain": (c_int32, (c_void_p,)),
@@ -1308,24 +1344,29 @@ FUNCTIONS = {
         "vox_query_view_epoch": (c_int32, (c_void_p, POINTER(c_uint64))),
         "vox_query_view_user_data": (c_int32, (c_void_p, c_uint32, POINTER(c_uint64))),
         "vox_query_view_point": (c_int32, (c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_query_view_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_query_view_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_query_view_points": (c_int32, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p,
+            c_uint64, POINTER(c_uint64))),
+        "vox_query_view_box": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64,
+            POINTER(c_uint64))),
         "vox_query_view_closest": (c_int32, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
         "vox_query_view_closest_points": (c_int32, (c_void_p, POINTER(vox_closest_desc), c_void_p)),
         "vox_query_view_ray": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
-        "vox_query_view_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_query_view_ray_hits": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
+            POINTER(c_uint64))),
         "vox_query_view_ray_any": (c_int32, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
         "vox_grid_counters": (c_int32, (c_void_p, POINTER(vox_counters))),
         "vox_grid_profile": (c_int32, (c_void_p, POINTER(vox_profile))),
         "vox_suggest_desc_init": (c_int32, (POINTER(vox_suggest_desc), c_uint32)),
         "vox_suggest_cell_size": (c_int32, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
         "vox_grid_suggest_cell_size": (c_int32, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
-        "vox_cost_predict": (c_int32, (POINTER(vox_suggest_desc), c_void_p, c_uint64, c_double, POINTER(vox_cost_prediction))),
+        "vox_cost_predict": (c_int32, (POINTER(vox_suggest_desc), c_void_p, c_uint64, c_double,
+            POINTER(vox_cost_prediction))),
         "vox_cost_calibrate": (c_int32, (POINTER(vox_cost_weights),)),
         "vox_cost_get_weights": (c_int32, (POINTER(vox_cost_weights),)),
         "vox_cost_set_weights": (c_int32, (POINTER(vox_cost_weights),)),
         "vox_cost_bounds_init": (c_int32, (POINTER(vox_cost_bounds), c_uint32)),
-        "vox_cost_minimise": (c_int32, (vox_cost_function, c_void_p, POINTER(vox_cost_bounds), POINTER(vox_cost_minimum))),
+        "vox_cost_minimise": (c_int32, (vox_cost_function, c_void_p, POINTER(vox_cost_bounds),
+            POINTER(vox_cost_minimum))),
         "vox_cost_minimise_terms": (c_int32, (c_void_p, c_uint64, POINTER(vox_cost_bounds), POINTER(vox_cost_minimum))),
         "vox_zone_distance": (c_int32, (c_double, c_double, c_double, c_double, POINTER(c_double))),
     },

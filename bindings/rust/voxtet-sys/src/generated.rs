@@ -11,8 +11,7 @@ pub const VOX_ABI_VERSION: u32 = 1;
 pub const VOX_MAX_TASKS: u32 = 64;
 /// workers of a grid
 pub const VOX_MAX_WORKERS: u32 = 256;
-/// Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others.per grid, at one time,
-/// including retired slots
+/// per grid, at one time, including retired slots
 pub const VOX_MAX_MESHES: u32 = 1048576;
 /// uses of one mesh slot before it is retired
 pub const VOX_MAX_GENERATIONS: u32 = 4095;
@@ -295,10 +294,12 @@ pub struct vox_experiment {
 
 /// Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
 /// values of it.
+#[rustfmt::skip]
 pub type vox_task = Option<unsafe extern "C" fn(begin: u64, end: u64, worker: u32, context: *mut c_void)>;
 
 /// Cost at a cell size. A result that is not a finite number counts as infinite cost. Called on the thread that calls
 /// vox_cost_minimise.
+#[rustfmt::skip]
 pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
 
 /// Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null;
@@ -309,7 +310,9 @@ pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_allocator {
+    #[rustfmt::skip]
     pub allocate: Option<unsafe extern "C" fn(size: usize, alignment: usize, user: *mut c_void) -> *mut c_void>,
+    #[rustfmt::skip]
     pub release: Option<unsafe extern "C" fn(memory: *mut c_void, size: usize, alignment: usize, user: *mut c_void)>,
     pub user: *mut c_void,
 }
@@ -319,6 +322,7 @@ pub struct vox_allocator {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_log {
+    #[rustfmt::skip]
     pub write: Option<unsafe extern "C" fn(level: vox_log_level, text: *const c_char, user: *mut c_void)>,
     pub user: *mut c_void,
 }
@@ -334,7 +338,9 @@ pub struct vox_log {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_task_system {
+    #[rustfmt::skip]
     pub enqueue: Option<unsafe extern "C" fn(task: vox_task, item_count: u64, min_range: u64, context: *mut c_void, user: *mut c_void) -> *mut c_void>,
+    #[rustfmt::skip]
     pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
     pub user: *mut c_void,
 }
@@ -1325,6 +1331,7 @@ pub struct vox_io_tetrahedralize_desc {
     pub coarsen: u32,
     /// 0
     pub reserved: u32,
+    #[rustfmt::skip]
     /// Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1. A result
     /// other than 0 cancels. May be null.
     pub progress: Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>,
@@ -1395,6 +1402,7 @@ pub struct vox_io_write_desc {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_io_sink {
+    #[rustfmt::skip]
     pub write: Option<unsafe extern "C" fn(data: *const c_void, size: usize, user: *mut c_void) -> i32>,
     pub user: *mut c_void,
 }
@@ -1640,6 +1648,7 @@ pub struct vox_time_fit {
     pub reserved: u32,
 }
 
+#[rustfmt::skip]
 extern "C" {
     /// Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread.
     pub fn vox_result_string(result: vox_result) -> *const c_char;
@@ -1702,31 +1711,68 @@ extern "C" {
     /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
     /// they are copied, else when a step, suggestion or query reads them first. Errors: INVALID_ARGUMENT, INVALID_MESH
     /// ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY.
-    pub fn vox_mesh_insert(grid: *mut vox_grid, desc: *const vox_mesh_desc, out_mesh: *mut vox_mesh) -> vox_result;
+    pub fn vox_mesh_insert(
+        grid: *mut vox_grid,
+        desc: *const vox_mesh_desc,
+        out_mesh: *mut vox_mesh,
+    ) -> vox_result;
     /// Removes a mesh. The contacts of the last step stay as they are until the next one.
     pub fn vox_mesh_remove(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
     /// 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail.
     pub fn vox_mesh_is_valid(grid: *const vox_grid, mesh: vox_mesh) -> u32;
     /// The user_data the mesh was inserted with.
-    pub fn vox_mesh_user_data(grid: *const vox_grid, mesh: vox_mesh, out_user_data: *mut u64) -> vox_result;
+    pub fn vox_mesh_user_data(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        out_user_data: *mut u64,
+    ) -> vox_result;
     /// Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how
     /// many there are, which may be more than were copied. `meshes` may be null if capacity is 0. Errors:
     /// INVALID_ARGUMENT.
-    pub fn vox_grid_meshes(grid: *const vox_grid, meshes: *mut vox_mesh, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_grid_meshes(
+        grid: *const vox_grid,
+        meshes: *mut vox_mesh,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see
     /// vox_mesh_info. Errors: INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_get_info(grid: *const vox_grid, mesh: vox_mesh, out_info: *mut vox_mesh_info) -> vox_result;
+    pub fn vox_mesh_get_info(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        out_info: *mut vox_mesh_info,
+    ) -> vox_result;
     /// Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4
     /// * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may
     /// be null, and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count). Errors:
     /// INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_copy_tets(grid: *const vox_grid, mesh: vox_mesh, corners: *mut u32, enabled: *mut u8, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_mesh_copy_tets(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        corners: *mut u32,
+        enabled: *mut u8,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule of
     /// vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory between steps
     /// need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small.
-    pub fn vox_mesh_bind_positions(grid: *mut vox_grid, mesh: vox_mesh, positions: *const c_void, format: vox_format, byte_stride: u64) -> vox_result;
+    pub fn vox_mesh_bind_positions(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        positions: *const c_void,
+        format: vox_format,
+        byte_stride: u64,
+    ) -> vox_result;
     /// The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns.
-    pub fn vox_mesh_bind_strided_positions(grid: *mut vox_grid, mesh: vox_mesh, positions: *const c_void, format: vox_format, byte_stride: u64, component_byte_stride: u64) -> vox_result;
+    pub fn vox_mesh_bind_strided_positions(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        positions: *const c_void,
+        format: vox_format,
+        byte_stride: u64,
+        component_byte_stride: u64,
+    ) -> vox_result;
     /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
     /// it serves to measure steps over positions that stay the same.
     pub fn vox_mesh_mark_moved(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
@@ -1735,9 +1781,17 @@ extern "C" {
     /// if their mask was 0 before, are built in the call, in time and memory proportional to the mesh. Errors:
     /// INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
     /// without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_mesh_set_filter(grid: *mut vox_grid, mesh: vox_mesh, filter: *const vox_filter) -> vox_result;
+    pub fn vox_mesh_set_filter(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        filter: *const vox_filter,
+    ) -> vox_result;
     /// Writes the fields of the filter in use that out_filter->struct_size covers (set it first).
-    pub fn vox_mesh_filter(grid: *const vox_grid, mesh: vox_mesh, out_filter: *mut vox_filter) -> vox_result;
+    pub fn vox_mesh_filter(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        out_filter: *mut vox_filter,
+    ) -> vox_result;
     /// Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
     /// enables it again (1, as at insertion). Its contacts of the last step stay until the next one. Errors:
     /// INVALID_ARGUMENT for other numbers.
@@ -1745,51 +1799,102 @@ extern "C" {
     /// With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
     /// filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
     /// mesh_a = mesh_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_grid_set_pair_enabled(grid: *mut vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, enabled: u32) -> vox_result;
+    pub fn vox_grid_set_pair_enabled(
+        grid: *mut vox_grid,
+        mesh_a: vox_mesh,
+        mesh_b: vox_mesh,
+        enabled: u32,
+    ) -> vox_result;
     /// Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the
     /// format it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it
     /// has none. From the next step on, the mesh uses what the caller has written there between steps. Calling it again
     /// returns the same array. The array belongs to the library and lives until the mesh is removed or bound, or the
     /// grid is cleared or destroyed. It is null for a mesh without vertices. For a mesh inserted with
     /// VOX_MESH_COPY_POSITIONS it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
-    pub fn vox_mesh_map_positions(grid: *mut vox_grid, mesh: vox_mesh, out_positions: *mut *mut c_void, out_byte_stride: *mut u64) -> vox_result;
+    pub fn vox_mesh_map_positions(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        out_positions: *mut *mut c_void,
+        out_byte_stride: *mut u64,
+    ) -> vox_result;
     /// Moves a mesh as a whole. In the following steps a vertex has the position x' = ((m[0] * x + m[1] * y) + m[2] *
     /// z) + m[3], y' likewise from m[4..7], z' from m[8..11], computed in double, in this order, each operation
     /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE3. If
     /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
     /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
     /// INVALID_ARGUMENT (an element that is not finite).
-    pub fn vox_mesh_set_transform(grid: *mut vox_grid, mesh: vox_mesh, matrix: *const [f64; 12]) -> vox_result;
+    pub fn vox_mesh_set_transform(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        matrix: *const [f64; 12],
+    ) -> vox_result;
     /// Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
     /// data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data,
     /// filter and the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its
     /// positions and its rest pose if the number of vertices is unchanged; otherwise it has no positions until
     /// vox_mesh_bind_positions. The rest pose of a filter with a rest distance is taken from desc as at insertion.
     /// Errors: also INVALID_STATE and NON_FINITE, as vox_mesh_set_filter.
-    pub fn vox_mesh_set_topology(grid: *mut vox_grid, mesh: vox_mesh, desc: *const vox_mesh_desc) -> vox_result;
+    pub fn vox_mesh_set_topology(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        desc: *const vox_mesh_desc,
+    ) -> vox_result;
     /// Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges
     /// and facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
     /// Errors: INVALID_ARGUMENT for other numbers.
-    pub fn vox_mesh_set_tets_enabled(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64, enabled: u32) -> vox_result;
+    pub fn vox_mesh_set_tets_enabled(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        tets: *const u32,
+        count: u64,
+        enabled: u32,
+    ) -> vox_result;
     /// Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If
     /// an index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open,
     /// append copies of the vertices on the cut and let the tetrahedra of one side use those.
-    pub fn vox_mesh_replace_tets(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64, corners: *const u32) -> vox_result;
+    pub fn vox_mesh_replace_tets(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        tets: *const u32,
+        count: u64,
+        corners: *const u32,
+    ) -> vox_result;
     /// Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
     /// following indices.
-    pub fn vox_mesh_append_tets(grid: *mut vox_grid, mesh: vox_mesh, corners: *const u32, count: u64, out_first: *mut u32) -> vox_result;
+    pub fn vox_mesh_append_tets(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        corners: *const u32,
+        count: u64,
+        out_first: *mut u32,
+    ) -> vox_result;
     /// Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices.
-    pub fn vox_mesh_remove_tets(grid: *mut vox_grid, mesh: vox_mesh, tets: *const u32, count: u64) -> vox_result;
+    pub fn vox_mesh_remove_tets(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        tets: *const u32,
+        count: u64,
+    ) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.
     pub fn vox_vertices_desc_init(desc: *mut vox_vertices_desc, struct_size: u32) -> vox_result;
     /// Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
     /// following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for
     /// it), NON_FINITE (a position of the rest pose).
-    pub fn vox_mesh_append_vertices(grid: *mut vox_grid, mesh: vox_mesh, desc: *const vox_vertices_desc, out_first: *mut u32) -> vox_result;
+    pub fn vox_mesh_append_vertices(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        desc: *const vox_vertices_desc,
+        out_first: *mut u32,
+    ) -> vox_result;
     /// Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more
     /// contacts, and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is
     /// best to leave them as they are.
-    pub fn vox_mesh_remove_vertices(grid: *mut vox_grid, mesh: vox_mesh, vertices: *const u32, count: u64) -> vox_result;
+    pub fn vox_mesh_remove_vertices(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        vertices: *const u32,
+        count: u64,
+    ) -> vox_result;
     /// Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on failure
     /// they are gone and the grid stays usable. A mesh is at rest if its positions are bit for bit those of the last
     /// step; the fast engine keeps a copy to compare. Contacts between meshes at rest, and of a mesh at rest with
@@ -1812,21 +1917,40 @@ extern "C" {
     /// them and its text, after its index ("grid 17: ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or
     /// repeated grid, a worker_count) and OUT_OF_MEMORY, after which no grid was stepped and `results` is not written,
     /// unless the task system broke its rules, see vox_task_system.
-    pub fn vox_grids_step(grids: *const *mut vox_grid, count: u64, tasks: *const vox_task_system, worker_count: u32, results: *mut vox_result) -> vox_result;
+    pub fn vox_grids_step(
+        grids: *const *mut vox_grid,
+        count: u64,
+        tasks: *const vox_task_system,
+        worker_count: u32,
+        results: *mut vox_result,
+    ) -> vox_result;
     /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
     /// index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for
     /// another reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The
     /// mesh may have been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size).
-    pub fn vox_grid_failure(grid: *const vox_grid, index: u32, out_failure: *mut vox_failure) -> vox_result;
+    pub fn vox_grid_failure(
+        grid: *const vox_grid,
+        index: u32,
+        out_failure: *mut vox_failure,
+    ) -> vox_result;
     /// The contacts of the last step; count 0 before the first, after a failed one and after a clear.
     pub fn vox_grid_contacts(grid: *const vox_grid, out_view: *mut vox_contact_view) -> vox_result;
     /// The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end
     /// before offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first
     /// `capacity` contacts; `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT.
-    pub fn vox_grids_copy_contacts(grids: *const *const vox_grid, count: u64, contacts: *mut vox_contact, capacity: u64, offsets: *mut u64) -> vox_result;
+    pub fn vox_grids_copy_contacts(
+        grids: *const *const vox_grid,
+        count: u64,
+        contacts: *mut vox_contact,
+        capacity: u64,
+        offsets: *mut u64,
+    ) -> vox_result;
     /// Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a
     /// clear.
-    pub fn vox_grid_contact_interiors(grid: *const vox_grid, out_view: *mut vox_interior_view) -> vox_result;
+    pub fn vox_grid_contact_interiors(
+        grid: *const vox_grid,
+        out_view: *mut vox_interior_view,
+    ) -> vox_result;
     /// Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while
     /// its epoch equals it.
     pub fn vox_grid_epoch(grid: *const vox_grid, out_epoch: *mut u64) -> vox_result;
@@ -1834,7 +1958,10 @@ extern "C" {
     pub fn vox_grid_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
     /// The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one
     /// and after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS.
-    pub fn vox_grid_penetrations(grid: *const vox_grid, out_view: *mut vox_penetration_view) -> vox_result;
+    pub fn vox_grid_penetrations(
+        grid: *const vox_grid,
+        out_view: *mut vox_penetration_view,
+    ) -> vox_result;
     /// The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations.
     pub fn vox_grid_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
     /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
@@ -1843,17 +1970,36 @@ extern "C" {
     /// the order of vox_grid_pairs. *out_count is how many there are, which may be more than were copied. `contacts`
     /// may be null if capacity is 0. The mesh may have been disabled since the step, but not removed. Errors:
     /// INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_copy_contacts(grid: *const vox_grid, mesh: vox_mesh, contacts: *mut vox_contact, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_mesh_copy_contacts(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        contacts: *mut vox_contact,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// The same for the contacts between two meshes, given in either order, or of one mesh with itself (mesh_a =
     /// mesh_b): the contacts of their vox_pair.
-    pub fn vox_pair_copy_contacts(grid: *const vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, contacts: *mut vox_contact, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_pair_copy_contacts(
+        grid: *const vox_grid,
+        mesh_a: vox_mesh,
+        mesh_b: vox_mesh,
+        contacts: *mut vox_contact,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// What the last step changed; count 0 before the first one. A failed step has no events, and none are lost: the
     /// next step is compared with the last successful one. Removing meshes and clearing the grid give no events at
     /// once; the next step ends their pairs. Destroying the grid ends them without events.
-    pub fn vox_grid_touch_events(grid: *const vox_grid, out_view: *mut vox_touch_view) -> vox_result;
+    pub fn vox_grid_touch_events(
+        grid: *const vox_grid,
+        out_view: *mut vox_touch_view,
+    ) -> vox_result;
     /// The same for single vertices, under the same rules. Errors: INVALID_STATE for a grid without
     /// VOX_GRID_CONTACT_EVENTS.
-    pub fn vox_grid_contact_events(grid: *const vox_grid, out_view: *mut vox_contact_event_view) -> vox_result;
+    pub fn vox_grid_contact_events(
+        grid: *const vox_grid,
+        out_view: *mut vox_contact_event_view,
+    ) -> vox_result;
     /// Computes the readings of the last step's contacts from the meshes as they are now, so borrowed positions must
     /// still be those of the step. vox_reading.known shows what is missing because it was removed or changed since. May
     /// be called repeatedly; each call replaces what was prepared before. Takes time proportional to the contacts and,
@@ -1870,24 +2016,48 @@ extern "C" {
     /// readings of some contacts. All others are missing from the views and copies of the following functions. Errors:
     /// as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
     /// earlier readings stay.
-    pub fn vox_grid_prepare_readings_of(grid: *mut vox_grid, desc: *const vox_readings_desc) -> vox_result;
+    pub fn vox_grid_prepare_readings_of(
+        grid: *mut vox_grid,
+        desc: *const vox_readings_desc,
+    ) -> vox_result;
     /// The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear.
     pub fn vox_grid_readings(grid: *const vox_grid, out_view: *mut vox_reading_view) -> vox_result;
     /// Depth and direction of the prepared readings in double, one for each, in that order; zero where
     /// vox_reading.known lacks VOX_READING_DEPTH. Count 0 if that part was not asked for. Errors: as vox_grid_readings.
-    pub fn vox_grid_reading_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
+    pub fn vox_grid_reading_depths(
+        grid: *const vox_grid,
+        out_view: *mut vox_depth_view,
+    ) -> vox_result;
     /// As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
     /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
-    pub fn vox_mesh_copy_readings(grid: *const vox_grid, mesh: vox_mesh, readings: *mut vox_reading, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_mesh_copy_readings(
+        grid: *const vox_grid,
+        mesh: vox_mesh,
+        readings: *mut vox_reading,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
     /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
-    pub fn vox_pair_copy_readings(grid: *const vox_grid, mesh_a: vox_mesh, mesh_b: vox_mesh, readings: *mut vox_reading, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_pair_copy_readings(
+        grid: *const vox_grid,
+        mesh_a: vox_mesh,
+        mesh_b: vox_mesh,
+        readings: *mut vox_reading,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md):
     /// settings, meshes with their ids, positions (borrowed ones too, read during the call), and the state that the
     /// next events are derived from. Allocator, log, task system, worker count, both budgets, and the results of the
     /// last step are not saved. *out_size is the number of bytes; with `bytes` null nothing is written, so the size can
     /// be asked first. Allocates nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers).
-    pub fn vox_grid_save(grid: *const vox_grid, bytes: *mut c_void, capacity: u64, out_size: *mut u64) -> vox_result;
+    pub fn vox_grid_save(
+        grid: *const vox_grid,
+        bytes: *mut c_void,
+        capacity: u64,
+        out_size: *mut u64,
+    ) -> vox_result;
     /// Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would
     /// in the saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch.
     /// There are no contacts until the first step. The meshes own their positions; to move them, bind others. Of `desc`
@@ -1896,7 +2066,12 @@ extern "C" {
     /// trusted: everything in them is checked, no memory is reserved for a count before the bytes it stands for are
     /// known to be there, and the byte budget applies. Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later
     /// version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
-    pub fn vox_grid_load(bytes: *const c_void, size: u64, desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
+    pub fn vox_grid_load(
+        bytes: *const c_void,
+        size: u64,
+        desc: *const vox_grid_desc,
+        out_grid: *mut *mut vox_grid,
+    ) -> vox_result;
     /// Copies the present positions for the queries. Takes time and memory proportional to vertices and tetrahedra:
     /// about 24 bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the
     /// tetrahedra alone, are made by the first call after a mesh was inserted or edited, and are shared with query
@@ -1907,37 +2082,97 @@ extern "C" {
     pub fn vox_grid_prepare_queries(grid: *mut vox_grid) -> vox_result;
     /// The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0. `hits` may be null if
     /// capacity is 0.
-    pub fn vox_grid_query_point(grid: *const vox_grid, point: *const [f64; 3], mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_grid_query_point(
+        grid: *const vox_grid,
+        point: *const [f64; 3],
+        mask: u64,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh,
     /// tet). Faster than single queries.
-    pub fn vox_grid_query_points(grid: *const vox_grid, points: *const c_void, format: vox_format, byte_stride: u64, point_count: u64, mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_grid_query_points(
+        grid: *const vox_grid,
+        points: *const c_void,
+        format: vox_format,
+        byte_stride: u64,
+        point_count: u64,
+        mask: u64,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// The tetrahedra whose bounding box has a point in common with the closed box from min to max, decided exactly and
     /// sorted by (mesh, tet). They include all tetrahedra that intersect the box themselves; those of zero volume
     /// count, too. Infinite corners are allowed. Errors: INVALID_ARGUMENT unless min <= max on each axis.
-    pub fn vox_grid_query_box(grid: *const vox_grid, min: *const [f64; 3], max: *const [f64; 3], mask: u64, hits: *mut vox_tet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_grid_query_box(
+        grid: *const vox_grid,
+        min: *const [f64; 3],
+        max: *const [f64; 3],
+        mask: u64,
+        hits: *mut vox_tet_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// The closest point to `point` on the surfaces of all meshes, if it is no further away than radius (which may be
     /// infinite). Computed in double. Of several at the same distance it is the one with the lowest (mesh, tet, facet).
-    pub fn vox_grid_query_closest(grid: *const vox_grid, point: *const [f64; 3], radius: f64, mask: u64, out_hit: *mut vox_surface_hit) -> vox_result;
+    pub fn vox_grid_query_closest(
+        grid: *const vox_grid,
+        point: *const [f64; 3],
+        radius: f64,
+        mask: u64,
+        out_hit: *mut vox_surface_hit,
+    ) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
     pub fn vox_closest_desc_init(desc: *mut vox_closest_desc, struct_size: u32) -> vox_result;
     /// The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
     /// Each search begins at the facet found for the point before, so points close together should follow each other.
     /// Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points.
-    pub fn vox_grid_query_closest_points(grid: *const vox_grid, desc: *const vox_closest_desc, out_hits: *mut vox_closest_hit) -> vox_result;
+    pub fn vox_grid_query_closest_points(
+        grid: *const vox_grid,
+        desc: *const vox_closest_desc,
+        out_hits: *mut vox_closest_hit,
+    ) -> vox_result;
     /// Finds the first tetrahedron and the first facet in one call. from = to queries a single point.
-    pub fn vox_grid_query_ray(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, out_hit: *mut vox_ray_hit) -> vox_result;
+    pub fn vox_grid_query_ray(
+        grid: *const vox_grid,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        out_hit: *mut vox_ray_hit,
+    ) -> vox_result;
     /// All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet). Which ones is decided
     /// exactly by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a
     /// corner hits every facet there.
-    pub fn vox_grid_query_ray_hits(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, hits: *mut vox_facet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_grid_query_ray_hits(
+        grid: *const vox_grid,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        excluded: vox_mesh,
+        hits: *mut vox_facet_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds,
     /// so it is faster than vox_grid_query_ray.
-    pub fn vox_grid_query_ray_any(grid: *const vox_grid, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, out_any: *mut u32) -> vox_result;
+    pub fn vox_grid_query_ray_any(
+        grid: *const vox_grid,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        excluded: vox_mesh,
+        out_any: *mut u32,
+    ) -> vox_result;
     /// Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what
     /// that prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a
     /// mesh has no positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under
     /// VOX_FORMAT_FLOAT3; see also vox_task_system).
-    pub fn vox_grid_take_query_view(grid: *mut vox_grid, out_view: *mut *mut vox_query_view) -> vox_result;
+    pub fn vox_grid_take_query_view(
+        grid: *mut vox_grid,
+        out_view: *mut *mut vox_query_view,
+    ) -> vox_result;
     /// One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not
     /// released by all others meanwhile.
     pub fn vox_query_view_retain(view: *mut vox_query_view) -> vox_result;
@@ -1946,23 +2181,84 @@ extern "C" {
     /// vox_grid_epoch when the view was taken: which step it shows.
     pub fn vox_query_view_epoch(view: *const vox_query_view, out_epoch: *mut u64) -> vox_result;
     /// The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view.
-    pub fn vox_query_view_user_data(view: *const vox_query_view, mesh: vox_mesh, out_user_data: *mut u64) -> vox_result;
+    pub fn vox_query_view_user_data(
+        view: *const vox_query_view,
+        mesh: vox_mesh,
+        out_user_data: *mut u64,
+    ) -> vox_result;
     /// As vox_grid_query_point.
-    pub fn vox_query_view_point(view: *const vox_query_view, point: *const [f64; 3], mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_query_view_point(
+        view: *const vox_query_view,
+        point: *const [f64; 3],
+        mask: u64,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// As vox_grid_query_points.
-    pub fn vox_query_view_points(view: *const vox_query_view, points: *const c_void, format: vox_format, byte_stride: u64, point_count: u64, mask: u64, hits: *mut vox_point_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_query_view_points(
+        view: *const vox_query_view,
+        points: *const c_void,
+        format: vox_format,
+        byte_stride: u64,
+        point_count: u64,
+        mask: u64,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// As vox_grid_query_box.
-    pub fn vox_query_view_box(view: *const vox_query_view, min: *const [f64; 3], max: *const [f64; 3], mask: u64, hits: *mut vox_tet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_query_view_box(
+        view: *const vox_query_view,
+        min: *const [f64; 3],
+        max: *const [f64; 3],
+        mask: u64,
+        hits: *mut vox_tet_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// As vox_grid_query_closest.
-    pub fn vox_query_view_closest(view: *const vox_query_view, point: *const [f64; 3], radius: f64, mask: u64, out_hit: *mut vox_surface_hit) -> vox_result;
+    pub fn vox_query_view_closest(
+        view: *const vox_query_view,
+        point: *const [f64; 3],
+        radius: f64,
+        mask: u64,
+        out_hit: *mut vox_surface_hit,
+    ) -> vox_result;
     /// As vox_grid_query_closest_points.
-    pub fn vox_query_view_closest_points(view: *const vox_query_view, desc: *const vox_closest_desc, out_hits: *mut vox_closest_hit) -> vox_result;
+    pub fn vox_query_view_closest_points(
+        view: *const vox_query_view,
+        desc: *const vox_closest_desc,
+        out_hits: *mut vox_closest_hit,
+    ) -> vox_result;
     /// As vox_grid_query_ray.
-    pub fn vox_query_view_ray(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, out_hit: *mut vox_ray_hit) -> vox_result;
+    pub fn vox_query_view_ray(
+        view: *const vox_query_view,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        out_hit: *mut vox_ray_hit,
+    ) -> vox_result;
     /// As vox_grid_query_ray_hits.
-    pub fn vox_query_view_ray_hits(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, hits: *mut vox_facet_hit, capacity: u64, out_count: *mut u64) -> vox_result;
+    pub fn vox_query_view_ray_hits(
+        view: *const vox_query_view,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        excluded: vox_mesh,
+        hits: *mut vox_facet_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
     /// As vox_grid_query_ray_any.
-    pub fn vox_query_view_ray_any(view: *const vox_query_view, from: *const [f64; 3], to: *const [f64; 3], mask: u64, excluded: vox_mesh, out_any: *mut u32) -> vox_result;
+    pub fn vox_query_view_ray_any(
+        view: *const vox_query_view,
+        from: *const [f64; 3],
+        to: *const [f64; 3],
+        mask: u64,
+        excluded: vox_mesh,
+        out_any: *mut u32,
+    ) -> vox_result;
     /// Writes the fields that out_counters->struct_size covers (set it first).
     pub fn vox_grid_counters(grid: *const vox_grid, out_counters: *mut vox_counters) -> vox_result;
     /// Writes the fields that out_profile->struct_size covers (set it first).
@@ -1976,7 +2272,12 @@ extern "C" {
     /// user data. Time and memory (from desc->allocator, released at the end of the call) are proportional to vertices
     /// and tets. Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH,
     /// NON_FINITE, LIMIT, OUT_OF_MEMORY.
-    pub fn vox_suggest_cell_size(desc: *const vox_suggest_desc, meshes: *const vox_mesh_desc, mesh_count: u64, out: *mut vox_suggestion) -> vox_result;
+    pub fn vox_suggest_cell_size(
+        desc: *const vox_suggest_desc,
+        meshes: *const vox_mesh_desc,
+        mesh_count: u64,
+        out: *mut vox_suggestion,
+    ) -> vox_result;
     /// The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's
     /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the
     /// default p_nc. FAST takes from the last step which meshes are at rest and which need no cells for self-collision;
@@ -1984,10 +2285,20 @@ extern "C" {
     /// accurate to a few per cent. The first call after a mesh was inserted or edited reads all of that mesh, and keeps
     /// up to 10 KB on the C++ runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound.
     /// Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
-    pub fn vox_grid_suggest_cell_size(grid: *const vox_grid, desc: *const vox_suggest_desc, out: *mut vox_suggestion) -> vox_result;
+    pub fn vox_grid_suggest_cell_size(
+        grid: *const vox_grid,
+        desc: *const vox_suggest_desc,
+        out: *mut vox_suggestion,
+    ) -> vox_result;
     /// The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
     /// vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0.
-    pub fn vox_cost_predict(desc: *const vox_suggest_desc, meshes: *const vox_mesh_desc, mesh_count: u64, cell_size: f64, out: *mut vox_cost_prediction) -> vox_result;
+    pub fn vox_cost_predict(
+        desc: *const vox_suggest_desc,
+        meshes: *const vox_mesh_desc,
+        mesh_count: u64,
+        cell_size: f64,
+        out: *mut vox_cost_prediction,
+    ) -> vox_result;
     /// Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for
     /// all suggestions and grids of the process. The first call takes about ten milliseconds; later ones use its
     /// result. out may be null; otherwise set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY.
@@ -2004,17 +2315,34 @@ extern "C" {
     /// logarithm of the cell size, then a golden-section search around its best point. `cost` is called on this thread,
     /// some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also if the cost was finite at no cell size
     /// that was tried, or if the least cost is negative).
-    pub fn vox_cost_minimise(cost: vox_cost_function, user: *mut c_void, bounds: *const vox_cost_bounds, out: *mut vox_cost_minimum) -> vox_result;
+    pub fn vox_cost_minimise(
+        cost: vox_cost_function,
+        user: *mut c_void,
+        bounds: *const vox_cost_bounds,
+        out: *mut vox_cost_minimum,
+    ) -> vox_result;
     /// The same for the sum of `term_count` terms.
-    pub fn vox_cost_minimise_terms(terms: *const vox_cost_term, term_count: u64, bounds: *const vox_cost_bounds, out: *mut vox_cost_minimum) -> vox_result;
+    pub fn vox_cost_minimise_terms(
+        terms: *const vox_cost_term,
+        term_count: u64,
+        bounds: *const vox_cost_bounds,
+        out: *mut vox_cost_minimum,
+    ) -> vox_result;
     /// Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n =
     /// n_opt and below 1 inside the zone. All arguments are in cells per axis, > 0, with n_min <= n_opt <= n_max. If
     /// the zone has no width on the side of n, *out_epsilon is infinity (0 at n = n_opt). Errors: INVALID_ARGUMENT
     /// (numbers that do not meet these conditions).
-    pub fn vox_zone_distance(n: f64, n_min: f64, n_opt: f64, n_max: f64, out_epsilon: *mut f64) -> vox_result;
+    pub fn vox_zone_distance(
+        n: f64,
+        n_min: f64,
+        n_opt: f64,
+        n_max: f64,
+        out_epsilon: *mut f64,
+    ) -> vox_result;
 }
 
 #[cfg(feature = "io")]
+#[rustfmt::skip]
 extern "C" {
     /// Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size` covers.
     pub fn vox_io_load_desc_init(desc: *mut vox_io_load_desc, struct_size: u32) -> vox_result;
@@ -2023,9 +2351,18 @@ extern "C" {
     /// one that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is
     /// read and must not be shortened meanwhile. Errors: FILE, FORMAT (the text names the file, the line or byte, and
     /// what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT.
-    pub fn vox_io_load(path: *const c_char, desc: *const vox_io_load_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_load(
+        path: *const c_char,
+        desc: *const vox_io_load_desc,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// The same from memory. `sources` holds one file or, for TetGen, two: .node and .ele in any order.
-    pub fn vox_io_read(sources: *const vox_io_source, source_count: usize, desc: *const vox_io_load_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_read(
+        sources: *const vox_io_source,
+        source_count: usize,
+        desc: *const vox_io_load_desc,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// Releases a mesh. Null does nothing.
     pub fn vox_io_mesh_destroy(mesh: *mut vox_io_mesh);
     /// The mesh's arrays.
@@ -2039,16 +2376,25 @@ extern "C" {
     pub fn vox_io_mesh_desc(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
     /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
     /// LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
-    pub fn vox_io_mesh_create(arrays: *const vox_io_mesh_view, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_mesh_create(
+        arrays: *const vox_io_mesh_view,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// Writes the fields that out_report->struct_size covers (set it first).
-    pub fn vox_io_mesh_report(mesh: *const vox_io_mesh, out_report: *mut vox_io_report) -> vox_result;
+    pub fn vox_io_mesh_report(
+        mesh: *const vox_io_mesh,
+        out_report: *mut vox_io_report,
+    ) -> vox_result;
     /// The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
     /// vox_io_mesh_destroy. Cannot fail; null for a null mesh.
     pub fn vox_io_mesh_warnings(mesh: *const vox_io_mesh) -> *const c_char;
     /// Name of a format, e.g. "Gmsh .msh". Static text; never null.
     pub fn vox_io_format_string(format: vox_io_format) -> *const c_char;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_io_tetrahedralize_desc_init(desc: *mut vox_io_tetrahedralize_desc, struct_size: u32) -> vox_result;
+    pub fn vox_io_tetrahedralize_desc_init(
+        desc: *mut vox_io_tetrahedralize_desc,
+        struct_size: u32,
+    ) -> vox_result;
     /// Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with tetrahedra. desc
     /// null: defaults. All tets have positive volume, no two overlap, and inner facets are shared by exactly two. The
     /// surface may have any orientation, consist of several parts, and intersect itself. Inside is where its winding
@@ -2058,39 +2404,81 @@ extern "C" {
     /// Memory and time are proportional to the number of cells inside. Errors: INVALID_ARGUMENT (no triangles, no
     /// volume, no tet fits in), NON_FINITE, INVALID_MESH (the surface is open; not for CUBES), LIMIT (more than 4096
     /// cells along an axis, more than max_tets), INVALID_STATE (cancelled), OUT_OF_MEMORY.
-    pub fn vox_io_tetrahedralize(surface: *const vox_io_mesh, desc: *const vox_io_tetrahedralize_desc, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_tetrahedralize(
+        surface: *const vox_io_mesh,
+        desc: *const vox_io_tetrahedralize_desc,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// Measures `mesh` against the triangles of `surface`, which may be null. Writes the fields that
     /// out_quality->struct_size covers (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
-    pub fn vox_io_measure_quality(mesh: *const vox_io_mesh, surface: *const vox_io_mesh, out_quality: *mut vox_io_quality) -> vox_result;
+    pub fn vox_io_measure_quality(
+        mesh: *const vox_io_mesh,
+        surface: *const vox_io_mesh,
+        out_quality: *mut vox_io_quality,
+    ) -> vox_result;
     /// Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size` covers.
     pub fn vox_io_write_desc_init(desc: *mut vox_io_write_desc, struct_size: u32) -> vox_result;
     /// Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path` is
     /// replaced at the end, and only if everything was written. Errors: FILE, INVALID_ARGUMENT (names the field),
     /// NON_FINITE, UNSUPPORTED (the extension), LIMIT (more elements than .msh 2.2 can number), OUT_OF_MEMORY.
-    pub fn vox_io_write(mesh: *const vox_io_mesh, path: *const c_char, desc: *const vox_io_write_desc) -> vox_result;
+    pub fn vox_io_write(
+        mesh: *const vox_io_mesh,
+        path: *const c_char,
+        desc: *const vox_io_write_desc,
+    ) -> vox_result;
     /// As vox_io_write, but passes the bytes to `sink`. desc->format must not be AUTO. Errors: as vox_io_write, and
     /// FILE if the sink fails; the bytes it received before that are not a complete file.
-    pub fn vox_io_write_to(mesh: *const vox_io_mesh, desc: *const vox_io_write_desc, sink: *const vox_io_sink) -> vox_result;
+    pub fn vox_io_write_to(
+        mesh: *const vox_io_mesh,
+        desc: *const vox_io_write_desc,
+        sink: *const vox_io_sink,
+    ) -> vox_result;
     /// A ball of `radius` around the origin, made of about `tet_count` tetrahedra. It consists of the cubes of a
     /// lattice that are inside the ball, each split into five tetrahedra; boundary vertices are moved onto the sphere,
     /// and interior ones smoothed by three Laplace sweeps. The count is met within 1 % for 1000 tets and more.
-    pub fn vox_io_make_lattice_ball(tet_count: u64, radius: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_make_lattice_ball(
+        tet_count: u64,
+        radius: f64,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// A ball by isosurface stuffing on a lattice of cubes with edge `cell`. It and the three bodies below have the
     /// dihedral angles of vox_io_tetrahedralize.
     pub fn vox_io_make_ball(radius: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
     /// A torus around the z axis. `radius` is the distance from the axis to the middle of the tube; tube_radius <
     /// radius.
-    pub fn vox_io_make_torus(radius: f64, tube_radius: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_make_torus(
+        radius: f64,
+        tube_radius: f64,
+        cell: f64,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// A capsule along the z axis. `length` is the distance between the centres of the two round ends.
-    pub fn vox_io_make_capsule(radius: f64, length: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_make_capsule(
+        radius: f64,
+        length: f64,
+        cell: f64,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// A cylinder along the z axis. Its rims are rounded by a fraction of a cell.
-    pub fn vox_io_make_cylinder(radius: f64, length: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_make_cylinder(
+        radius: f64,
+        length: f64,
+        cell: f64,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
     /// An exact box of cubes with edges of about `cell`, stretched so that a whole number of them fits each side, and
     /// split into five tets each.
-    pub fn vox_io_make_box(size_x: f64, size_y: f64, size_z: f64, cell: f64, out_mesh: *mut *mut vox_io_mesh) -> vox_result;
+    pub fn vox_io_make_box(
+        size_x: f64,
+        size_y: f64,
+        size_z: f64,
+        cell: f64,
+        out_mesh: *mut *mut vox_io_mesh,
+    ) -> vox_result;
 }
 
 #[cfg(feature = "sim")]
+#[rustfmt::skip]
 extern "C" {
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
     pub fn vox_sim_desc_init(desc: *mut vox_sim_desc, struct_size: u32) -> vox_result;
@@ -2116,21 +2504,42 @@ extern "C" {
     /// both are counted and reported in one log line. Errors: INVALID_ARGUMENT (names the field and its value; also: no
     /// tet, or all of them flat, so that the body has no mass), INVALID_MESH, NON_FINITE (names the vertex), LIMIT,
     /// BUDGET, OUT_OF_MEMORY.
-    pub fn vox_sim_body_insert(sim: *mut vox_sim, desc: *const vox_sim_body_desc, out_body: *mut vox_mesh) -> vox_result;
+    pub fn vox_sim_body_insert(
+        sim: *mut vox_sim,
+        desc: *const vox_sim_body_desc,
+        out_body: *mut vox_mesh,
+    ) -> vox_result;
     /// Removes a body from the simulation and from its grid.
     pub fn vox_sim_body_remove(sim: *mut vox_sim, body: vox_mesh) -> vox_result;
     /// The body's arrays.
-    pub fn vox_sim_body_get(sim: *const vox_sim, body: vox_mesh, out_view: *mut vox_sim_body_view) -> vox_result;
+    pub fn vox_sim_body_get(
+        sim: *const vox_sim,
+        body: vox_mesh,
+        out_view: *mut vox_sim_body_view,
+    ) -> vox_result;
     /// Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest
     /// shape stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15).
-    pub fn vox_sim_body_set_state(sim: *mut vox_sim, body: vox_mesh, positions: *const f64, velocities: *const f64) -> vox_result;
+    pub fn vox_sim_body_set_state(
+        sim: *mut vox_sim,
+        body: vox_mesh,
+        positions: *const f64,
+        velocities: *const f64,
+    ) -> vox_result;
     /// Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first. Errors:
     /// INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size).
-    pub fn vox_sim_body_set_acceleration(sim: *mut vox_sim, body: vox_mesh, acceleration: *const [f64; 3]) -> vox_result;
+    pub fn vox_sim_body_set_acceleration(
+        sim: *mut vox_sim,
+        body: vox_mesh,
+        acceleration: *const [f64; 3],
+    ) -> vox_result;
     /// Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH). They are those of the
     /// middle of the last substep, to which the velocities belong; the positions of vox_sim_body_get are half a substep
     /// later. Writes the fields that out_energies->struct_size covers (set it first).
-    pub fn vox_sim_energy(sim: *const vox_sim, body: vox_mesh, out_energies: *mut vox_sim_energies) -> vox_result;
+    pub fn vox_sim_energy(
+        sim: *const vox_sim,
+        body: vox_mesh,
+        out_energies: *mut vox_sim_energies,
+    ) -> vox_result;
     /// Writes the fields that out_counts->struct_size covers (set it first).
     pub fn vox_sim_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -2142,39 +2551,78 @@ extern "C" {
     /// number of tets is finite and the bodies may part quickly; vox_experiment_facts has the result. Errors:
     /// INVALID_ARGUMENT (names the field and its value), INVALID_STATE (the share cannot be reached on this axis; gives
     /// the largest that can), and those of vox_sim_create, vox_sim_body_insert and vox_grid_step.
-    pub fn vox_experiment_create(desc: *const vox_experiment_desc, out_experiment: *mut *mut vox_experiment) -> vox_result;
+    pub fn vox_experiment_create(
+        desc: *const vox_experiment_desc,
+        out_experiment: *mut *mut vox_experiment,
+    ) -> vox_result;
     /// Destroys an experiment. Null does nothing.
     pub fn vox_experiment_destroy(experiment: *mut vox_experiment);
     /// Writes the fields that out_facts->struct_size covers (set it first); the shares live as long as the experiment.
-    pub fn vox_experiment_get(experiment: *const vox_experiment, out_facts: *mut vox_experiment_facts) -> vox_result;
+    pub fn vox_experiment_get(
+        experiment: *const vox_experiment,
+        out_facts: *mut vox_experiment_facts,
+    ) -> vox_result;
     /// vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors.
-    pub fn vox_experiment_suggest(experiment: *const vox_experiment, desc: *const vox_suggest_desc, out: *mut vox_suggestion) -> vox_result;
+    pub fn vox_experiment_suggest(
+        experiment: *const vox_experiment,
+        desc: *const vox_suggest_desc,
+        out: *mut vox_suggestion,
+    ) -> vox_result;
     /// Measures one sample, after one step that is not timed. frame_ns receives the time of each frame; may be null.
     /// Set out_sample->struct_size first. The contacts are compared with those found during the simulation. Errors:
     /// INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
     /// differ).
-    pub fn vox_experiment_measure(experiment: *mut vox_experiment, cell_size: f64, frame_ns: *mut u64, out_sample: *mut vox_experiment_sample) -> vox_result;
+    pub fn vox_experiment_measure(
+        experiment: *mut vox_experiment,
+        cell_size: f64,
+        frame_ns: *mut u64,
+        out_sample: *mut vox_experiment_sample,
+    ) -> vox_result;
     /// The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for
     /// each round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not
     /// always hit the same cell sizes. Errors: INVALID_ARGUMENT (count 0).
-    pub fn vox_experiment_order(count: u64, seed: u64, round: u64, out_order: *mut u64) -> vox_result;
+    pub fn vox_experiment_order(
+        count: u64,
+        seed: u64,
+        round: u64,
+        out_order: *mut u64,
+    ) -> vox_result;
     /// The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns
     /// holds `frames` times for each round, round after round. A frame means the same work in every round, so a
     /// disturbance affects only the frames in which it happens, not the whole round. Medians are used because on a busy
     /// machine the minimum over the rounds depends on a few lucky ones (docs/paper.md has figures). Errors:
     /// INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY.
-    pub fn vox_experiment_time(frame_ns: *const u64, rounds: u64, frames: u64, out_ns: *mut f64) -> vox_result;
+    pub fn vox_experiment_time(
+        frame_ns: *const u64,
+        rounds: u64,
+        frames: u64,
+        out_ns: *mut f64,
+    ) -> vox_result;
     /// Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first. Errors:
     /// INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
     /// sizes), OUT_OF_MEMORY.
-    pub fn vox_fit_times(cell_sizes: *const f64, times: *const f64, count: u64, out_fit: *mut vox_time_fit) -> vox_result;
+    pub fn vox_fit_times(
+        cell_sizes: *const f64,
+        times: *const f64,
+        count: u64,
+        out_fit: *mut vox_time_fit,
+    ) -> vox_result;
     /// The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a
     /// `fit` that vox_fit_times did not fill).
-    pub fn vox_fit_time_at(fit: *const vox_time_fit, cell_size: f64, out_time: *mut f64) -> vox_result;
+    pub fn vox_fit_time_at(
+        fit: *const vox_time_fit,
+        cell_size: f64,
+        out_time: *mut f64,
+    ) -> vox_result;
     /// The zone: the range of cell sizes around the best one in which the fitted time is at most `limit`. It ends at
     /// range_min or range_max if the time stays below the limit up to there. Errors: INVALID_ARGUMENT (a limit below
     /// fit->time).
-    pub fn vox_fit_zone(fit: *const vox_time_fit, limit: f64, out_min: *mut f64, out_max: *mut f64) -> vox_result;
+    pub fn vox_fit_zone(
+        fit: *const vox_time_fit,
+        limit: f64,
+        out_min: *mut f64,
+        out_max: *mut f64,
+    ) -> vox_result;
 }
 
 #[cfg(target_pointer_width = "64")]
