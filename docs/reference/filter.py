@@ -93,7 +93,10 @@ def fields(text):
     struct, has_comment = "", False
     for i, line in enumerate(lines):
         begins = re.match(r"^typedef (struct|enum) (\w+) \{", line)
-        above = re.search(r"/\*\*(?!<)(?:(?!\*/).)*\*/\Z", "\n".join(lines[max(0, i - 40):i]), flags=re.S) is not None
+        before = lines[max(0, i - 40):i]
+        while before and re.fullmatch(rf" {{4}}{MARKS}", before[-1] + " "):  # a field's marks on a line of their own
+            del before[-1]
+        above = re.search(r"/\*\*(?!<)(?:(?!\*/).)*\*/\Z", "\n".join(before), flags=re.S) is not None
         if begins:
             struct, has_comment = begins[2], above
             body = "\n".join(lines[i:]).split("\n}", 1)[0]
@@ -109,6 +112,9 @@ def fields(text):
         kind, name = field[1], field[2] or field[3]
         if name in BY_NAME:
             lines[i] = f"{line} /**< {BY_NAME[name]} */"
+        elif "VOX_ARRAY" in line:
+            count = re.search(r"VOX_ARRAY\(((?:[^()]|\([^()]*\))*)\)", line)[1]
+            lines[i] = f"{line} /**< {escaped(count)} elements. */"
         elif kind.startswith("vox_"):
             lines[i] = f"{line} /**< See {kind}. */"
         else:
