@@ -1,0 +1,700 @@
+use std::ptr::{null, null_mut, NonNull};
+
+use voxtet_sys as sys;
+
+use crate::callbacks::Callbacks;
+use crate::cell_size::{SuggestOptions, Suggestion};
+use crate::error::{check, struct_size};
+use crate::options::Scalar;
+use crate::view::{ContactEvents, TouchEvents};
+use crate::{
+    Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Mesh, MeshOptions, Pairs, Penetration,
+    QueryView, Reading, Result, View,
+};
+
+/// What the last step did; `vox_counters` in vox.h.
+pub type Counters = sys::vox_counters;
+/// Nanoseconds of the last step, by stage; `vox_profile` in vox.h.
+pub type Profile = sys::vox_profile;
+/// A mesh that made a step fail, or that a step left out; `vox_failure` in vox.h.
+pub type Failure = sys::vox_failure;
+
+/// A mesh as it is now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshInfo {
+    /// As given when the mesh was added.
+    pub user_data: u64,
+    /// With the removed ones.
+    pub vertex_count: u64,
+    /// With those that are disabled or removed.
+    pub tet_count: u64,
+    /// Without these.
+    pub enabled_tet_count: u64,
+    /// Whether the mesh takes part in steps.
+    pub enabled: bool,
+    /// Whether its positions are doubles.
+    pub doubles: bool,
+    /// Its transform, if it has one: three rows of four.
+    pub transform: Option<[f64; 12]>,
+}
+
+/// A set of meshes that collide. Its memory is returned when it is dropped.
+///
+/// Everything that changes a grid takes `&mut self`, and what reads it `&self`, so the compiler sees to what vox.h asks of
+/// its callers: many threads may read a grid, one may change it, and what a step found is not used after the next one.
+///
+/// ```compile_fail,E0502
+/// let mut grid = voxtet::Grid::new()?;
+/// let contacts = grid.contacts();
+/// grid.step()?; // ends the view of the contacts
+/// println!("{}", contacts.len());
+/// # Ok::<(), voxtet::Error>(())
+/// ```
+pub struct Grid {
+    grid: NonNull<sys::vox_grid>,
+    _callbacks: Option<Box<Callbacks>>, // for C to call
+}
+
+// SAFETY: vox.h: a grid belongs to no thread; different ones are independent; functions of a const grid may run on any
+// number of threads. Callbacks are Send and Sync.
+unsafe impl Send for Grid {}
+unsafe impl Sync for Grid {}
+
+impl Drop for Grid {
+    fn drop(&mut self) {
+        // SAFETY: owned. The callbacks are dropped after it.
+        unsafe { sys::vox_grid_destroy(self.grid.as_ptr()) }
+    }
+}
+
+impl std::fmt::Debug for Grid {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        to.debug_struct("Grid").field("meshes", &self.meshes()).field("epoch", &self.epoch()).finish_non_exhaustive()
+    }
+}
+
+fn check_abi() -> Result<()> {
+    // SAFETY: no arguments.
+    let library = unsafe { sys::vox_abi_version() };
+    if library == sys::VOX_ABI_VERSION {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorCode::Unsupported,
+        format!("libvox has ABI version {library}, voxtet was made for {}", sys::VOX_ABI_VERSION),
+    ))
+}
+
+/// Of a slice for C: null if it is empty, as a dangling pointer of Rust's is none of C's.
+pub(crate) fn pointer<T>(slice: &[T]) -> *const T {
+    if slice.is_empty() {
+        null()
+    } else {
+        slice.as_ptr()
+    }
+}
+
+pub(crate) fn mesh_desc<T: Scalar>(positions: &[[T; 3]], tets: &[[u32; 4]]) -> sys::vox_mesh_desc {
+    // SAFETY: a struct of numbers and pointers, of its own size.
+    let mut desc = unsafe {
+        let mut desc = std::mem::zeroed();
+        sys::vox_mesh_desc_init(&mut desc, struct_size::<sys::vox_mesh_desc>());
+        desc
+    };
+    desc.positions = pointer(positions).cast();
+    desc.position_format = T::FORMAT;
+    desc.vertex_count = positions.len() as u64;
+    desc.tets = pointer(tets).cast();
+    desc.tet_count = tets.len() as u64;
+    desc
+}
+
+/// The count of `count_of(null, 0)`, and so many items copied.
+fn copy_all<T: Copy>(mut copy: impl FnMut(*mut T, u64, &mut u64) -> sys::vox_result) -> Result<Vec<T>> {
+    let mut count = 0;
+    check(copy(null_mut(), 0, &mut count))?;
+    let mut items: Vec<T> = Vec::with_capacity(count as usize);
+    check(copy(items.as_mut_ptr(), count, &mut count))?;
+    // SAFETY: the library has written as many as there are, and there were as many before.
+    unsafe { items.set_len(items.capacity().min(count as usize)) };
+    Ok(items)
+}
+
+impl Grid {
+    /// A grid with the default settings.
+    pub fn new() -> Result<Self> {
+        Self::with_options(GridOptions::default())
+    }
+
+    /// A grid with these settings.
+    pub fn with_options(options: GridOptions) -> Result<Self> {
+        check_abi()?;
+        let mut desc = options.desc();
+        let callbacks = Callbacks::install(options.log, options.tasks, &mut desc);
+        let mut grid = null_mut();
+        // SAFETY: a valid description; callbacks live as long as the grid.
+        check(unsafe { sys::vox_grid_create(&desc, &mut grid) })?;
+        Ok(Self { grid: NonNull::new(grid).expect("a grid"), _callbacks: callbacks })
+    }
+
+    /// A grid from the bytes of [`Grid::save`], which need not be trusted. Of the options only log, tasks, workers, both
+    /// budgets and an engine other than `Auto` are used.
+    pub fn load(bytes: &[u8], options: GridOptions) -> Result<Self> {
+        check_abi()?;
+        let mut desc = options.desc();
+        let callbacks = Callbacks::install(options.log, options.tasks, &mut desc);
+        let mut grid = null_mut();
+        // SAFETY: as above; the bytes are checked.
+        check(unsafe { sys::vox_grid_load(bytes.as_ptr().cast(), bytes.len() as u64, &desc, &mut grid) })?;
+        Ok(Self { grid: NonNull::new(grid).expect("a grid"), _callbacks: callbacks })
+    }
+
+    /// The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events.
+    pub fn save(&self) -> Result<Vec<u8>> {
+        let mut size = 0;
+        // SAFETY: asks for the size, then has room for as much.
+        check(unsafe { sys::vox_grid_save(self.get(), null_mut(), 0, &mut size) })?;
+        let mut bytes = vec![0u8; size as usize];
+        check(unsafe { sys::vox_grid_save(self.get(), bytes.as_mut_ptr().cast(), size, &mut size) })?;
+        Ok(bytes)
+    }
+
+    fn get(&self) -> *const sys::vox_grid {
+        self.grid.as_ptr()
+    }
+
+    fn get_mut(&mut self) -> *mut sys::vox_grid {
+        self.grid.as_ptr()
+    }
+
+    /// For functions of [`sys`](crate::sys) that are not wrapped. It must not be destroyed.
+    pub fn as_ptr(&mut self) -> *mut sys::vox_grid {
+        self.grid.as_ptr()
+    }
+
+    /// Removes all meshes and contacts and keeps the settings.
+    pub fn clear(&mut self) -> Result<()> {
+        // SAFETY: here and below, a grid that lives, and arrays that are as long as is said.
+        check(unsafe { sys::vox_grid_clear(self.get_mut()) })
+    }
+
+    /// Takes memory for that many meshes and contacts in advance.
+    pub fn reserve(&mut self, meshes: u32, contacts: u64) -> Result<()> {
+        check(unsafe { sys::vox_grid_reserve(self.get_mut(), meshes, contacts) })
+    }
+
+    /// Sets the cell size of the following steps; 0: the library chooses.
+    pub fn set_cell_size(&mut self, cell_size: f64) -> Result<()> {
+        check(unsafe { sys::vox_grid_set_cell_size(self.get_mut(), cell_size) })
+    }
+
+    /// The cell size in use; 0 if none was chosen yet.
+    pub fn cell_size(&self) -> f64 {
+        let mut cell_size = 0.0;
+        unsafe { sys::vox_grid_cell_size(self.get(), &mut cell_size) };
+        cell_size
+    }
+
+    /// Threads of the following steps; 0: one per core.
+    pub fn set_workers(&mut self, workers: u32) -> Result<()> {
+        check(unsafe { sys::vox_grid_set_worker_count(self.get_mut(), workers) })
+    }
+
+    /// Whether the following steps find penetrations, report events of single vertices, and leave out bad meshes.
+    pub fn set_flags(&mut self, penetrations: bool, contact_events: bool, skip_bad_meshes: bool) -> Result<()> {
+        let options = GridOptions { penetrations, contact_events, skip_bad_meshes, ..GridOptions::default() };
+        check(unsafe { sys::vox_grid_set_flags(self.get_mut(), options.flags()) })
+    }
+
+    // ---- meshes ----
+
+    /// Adds a mesh of these vertices and tetrahedra. Both arrays are copied; [`Grid::positions_mut`] moves the vertices.
+    pub fn add<T: Scalar>(&mut self, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<Mesh> {
+        self.insert(mesh_desc(positions, tets), Filter::default())
+    }
+
+    /// The same with user data, a filter or a rest pose.
+    pub fn add_with<T: Scalar>(
+        &mut self,
+        positions: &[[T; 3]],
+        tets: &[[u32; 4]],
+        options: MeshOptions<'_, T>,
+    ) -> Result<Mesh> {
+        let mut desc = mesh_desc(positions, tets);
+        desc.user_data = options.user_data;
+        if let Some(rest) = options.rest_positions {
+            check_length("rest_positions", rest.len(), positions.len())?;
+            desc.rest_positions = pointer(rest).cast();
+        }
+        self.insert(desc, options.filter)
+    }
+
+    fn insert(&mut self, mut desc: sys::vox_mesh_desc, filter: Filter) -> Result<Mesh> {
+        let filter = filter.to_c();
+        let mut mesh = sys::VOX_NULL_MESH;
+        desc.flags = sys::VOX_MESH_COPY_POSITIONS;
+        desc.filter = &filter;
+        check(unsafe { sys::vox_mesh_insert(self.get_mut(), &desc, &mut mesh) })?;
+        Ok(Mesh(mesh))
+    }
+
+    /// Removes a mesh. The contacts of the last step stay as they are until the next one.
+    pub fn remove(&mut self, mesh: Mesh) -> Result<()> {
+        check(unsafe { sys::vox_mesh_remove(self.get_mut(), mesh.0) })
+    }
+
+    /// Whether `mesh` names a mesh of this grid.
+    pub fn contains(&self, mesh: Mesh) -> bool {
+        unsafe { sys::vox_mesh_is_valid(self.get(), mesh.0) != 0 }
+    }
+
+    /// All meshes, in the order of their ids.
+    pub fn meshes(&self) -> Vec<Mesh> {
+        copy_all(|meshes, capacity, count| unsafe { sys::vox_grid_meshes(self.get(), meshes, capacity, count) })
+            .unwrap_or_default()
+            .into_iter()
+            .map(Mesh)
+            .collect()
+    }
+
+    fn info_of(&self, mesh: Mesh) -> Result<sys::vox_mesh_info> {
+        let mut info: sys::vox_mesh_info = unsafe { std::mem::zeroed() };
+        info.struct_size = struct_size::<sys::vox_mesh_info>();
+        check(unsafe { sys::vox_mesh_get_info(self.get(), mesh.0, &mut info) })?;
+        Ok(info)
+    }
+
+    /// A mesh as it is now.
+    pub fn info(&self, mesh: Mesh) -> Result<MeshInfo> {
+        let info = self.info_of(mesh)?;
+        Ok(MeshInfo {
+            user_data: info.user_data,
+            vertex_count: info.vertex_count,
+            tet_count: info.tet_count,
+            enabled_tet_count: info.enabled_tet_count,
+            enabled: info.enabled != 0,
+            doubles: info.position_format == sys::VOX_FORMAT_DOUBLE3,
+            transform: (info.has_transform != 0).then_some(info.transform),
+        })
+    }
+
+    /// The tetrahedra of a mesh as they were given, those that are disabled or removed, too.
+    pub fn tets(&self, mesh: Mesh) -> Result<Vec<[u32; 4]>> {
+        copy_all(|tets: *mut [u32; 4], capacity, count| unsafe {
+            sys::vox_mesh_copy_tets(self.get(), mesh.0, tets.cast(), null_mut(), capacity, count)
+        })
+    }
+
+    /// Of each tetrahedron of a mesh, whether it is neither disabled nor removed.
+    pub fn enabled_tets(&self, mesh: Mesh) -> Result<Vec<bool>> {
+        let enabled: Vec<u8> = copy_all(|enabled, capacity, count| unsafe {
+            sys::vox_mesh_copy_tets(self.get(), mesh.0, null_mut(), enabled, capacity, count)
+        })?;
+        Ok(enabled.into_iter().map(|e| e != 0).collect())
+    }
+
+    /// The number given when the mesh was added.
+    pub fn user_data(&self, mesh: Mesh) -> Result<u64> {
+        Ok(self.info_of(mesh)?.user_data)
+    }
+
+    /// The positions of a mesh, before its transform, if they are of type `T`.
+    pub fn positions<T: Scalar>(&self, mesh: Mesh) -> Result<&[[T; 3]]> {
+        let info = self.info_of(mesh)?;
+        check_format::<T>(&info)?;
+        if info.positions.is_null() || info.vertex_count == 0 {
+            return Ok(&[]);
+        }
+        // SAFETY: all meshes have positions of their own, one after the other, which only &mut self can change.
+        Ok(unsafe { std::slice::from_raw_parts(info.positions.cast(), info.vertex_count as usize) })
+    }
+
+    /// The positions of a mesh, to be written before a step, if they are of type `T`, that of the array given to
+    /// [`Grid::add`].
+    pub fn positions_mut<T: Scalar>(&mut self, mesh: Mesh) -> Result<&mut [[T; 3]]> {
+        let info = self.info_of(mesh)?;
+        check_format::<T>(&info)?;
+        let (mut positions, mut stride) = (null_mut(), 0);
+        check(unsafe { sys::vox_mesh_map_positions(self.get_mut(), mesh.0, &mut positions, &mut stride) })?;
+        if positions.is_null() || info.vertex_count == 0 {
+            return Ok(&mut []);
+        }
+        // SAFETY: packed, and exclusively borrowed.
+        Ok(unsafe { std::slice::from_raw_parts_mut(positions.cast(), info.vertex_count as usize) })
+    }
+
+    /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all.
+    pub fn set_transform(&mut self, mesh: Mesh, matrix: Option<&[f64; 12]>) -> Result<()> {
+        let matrix = matrix.map_or(null(), std::ptr::from_ref);
+        check(unsafe { sys::vox_mesh_set_transform(self.get_mut(), mesh.0, matrix) })
+    }
+
+    /// Sets what a mesh collides with.
+    pub fn set_filter(&mut self, mesh: Mesh, filter: Filter) -> Result<()> {
+        check(unsafe { sys::vox_mesh_set_filter(self.get_mut(), mesh.0, &filter.to_c()) })
+    }
+
+    /// What a mesh collides with.
+    pub fn filter(&self, mesh: Mesh) -> Result<Filter> {
+        let mut filter = Filter::default().to_c();
+        check(unsafe { sys::vox_mesh_filter(self.get(), mesh.0, &mut filter) })?;
+        Ok(Filter::of(&filter))
+    }
+
+    /// Leaves a mesh out of the following steps, or takes it in again.
+    pub fn set_enabled(&mut self, mesh: Mesh, enabled: bool) -> Result<()> {
+        check(unsafe { sys::vox_mesh_set_enabled(self.get_mut(), mesh.0, enabled.into()) })
+    }
+
+    /// Whether two meshes collide, if their filters let them.
+    pub fn set_pair_enabled(&mut self, a: Mesh, b: Mesh, enabled: bool) -> Result<()> {
+        check(unsafe { sys::vox_grid_set_pair_enabled(self.get_mut(), a.0, b.0, enabled.into()) })
+    }
+
+    /// Makes the next step process a mesh even if it did not move, for measurements.
+    pub fn mark_moved(&mut self, mesh: Mesh) -> Result<()> {
+        check(unsafe { sys::vox_mesh_mark_moved(self.get_mut(), mesh.0) })
+    }
+
+    // ---- cutting and growing ----
+
+    /// Replaces vertices, tetrahedra and positions of a mesh.
+    pub fn set_topology<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<()> {
+        let mut desc = mesh_desc(positions, tets);
+        desc.flags = sys::VOX_MESH_COPY_POSITIONS;
+        check(unsafe { sys::vox_mesh_set_topology(self.get_mut(), mesh.0, &desc) })
+    }
+
+    /// Disables tetrahedra, so that they contain nothing, or enables them again.
+    pub fn set_tets_enabled(&mut self, mesh: Mesh, tets: &[u32], enabled: bool) -> Result<()> {
+        check(unsafe {
+            sys::vox_mesh_set_tets_enabled(self.get_mut(), mesh.0, pointer(tets), tets.len() as u64, enabled.into())
+        })
+    }
+
+    /// Gives tetrahedra other corners: `tets[i]` gets `corners[i]`.
+    pub fn replace_tets(&mut self, mesh: Mesh, tets: &[u32], corners: &[[u32; 4]]) -> Result<()> {
+        check_length("corners", corners.len(), tets.len())?;
+        check(unsafe {
+            sys::vox_mesh_replace_tets(
+                self.get_mut(),
+                mesh.0,
+                pointer(tets),
+                tets.len() as u64,
+                pointer(corners).cast(),
+            )
+        })
+    }
+
+    /// Adds tetrahedra; the index of the first.
+    pub fn append_tets(&mut self, mesh: Mesh, corners: &[[u32; 4]]) -> Result<u32> {
+        let mut first = 0;
+        check(unsafe {
+            sys::vox_mesh_append_tets(self.get_mut(), mesh.0, pointer(corners).cast(), corners.len() as u64, &mut first)
+        })?;
+        Ok(first)
+    }
+
+    /// Removes tetrahedra. Their vertices stay.
+    pub fn remove_tets(&mut self, mesh: Mesh, tets: &[u32]) -> Result<()> {
+        check(unsafe { sys::vox_mesh_remove_tets(self.get_mut(), mesh.0, pointer(tets), tets.len() as u64) })
+    }
+
+    fn append(&mut self, mesh: Mesh, fill: impl FnOnce(&mut sys::vox_vertices_desc)) -> Result<u32> {
+        let mut first = 0;
+        // SAFETY: a struct of numbers and null pointers, of its own size.
+        let mut desc = unsafe {
+            let mut desc = std::mem::zeroed();
+            sys::vox_vertices_desc_init(&mut desc, struct_size::<sys::vox_vertices_desc>());
+            desc
+        };
+        fill(&mut desc);
+        check(unsafe { sys::vox_mesh_append_vertices(self.get_mut(), mesh.0, &desc, &mut first) })?;
+        Ok(first)
+    }
+
+    /// Adds vertices at these positions, which must be of the mesh's type; the index of the first.
+    pub fn append_vertices<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]]) -> Result<u32> {
+        check_format::<T>(&self.info_of(mesh)?)?;
+        self.positions_mut::<T>(mesh)?; // of its own, also in a mesh that has had no vertices
+        self.append(mesh, |desc| {
+            desc.count = positions.len() as u64;
+            desc.positions = pointer(positions).cast();
+        })
+    }
+
+    /// Adds copies of vertices, where these are; the index of the first.
+    pub fn append_copies(&mut self, mesh: Mesh, copies_of: &[u32]) -> Result<u32> {
+        self.append(mesh, |desc| {
+            desc.count = copies_of.len() as u64;
+            desc.copies_of = pointer(copies_of);
+        })
+    }
+
+    /// Removes vertices that no enabled tetrahedron has.
+    pub fn remove_vertices(&mut self, mesh: Mesh, vertices: &[u32]) -> Result<()> {
+        check(unsafe {
+            sys::vox_mesh_remove_vertices(self.get_mut(), mesh.0, pointer(vertices), vertices.len() as u64)
+        })
+    }
+
+    // ---- step and results ----
+
+    /// Finds all contacts of the positions as they are now.
+    pub fn step(&mut self) -> Result<()> {
+        check(unsafe { sys::vox_grid_step(self.get_mut()) })
+    }
+
+    /// The contacts of the last step, in canonical order; none before the first and after a failed one.
+    pub fn contacts(&self) -> Contacts<'_> {
+        // SAFETY: here and below, the view lives until a change of the grid, which needs &mut self. Reading a grid
+        // that lives cannot fail.
+        unsafe {
+            let mut view: sys::vox_contact_view = std::mem::zeroed();
+            sys::vox_grid_contacts(self.get(), &mut view);
+            View::new(view.data, view.byte_stride, view.count)
+        }
+    }
+
+    /// For each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary.
+    pub fn interiors(&self) -> View<'_, u8> {
+        unsafe {
+            let mut view: sys::vox_interior_view = std::mem::zeroed();
+            sys::vox_grid_contact_interiors(self.get(), &mut view);
+            View::new(view.data, view.byte_stride, view.count)
+        }
+    }
+
+    /// How deep each vertex is in another mesh, and which way leads out. An error without penetrations in the options.
+    pub fn penetrations(&self) -> Result<View<'_, Penetration>> {
+        unsafe {
+            let mut view: sys::vox_penetration_view = std::mem::zeroed();
+            check(sys::vox_grid_penetrations(self.get(), &mut view))?;
+            Ok(View::new(view.data, view.byte_stride, view.count))
+        }
+    }
+
+    /// Depths and directions of the penetrations in double.
+    pub fn depths(&self) -> Result<View<'_, Depth>> {
+        unsafe {
+            let mut view: sys::vox_depth_view = std::mem::zeroed();
+            check(sys::vox_grid_depths(self.get(), &mut view))?;
+            Ok(View::new(view.data, view.byte_stride, view.count))
+        }
+    }
+
+    /// The pairs of meshes that touched in the last step.
+    pub fn pairs(&self) -> Pairs<'_> {
+        let contacts = self.contacts().len();
+        unsafe {
+            let mut view: sys::vox_pair_view = std::mem::zeroed();
+            sys::vox_grid_pairs(self.get(), &mut view);
+            let indices = if view.count == 0 { 0 } else { contacts };
+            Pairs {
+                pairs: View::new(view.data, view.byte_stride, view.count),
+                contacts: View::new(view.contacts, std::mem::size_of::<u32>(), indices as u64),
+            }
+        }
+    }
+
+    /// Pairs that began, persisted and ended in the last step. Who steps twice and reads once loses those of the first
+    /// step; [`Counters::total_touches_began`](sys::vox_counters::total_touches_began) shows it.
+    pub fn touch_events(&self) -> TouchEvents<'_> {
+        unsafe {
+            let mut view: sys::vox_touch_view = std::mem::zeroed();
+            sys::vox_grid_touch_events(self.get(), &mut view);
+            Events {
+                all: View::new(view.data, view.byte_stride, view.count),
+                began: view.began as usize,
+                persisted: view.persisted as usize,
+            }
+        }
+    }
+
+    /// Vertices that entered or left a mesh in the last step. An error without contact events in the options.
+    pub fn contact_events(&self) -> Result<ContactEvents<'_>> {
+        unsafe {
+            let mut view: sys::vox_contact_event_view = std::mem::zeroed();
+            check(sys::vox_grid_contact_events(self.get(), &mut view))?;
+            Ok(Events {
+                all: View::new(view.data, view.byte_stride, view.count),
+                began: view.began as usize,
+                persisted: 0,
+            })
+        }
+    }
+
+    /// The contacts in which a mesh takes part, copied.
+    pub fn contacts_of(&self, mesh: Mesh) -> Result<Vec<Contact>> {
+        copy_all(|contacts, capacity, count| unsafe {
+            sys::vox_mesh_copy_contacts(self.get(), mesh.0, contacts, capacity, count)
+        })
+    }
+
+    /// The contacts between two meshes, copied.
+    pub fn contacts_between(&self, a: Mesh, b: Mesh) -> Result<Vec<Contact>> {
+        copy_all(|contacts, capacity, count| unsafe {
+            sys::vox_pair_copy_contacts(self.get(), a.0, b.0, contacts, capacity, count)
+        })
+    }
+
+    /// A hash of the contacts: the same on every machine and in every language.
+    pub fn hash(&self) -> u64 {
+        let mut hash = 0;
+        unsafe { sys::vox_grid_hash(self.get(), &mut hash) };
+        hash
+    }
+
+    /// Number of steps and other changes so far.
+    pub fn epoch(&self) -> u64 {
+        let mut epoch = 0;
+        unsafe { sys::vox_grid_epoch(self.get(), &mut epoch) };
+        epoch
+    }
+
+    /// The mesh that made the last step fail, or those that it left out.
+    pub fn failures(&self) -> Vec<Failure> {
+        let mut all = Vec::new();
+        loop {
+            let mut failure: Failure = unsafe { std::mem::zeroed() };
+            failure.struct_size = struct_size::<Failure>();
+            unsafe { sys::vox_grid_failure(self.get(), all.len() as u32, &mut failure) };
+            if failure.mesh == sys::VOX_NULL_MESH {
+                return all;
+            }
+            all.push(failure);
+        }
+    }
+
+    /// What the last step did.
+    pub fn counters(&self) -> Counters {
+        let mut counters: Counters = unsafe { std::mem::zeroed() };
+        counters.struct_size = struct_size::<Counters>();
+        unsafe { sys::vox_grid_counters(self.get(), &mut counters) };
+        counters
+    }
+
+    /// Nanoseconds of the last step, by stage.
+    pub fn profile(&self) -> Profile {
+        let mut profile: Profile = unsafe { std::mem::zeroed() };
+        profile.struct_size = struct_size::<Profile>();
+        unsafe { sys::vox_grid_profile(self.get(), &mut profile) };
+        profile
+    }
+
+    // ---- readings ----
+
+    /// Computes position, closest surface and depth of the contacts of the last step, or the parts of it in `what`
+    /// ([`reading`](crate::reading)).
+    pub fn prepare_readings(&mut self, what: u32) -> Result<()> {
+        self.prepare_some_readings(what, None, None)
+    }
+
+    /// The same for the contacts of one mesh, or of a mesh with another.
+    pub fn prepare_readings_of(&mut self, what: u32, mesh: Mesh, other: Option<Mesh>) -> Result<()> {
+        self.prepare_some_readings(what, Some(mesh), other)
+    }
+
+    fn prepare_some_readings(&mut self, what: u32, mesh: Option<Mesh>, other: Option<Mesh>) -> Result<()> {
+        // SAFETY: a struct of numbers, of its own size.
+        let mut desc = unsafe {
+            let mut desc = std::mem::zeroed();
+            sys::vox_readings_desc_init(&mut desc, struct_size::<sys::vox_readings_desc>());
+            desc
+        };
+        desc.what = what;
+        desc.mesh_a = mesh.map_or(sys::VOX_NULL_MESH, Mesh::id);
+        desc.mesh_b = other.map_or(sys::VOX_NULL_MESH, Mesh::id);
+        check(unsafe { sys::vox_grid_prepare_readings_of(self.get_mut(), &desc) })
+    }
+
+    /// The readings prepared since the last step.
+    pub fn readings(&self) -> Result<View<'_, Reading>> {
+        unsafe {
+            let mut view: sys::vox_reading_view = std::mem::zeroed();
+            check(sys::vox_grid_readings(self.get(), &mut view))?;
+            Ok(View::new(view.data, view.byte_stride, view.count))
+        }
+    }
+
+    /// Their depths and directions in double.
+    pub fn reading_depths(&self) -> Result<View<'_, Depth>> {
+        unsafe {
+            let mut view: sys::vox_depth_view = std::mem::zeroed();
+            check(sys::vox_grid_reading_depths(self.get(), &mut view))?;
+            Ok(View::new(view.data, view.byte_stride, view.count))
+        }
+    }
+
+    /// The prepared readings of the contacts in which a mesh takes part, copied.
+    pub fn readings_of(&self, mesh: Mesh) -> Result<Vec<Reading>> {
+        copy_all(|readings, capacity, count| unsafe {
+            sys::vox_mesh_copy_readings(self.get(), mesh.0, readings, capacity, count)
+        })
+    }
+
+    /// The prepared readings of the contacts between two meshes, copied.
+    pub fn readings_between(&self, a: Mesh, b: Mesh) -> Result<Vec<Reading>> {
+        copy_all(|readings, capacity, count| unsafe {
+            sys::vox_pair_copy_readings(self.get(), a.0, b.0, readings, capacity, count)
+        })
+    }
+
+    // ---- queries and suggestions ----
+
+    /// Copies the present positions for the [`Queries`](crate::Queries) of this grid.
+    pub fn prepare_queries(&mut self) -> Result<()> {
+        check(unsafe { sys::vox_grid_prepare_queries(self.get_mut()) })
+    }
+
+    /// A view of the meshes as they are now, which other threads may ask while this grid steps.
+    pub fn take_query_view(&mut self) -> Result<QueryView> {
+        let mut view = null_mut();
+        check(unsafe { sys::vox_grid_take_query_view(self.get_mut(), &mut view) })?;
+        Ok(QueryView::new(NonNull::new(view).expect("a view")))
+    }
+
+    pub(crate) fn raw(&self) -> *const sys::vox_grid {
+        self.get()
+    }
+
+    /// The cell size that minimises the cost model for the meshes of this grid. Without options, that of its engine.
+    pub fn suggest_cell_size(&self, options: Option<SuggestOptions>) -> Result<Suggestion> {
+        Suggestion::ask(options, |desc, out| unsafe { sys::vox_grid_suggest_cell_size(self.get(), desc, out) })
+    }
+}
+
+fn check_length(name: &str, length: usize, expected: usize) -> Result<()> {
+    if length == expected {
+        return Ok(());
+    }
+    Err(Error::new(ErrorCode::InvalidArgument, format!("{name} has {length} elements, expected {expected}")))
+}
+
+fn check_format<T: Scalar>(info: &sys::vox_mesh_info) -> Result<()> {
+    if info.position_format == T::FORMAT {
+        return Ok(());
+    }
+    let name = |format| if format == sys::VOX_FORMAT_DOUBLE3 { "f64" } else { "f32" };
+    Err(Error::new(
+        ErrorCode::InvalidArgument,
+        format!("positions of the mesh are {}, asked for as {}", name(info.position_format), name(T::FORMAT)),
+    ))
+}
+
+/// Steps many grids, several at the same time, on `workers` threads (0: one per core). For many small scenes that have
+/// nothing to do with each other. If grids fail, the others are stepped nevertheless: the error is that of the first of
+/// them, its text begins with its index, and the codes tell the others (empty if no grid was stepped).
+pub fn step_grids(grids: &mut [Grid], workers: u32) -> std::result::Result<(), (Error, Vec<Option<ErrorCode>>)> {
+    const NOT_STEPPED: i32 = i32::MIN;
+    let pointers: Vec<*mut sys::vox_grid> = grids.iter_mut().map(Grid::get_mut).collect();
+    let mut results = vec![NOT_STEPPED; grids.len()];
+    // SAFETY: exclusively borrowed, and therefore different, grids.
+    let all = unsafe {
+        sys::vox_grids_step(pointer(&pointers), pointers.len() as u64, null(), workers, results.as_mut_ptr())
+    };
+    check(all).map_err(|error| {
+        results.retain(|&result| result != NOT_STEPPED);
+        (error, results.into_iter().map(|result| (result != sys::VOX_OK).then(|| ErrorCode::of(result))).collect())
+    })
+}

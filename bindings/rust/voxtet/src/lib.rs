@@ -1,0 +1,94 @@
+#![doc = include_str!("../README.md")]
+#![warn(missing_docs)]
+
+mod callbacks;
+mod cell_size;
+mod error;
+mod grid;
+#[cfg(feature = "io")]
+pub mod io;
+mod options;
+mod query;
+mod view;
+
+pub use callbacks::{LogLevel, TaskSystem};
+pub use cell_size::{
+    calibrate, minimise, predict, set_weights, suggest_cell_size, weights, zone_distance, CostModel, MeshArrays,
+    Minimum, Prediction, SuggestOptions, Suggestion,
+};
+pub use error::{Error, ErrorCode, Result};
+pub use grid::{step_grids, Counters, Failure, Grid, MeshInfo, Profile};
+pub use options::{Engine, Filter, GridOptions, Mesh, MeshOptions, Storage};
+pub use query::{Queries, QueryView};
+pub use view::{Contacts, Events, Pairs, View};
+
+#[cfg(feature = "rayon")]
+pub use callbacks::RayonTasks;
+
+pub use voxtet_sys as sys;
+
+/// A vertex inside a tetrahedron; see `vox_contact` in vox.h.
+pub type Contact = sys::vox_contact;
+/// How deep a vertex is and which way leads out. `state` is one of the constants in [`penetration_state`].
+pub type Penetration = sys::vox_penetration;
+/// Depth and direction in double.
+pub type Depth = sys::vox_depth;
+/// Two meshes that touch.
+pub type Pair = sys::vox_pair;
+/// A pair of meshes began to touch, still does, or ended. `kind` is one of the constants in [`touch`].
+pub type TouchEvent = sys::vox_touch_event;
+/// A vertex entered or left a mesh.
+pub type ContactEvent = sys::vox_contact_event;
+/// Geometry of a contact: where the vertex is, the closest part of the surface, how deep it is.
+pub type Reading = sys::vox_reading;
+/// A point in a tetrahedron.
+pub type PointHit = sys::vox_point_hit;
+/// A tetrahedron.
+pub type TetHit = sys::vox_tet_hit;
+/// The closest point of a surface.
+pub type SurfaceHit = sys::vox_surface_hit;
+/// The closest point of a surface, with a normal and a sign.
+pub type ClosestHit = sys::vox_closest_hit;
+/// What a segment hits first.
+pub type RayHit = sys::vox_ray_hit;
+/// A facet that a segment hits.
+pub type FacetHit = sys::vox_facet_hit;
+/// Lengths, areas, volumes and counts of meshes.
+pub type GeometryStats = sys::vox_geometry_stats;
+/// The weights of the cost models, in nanoseconds.
+pub type CostWeights = sys::vox_cost_weights;
+
+/// Values of [`Penetration::state`].
+pub mod penetration_state {
+    pub use voxtet_sys::{
+        VOX_PENETRATION_COINCIDENT as COINCIDENT, VOX_PENETRATION_CROSSING as CROSSING,
+        VOX_PENETRATION_ENCLOSED as ENCLOSED, VOX_PENETRATION_PROPAGATED as PROPAGATED,
+        VOX_PENETRATION_SURFACE as SURFACE, VOX_PENETRATION_UNKNOWN as UNKNOWN,
+    };
+}
+
+/// Values of [`TouchEvent::kind`] and [`ContactEvent::kind`].
+pub mod touch {
+    pub use voxtet_sys::{VOX_TOUCH_BEGAN as BEGAN, VOX_TOUCH_ENDED as ENDED, VOX_TOUCH_PERSISTED as PERSISTED};
+}
+
+/// Parts of a [`Reading`], for [`Grid::prepare_readings`] and [`Reading::known`](sys::vox_reading::known).
+pub mod reading {
+    pub use voxtet_sys::{
+        VOX_READING_DEPTH as DEPTH, VOX_READING_POSITION as POSITION, VOX_READING_SURFACE as SURFACE,
+    };
+    /// All of them.
+    pub const ALL: u32 = POSITION | SURFACE | DEPTH;
+}
+
+/// Version of the C library that is linked, as "major.minor.patch".
+pub fn version() -> &'static str {
+    // SAFETY: static text, zero-terminated and ASCII.
+    unsafe { std::ffi::CStr::from_ptr(sys::vox_version_string()) }.to_str().unwrap_or("")
+}
+
+/// Compiler, instruction sets and options of that library.
+pub fn build_info() -> &'static str {
+    // SAFETY: as above.
+    unsafe { std::ffi::CStr::from_ptr(sys::vox_build_info()) }.to_str().unwrap_or("")
+}

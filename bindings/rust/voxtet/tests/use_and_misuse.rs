@@ -1,0 +1,347 @@
+//! What a user may do wrong, and what threads may do at once.
+
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use voxtet::*;
+
+const TET: [[u32; 4]; 1] = [[0, 1, 2, 3]];
+const UNIT: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// A block of n^3 cubes with edge 1, five tetrahedra each, moved by `x`.
+fn block(n: u32, x: f32) -> (Vec<[f32; 3]>, Vec<[u32; 4]>) {
+    let m = n + 1;
+    let positions = (0..m * m * m).map(|v| [x + (v % m) as f32, (v / m % m) as f32, (v / m / m) as f32]).collect();
+    let mut tets = Vec::new();
+    for c in 0..n * n * n {
+        let (i, j, k) = (c % n, c / n % n, c / n / n);
+        let corner = |d: u32| (i + (d & 1)) + m * (j + (d >> 1 & 1)) + m * m * (k + (d >> 2));
+        let cut: [[u32; 4]; 5] = if (i + j + k) % 2 == 0 {
+            [[0, 1, 2, 4], [3, 2, 1, 7], [5, 4, 7, 1], [6, 7, 4, 2], [1, 2, 4, 7]]
+        } else {
+            [[1, 3, 0, 5], [2, 0, 3, 6], [4, 6, 5, 0], [7, 5, 6, 3], [0, 5, 3, 6]]
+        };
+        tets.extend(cut.map(|tet| tet.map(corner)));
+    }
+    (positions, tets)
+}
+
+/// Two blocks of n^3 cubes, of which half is in the other.
+fn blocks_of(n: u32, options: GridOptions) -> (Grid, Mesh, Mesh) {
+    let mut grid = Grid::with_options(options).unwrap();
+    let (positions, tets) = block(n, 0.0);
+    let a = grid.add(&positions, &tets).unwrap();
+    let (positions, tets) = block(n, n as f32 / 2.0 + 0.3);
+    let b = grid.add(&positions, &tets).unwrap();
+    (grid, a, b)
+}
+
+fn two_blocks(options: GridOptions) -> (Grid, Mesh, Mesh) {
+    blocks_of(6, options)
+}
+
+fn code<T>(result: Result<T>) -> ErrorCode {
+    result.err().expect("a failure").code()
+}
+
+#[test]
+fn errors() {
+    let mut grid = Grid::new().unwrap();
+    let mesh = grid.add(&UNIT, &TET).unwrap();
+    let error = grid.add(&UNIT, &[[0, 1, 2, 4]]).unwrap_err();
+    assert_eq!(error.code(), ErrorCode::InvalidMesh);
+    assert!(error.to_string().contains("names vertex 4 of 4"), "{error}");
+    assert_eq!(
+        code(Grid::with_options(GridOptions { cell_size: -1.0, ..GridOptions::default() })),
+        ErrorCode::InvalidArgument
+    );
+    assert_eq!(code(Grid::with_options(GridOptions { byte_budget: 10, ..GridOptions::default() })), ErrorCode::Budget);
+    assert_eq!(code(Grid::load(b"no snapshot", GridOptions::default())), ErrorCode::Format);
+    assert_eq!(code(grid.positions::<f64>(mesh)), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.positions_mut::<f64>(mesh)), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.readings()), ErrorCode::InvalidState);
+    assert_eq!(code(grid.contact_events()), ErrorCode::InvalidState);
+    assert_eq!(code(grid.point([0.0; 3], u64::MAX)), ErrorCode::InvalidState);
+    assert_eq!(code(grid.replace_tets(mesh, &[0], &[])), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.remove_tets(mesh, &[1])), ErrorCode::InvalidArgument);
+    let options = MeshOptions { rest_positions: Some(&UNIT[..3]), ..MeshOptions::default() };
+    assert_eq!(code(grid.add_with(&UNIT, &TET, options)), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.append_vertices(mesh, &[[0.0f64; 3]])), ErrorCode::InvalidArgument);
+    grid.positions_mut(mesh).unwrap()[1][2] = f32::NAN;
+    let error = grid.step().unwrap_err();
+    assert_eq!(error.code(), ErrorCode::NonFinite);
+    assert!(error.to_string().contains("vertex 1"), "{error}");
+    assert_eq!(grid.failures()[0].mesh, mesh);
+    grid.positions_mut(mesh).unwrap()[1][2] = 0.0f32;
+    grid.step().unwrap();
+    assert!(grid.failures().is_empty());
+    grid.remove(mesh).unwrap();
+    for result in
+        [grid.remove(mesh), grid.set_enabled(mesh, false), grid.info(mesh).map(drop), grid.tets(mesh).map(drop)]
+    {
+        assert_eq!(result.unwrap_err().code(), ErrorCode::InvalidHandle);
+    }
+    assert!(!grid.contains(mesh));
+}
+
+#[test]
+fn empty_arrays() {
+    let mut grid = Grid::new().unwrap();
+    let none: [[f32; 3]; 0] = [];
+    let mesh = grid.add(&none, &[]).unwrap();
+    assert_eq!(grid.positions::<f32>(mesh).unwrap().len(), 0);
+    assert_eq!(grid.positions_mut::<f32>(mesh).unwrap().len(), 0);
+    assert!(grid.tets(mesh).unwrap().is_empty());
+    grid.step().unwrap();
+    assert_eq!(grid.contacts().as_slice(), Some(&[][..]));
+    assert_eq!(grid.contacts().iter().count(), 0);
+    assert!(grid.pairs().is_empty());
+    grid.prepare_queries().unwrap();
+    assert!(grid.points(&none, u64::MAX).unwrap().is_empty());
+    assert!(grid.closest_points(&none, 1.0, u64::MAX, None).unwrap().is_empty());
+    assert_eq!(grid.append_vertices(mesh, &UNIT).unwrap(), 0);
+    assert_eq!(grid.append_tets(mesh, &TET).unwrap(), 0);
+    assert_eq!(grid.positions::<f32>(mesh).unwrap(), &UNIT);
+    grid.step().unwrap();
+    step_grids(&mut [], 2).unwrap();
+}
+
+#[test]
+fn views() {
+    let (mut grid, a, b) = two_blocks(GridOptions::default());
+    grid.step().unwrap();
+    let kept = grid.contacts().to_vec();
+    assert!(kept.len() > 100);
+    assert_eq!(grid.contacts().get(kept.len()), None);
+    assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| grid.contacts()[kept.len()])).is_err());
+    assert_eq!(grid.contacts_of(a).unwrap().len(), kept.len());
+    assert_eq!(grid.contacts_between(b, a).unwrap().len(), kept.len());
+    grid.prepare_readings_of(reading::POSITION | reading::DEPTH, a, Some(b)).unwrap();
+    assert_eq!(grid.readings_between(a, b).unwrap().len(), kept.len());
+    assert_eq!(grid.readings_of(b).unwrap().len(), grid.reading_depths().unwrap().len());
+    for p in grid.positions_mut::<f32>(b).unwrap() {
+        p[0] += 100.0;
+    }
+    grid.step().unwrap();
+    assert!(grid.contacts().is_empty());
+    assert_eq!(grid.touch_events().ended().len(), 1);
+    assert!(kept.iter().all(|contact| contact.mesh_a == a || contact.mesh_a == b));
+    assert_eq!(grid.counters().contacts, 0);
+    assert!(grid.profile().step_ns > 0);
+}
+
+#[test]
+fn threads_read_one_grid() {
+    let (mut grid, ..) = two_blocks(GridOptions { workers: 0, ..GridOptions::default() });
+    grid.step().unwrap();
+    grid.prepare_queries().unwrap();
+    let (grid, hash) = (&grid, grid.hash());
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(move || {
+                for _ in 0..50 {
+                    assert_eq!(grid.hash(), hash);
+                    assert!(!grid.contacts().is_empty());
+                    assert_eq!(grid.point([4.5, 2.25, 3.125], u64::MAX).unwrap().len(), 2);
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn a_view_outlives_its_grid() {
+    let (mut grid, a, _) = two_blocks(GridOptions::default());
+    let view = grid.take_query_view().unwrap();
+    let asking = view.clone();
+    let thread = std::thread::spawn(move || {
+        (0..200).map(|_| asking.point([4.5, 2.25, 3.125], u64::MAX).unwrap().len()).sum::<usize>()
+    });
+    for _ in 0..5 {
+        for p in grid.positions_mut::<f32>(a).unwrap() {
+            p[2] += 0.01;
+        }
+        grid.step().unwrap();
+    }
+    drop(grid);
+    assert_eq!(thread.join().unwrap(), 400);
+    assert_eq!(view.user_data(a).unwrap(), 0);
+    assert!(view.ray_any([-1.0, 2.5, 2.5], [2.0, 2.5, 2.5], u64::MAX, None).unwrap());
+}
+
+#[test]
+fn the_log() {
+    let lines = Arc::new(Mutex::new(Vec::new()));
+    let sink = Arc::clone(&lines);
+    let mut grid = Grid::with_options(GridOptions {
+        log: Some(Box::new(move |level, text| {
+            sink.lock().unwrap().push((level, text.to_owned()));
+            panic!("of a log");
+        })),
+        ..GridOptions::default()
+    })
+    .unwrap();
+    grid.add(&UNIT, &[]).unwrap(); // edges and faces collide with nothing
+    let lines = lines.lock();
+    let lines = lines.unwrap_or_else(std::sync::PoisonError::into_inner);
+    assert_eq!(lines.len(), 1);
+    assert_eq!(lines[0].0, LogLevel::Warning);
+}
+
+struct Threads {
+    defect: u32,
+    ranges: AtomicUsize,
+}
+
+impl TaskSystem for Threads {
+    fn workers(&self) -> u32 {
+        3
+    }
+
+    fn run(&self, items: u64, min_range: u64, task: &(dyn Fn(std::ops::Range<u64>, u32) + Sync)) {
+        let next = AtomicU64::new(u64::from(self.defect == 1)); // 1: loses the first item
+        let size = min_range.max(1);
+        std::thread::scope(|scope| {
+            for worker in 0..3 {
+                let next = &next;
+                scope.spawn(move || loop {
+                    let begin = next.fetch_add(size, Ordering::Relaxed);
+                    if begin >= items {
+                        break;
+                    }
+                    self.ranges.fetch_add(1, Ordering::Relaxed);
+                    task(begin..items.min(begin + size), if self.defect == 2 { 7 } else { worker });
+                });
+            }
+        });
+        assert!(self.defect != 3, "of a task system");
+    }
+}
+
+#[test]
+fn task_systems() {
+    let (mut serial, ..) = blocks_of(24, GridOptions::default());
+    serial.step().unwrap();
+    for defect in 0..4 {
+        let tasks = Arc::new(Threads { defect, ranges: AtomicUsize::new(0) });
+        let (mut grid, ..) = blocks_of(24, GridOptions { tasks: Some(tasks.clone()), ..GridOptions::default() });
+        let result = grid.step();
+        assert!(tasks.ranges.load(Ordering::Relaxed) > 0);
+        match defect {
+            1 | 2 => assert_eq!(code(result), ErrorCode::InvalidArgument),
+            _ => {
+                result.unwrap(); // all items were run before the panic
+                assert_eq!(grid.hash(), serial.hash());
+            }
+        }
+    }
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn rayon_tasks() {
+    let (mut serial, ..) = blocks_of(24, GridOptions::default());
+    serial.step().unwrap();
+    let (mut grid, ..) = blocks_of(24, GridOptions { tasks: Some(Arc::new(RayonTasks)), ..GridOptions::default() });
+    grid.step().unwrap();
+    assert_eq!(grid.hash(), serial.hash());
+}
+
+#[test]
+fn many_grids() {
+    let mut grids: Vec<Grid> = (0..20).map(|_| two_blocks(GridOptions::default()).0).collect();
+    step_grids(&mut grids, 2).unwrap();
+    assert!(grids.iter().all(|grid| grid.hash() == grids[0].hash() && !grid.contacts().is_empty()));
+    let mesh = grids[7].meshes()[0];
+    grids[7].positions_mut(mesh).unwrap()[3][0] = f32::INFINITY;
+    let (error, codes) = step_grids(&mut grids, 0).unwrap_err();
+    assert!(error.to_string().starts_with("grid 7: "), "{error}");
+    assert_eq!(codes.iter().filter(|code| code.is_some()).count(), 1);
+    assert_eq!(codes[7], Some(ErrorCode::NonFinite));
+    let (error, codes) = step_grids(&mut grids, 1000).unwrap_err();
+    assert_eq!(error.code(), ErrorCode::InvalidArgument);
+    assert!(codes.is_empty());
+}
+
+#[test]
+fn cell_sizes() {
+    let (positions, tets) = block(4, 0.0);
+    let meshes = [MeshArrays::new(&positions, &tets).with_self_collision()];
+    let suggestion = suggest_cell_size(&meshes, SuggestOptions::default()).unwrap();
+    let (low, high) = suggestion.zone();
+    assert!(low < suggestion.cell_size() && suggestion.cell_size() < high);
+    assert!(suggestion.terms().all(|(name, ..)| !name.is_empty()));
+    let prediction = predict(&meshes, suggestion.cell_size(), SuggestOptions::default()).unwrap();
+    assert!((prediction.cost / suggestion.predicted_cost() - 1.0).abs() < 1e-6);
+    assert_eq!(code(predict(&meshes, 0.0, SuggestOptions::default())), ErrorCode::InvalidArgument);
+    assert_eq!(code(suggest_cell_size(&[], SuggestOptions::default())), ErrorCode::InvalidArgument);
+    let least = minimise(|x| (x - 2.0).powi(2) + 1.0, 0.1, 10.0, 0.05).unwrap();
+    assert!((least.cell_size - 2.0).abs() < 1e-3 && (least.cost - 1.0).abs() < 1e-6);
+    assert!(std::panic::catch_unwind(|| minimise(|_| panic!("of a cost"), 0.1, 10.0, 0.05)).is_err());
+    assert_eq!(zone_distance(3.0, 1.0, 3.0, 9.0).unwrap(), 0.0);
+    let saved = weights().unwrap();
+    set_weights(Some(&saved)).unwrap();
+    assert_eq!(weights().unwrap(), saved);
+    set_weights(None).unwrap();
+    let (grid, ..) = two_blocks(GridOptions::default());
+    assert!(grid.suggest_cell_size(None).unwrap().cell_size() > 0.0);
+}
+
+/// Calls with arguments at random: each succeeds or fails with a text, and the grid still steps.
+#[test]
+fn anything_goes() {
+    let mut state = 1u64;
+    let mut random = move |below: u64| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) % below
+    };
+    let (mut grid, ..) = two_blocks(GridOptions::default());
+    let (mut refused, mut done) = (0, 0);
+    for _ in 0..3000 {
+        let mesh = match random(4) {
+            0 => Mesh::from_id(random(1 << 32) as u32),
+            _ => {
+                let meshes = grid.meshes();
+                meshes.get(random(meshes.len() as u64 + 1) as usize).copied().unwrap_or(Mesh::from_id(0))
+            }
+        };
+        let list: Vec<u32> = (0..random(4)).map(|_| random(1500) as u32).collect();
+        let corners: Vec<[u32; 4]> = list.iter().map(|_| [0; 4].map(|_| random(345) as u32)).collect();
+        let number = [0.0, 1.5, -2.0, 1e300, f64::NAN, f64::INFINITY][random(6) as usize];
+        let result = match random(18) {
+            0 => grid.remove_tets(mesh, &list),
+            1 => grid.set_tets_enabled(mesh, &list, random(2) == 0),
+            2 => grid.replace_tets(mesh, &list, &corners),
+            3 => grid.append_tets(mesh, &corners).map(drop),
+            4 => grid.append_copies(mesh, &list).map(drop),
+            5 => grid.remove_vertices(mesh, &list),
+            6 => grid.set_transform(mesh, Some(&[number; 12])),
+            7 => grid.set_transform(mesh, None),
+            8 => grid.set_cell_size(number),
+            9 => grid.set_pair_enabled(mesh, Mesh::from_id(random(9000) as u32), random(2) == 0),
+            10 => {
+                let mask = u64::MAX >> random(64);
+                let self_rings = random(3) as u32;
+                grid.set_filter(mesh, Filter { mask, self_collision: random(2) == 0, self_rings, ..Filter::default() })
+            }
+            11 => grid.set_enabled(mesh, random(2) == 0),
+            12 => grid.set_flags(random(2) == 0, random(2) == 0, random(2) == 0),
+            13 if random(9) == 0 => grid.remove(mesh),
+            14 if grid.meshes().len() < 4 => {
+                let (positions, tets) = block(3, random(40) as f32 / 10.0);
+                grid.add(&positions, &tets).map(drop)
+            }
+            15 => grid.prepare_queries().and_then(|()| grid.point([number; 3], u64::MAX).map(drop)),
+            16 => grid.prepare_readings(random(9) as u32).and_then(|()| grid.readings().map(drop)),
+            _ => grid.step(),
+        };
+        match result {
+            Ok(()) => done += 1,
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+                assert_ne!(error.code(), ErrorCode::Internal, "{error}");
+            }
+        }
+    }
+    assert!(refused > 300 && done > 300, "{refused} refused, {done} done");
+}

@@ -1,0 +1,319 @@
+//! Replays bindings/vectors: the same results as in every other language.
+
+use serde_json::Value;
+use std::path::PathBuf;
+use voxtet::{
+    suggest_cell_size, CostModel, Filter, Grid, GridOptions, Mesh, MeshArrays, MeshOptions, Queries, SuggestOptions,
+};
+
+fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
+    // Plain C structs without gaps: all of their bytes are set.
+    unsafe { std::slice::from_raw_parts(items.as_ptr().cast(), std::mem::size_of_val(items)) }
+}
+
+fn hash_words(bytes: &[u8]) -> String {
+    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for chunk in bytes.chunks(4) {
+        let mut word = [0; 4];
+        word[..chunk.len()].copy_from_slice(chunk);
+        let word = match u32::from_le_bytes(word) {
+            0x8000_0000 => 0,
+            word => word,
+        };
+        hash = (hash ^ u64::from(word)).wrapping_mul(0x100_0000_01b3);
+    }
+    format!("{hash:016x}")
+}
+
+fn summary<T: Copy>(items: &[T]) -> Value {
+    serde_json::json!([items.len(), hash_words(bytes_of(items))])
+}
+
+struct Replay {
+    arrays: Vec<u8>,
+    grid: Grid,
+    scene: String,
+}
+
+impl Replay {
+    fn array<const N: usize, T: Copy>(
+        &self,
+        call: &Value,
+        name: &str,
+        count: &str,
+        read: fn(&[u8]) -> T,
+    ) -> Vec<[T; N]> {
+        let count = call[count].as_u64().unwrap() as usize;
+        self.array_at(call[name].as_u64().unwrap() as usize, count, read)
+    }
+
+    fn array_at<const N: usize, T: Copy>(&self, offset: usize, count: usize, read: fn(&[u8]) -> T) -> Vec<[T; N]> {
+        let size = std::mem::size_of::<T>();
+        self.arrays[offset..offset + N * size * count]
+            .chunks(N * size)
+            .map(|record| std::array::from_fn(|i| read(&record[i * size..(i + 1) * size])))
+            .collect()
+    }
+
+    fn indices(&self, call: &Value, name: &str) -> Vec<u32> {
+        self.array::<1, u32>(call, name, "count", u32_of).into_iter().flatten().collect()
+    }
+
+    fn run(&mut self, call: &Value) {
+        let name = call["call"].as_str().unwrap();
+        let result = self.make(name, call);
+        let place = format!("{}: {call}", self.scene);
+        match call.get("fails") {
+            Some(code) => {
+                let error = result.expect_err(&place);
+                assert_eq!(i64::from(error.code().number()), code.as_i64().unwrap(), "{place}");
+                assert_eq!(error.to_string(), call["text"], "{place}");
+            }
+            None => result.unwrap_or_else(|error| panic!("{place}: {error}")),
+        }
+    }
+
+    fn check(&self, call: &Value, name: &str, found: Value) {
+        assert_eq!(found, call[name], "{}: {name} of {call}", self.scene);
+    }
+
+    fn make(&mut self, name: &str, call: &Value) -> voxtet::Result<()> {
+        let mesh = Mesh::from_id(call["mesh"].as_u64().unwrap_or(0) as u32);
+        let point = |name: &str| std::array::from_fn(|i| call[name][i].as_f64().unwrap());
+        match name {
+            "create" => {
+                let flags = call["flags"].as_u64().unwrap();
+                self.grid = Grid::with_options(GridOptions {
+                    cell_size: call["cell_size"].as_f64().unwrap(),
+                    penetrations: flags & 1 != 0,
+                    contact_events: flags & 2 != 0,
+                    ..GridOptions::default()
+                })?;
+            }
+            "insert" => {
+                let tets = self.array(call, "tets", "tet_count", u32_of);
+                let user_data = number(&call["user_data"]);
+                let filter = call.get("filter").map_or(Filter::default(), filter_of);
+                let found = if call["format"] == 1 {
+                    let positions = self.array(call, "positions", "vertices", f64_of);
+                    self.grid.add_with(&positions, &tets, MeshOptions { user_data, filter, rest_positions: None })?
+                } else {
+                    let positions = self.array(call, "positions", "vertices", f32_of);
+                    self.grid.add_with(&positions, &tets, MeshOptions { user_data, filter, rest_positions: None })?
+                };
+                assert_eq!(found, mesh, "{call}");
+            }
+            "move" => {
+                if call["format"] == 1 {
+                    let positions = self.array(call, "positions", "vertices", f64_of);
+                    self.grid.positions_mut(mesh)?.copy_from_slice(&positions);
+                } else {
+                    let positions = self.array(call, "positions", "vertices", f32_of);
+                    self.grid.positions_mut(mesh)?.copy_from_slice(&positions);
+                }
+            }
+            "step" => self.grid.step()?,
+            "results" => self.results(call),
+            "readings" => {
+                self.grid.prepare_readings(voxtet::reading::ALL)?;
+                self.check(call, "readings", summary(self.grid.readings()?.as_slice().unwrap()));
+            }
+            "prepare_queries" => self.grid.prepare_queries()?,
+            "query_points" => {
+                let points: Vec<[f64; 3]> = self.array(call, "points", "count", f64_of);
+                self.check(call, "hits", summary(&self.grid.points(&points, u64::MAX)?));
+                let view = self.grid.take_query_view()?;
+                self.check(call, "hits", summary(&view.points(&points, u64::MAX)?));
+            }
+            "query_closest_points" => {
+                let points: Vec<[f64; 3]> = self.array(call, "points", "count", f64_of);
+                let hits = self.grid.closest_points(&points, f64::INFINITY, u64::MAX, None)?;
+                self.check(call, "hits", summary(&hits));
+            }
+            "query_ray" => self.check(call, "hits", summary(&[self.grid.ray(point("from"), point("to"), u64::MAX)?])),
+            "query_ray_hits" => {
+                let hits = self.grid.ray_hits(point("from"), point("to"), u64::MAX, None)?;
+                self.check(call, "hits", summary(&hits));
+            }
+            "query_box" => {
+                self.check(call, "hits", summary(&self.grid.in_box(point("min"), point("max"), u64::MAX)?));
+            }
+            "meshes" => self.meshes(call),
+            "set_transform" => {
+                let offset = call["matrix"].as_u64().unwrap() as usize;
+                let matrix: [f64; 12] = self.array_at(offset, 1, f64_of)[0];
+                self.grid.set_transform(mesh, Some(&matrix))?;
+            }
+            "set_filter" => self.grid.set_filter(mesh, filter_of(&call["filter"]))?,
+            "set_enabled" => self.grid.set_enabled(mesh, call["enabled"] == 1)?,
+            "set_pair_enabled" => {
+                let pair = ["mesh_a", "mesh_b"].map(|name| Mesh::from_id(call[name].as_u64().unwrap() as u32));
+                self.grid.set_pair_enabled(pair[0], pair[1], call["enabled"] == 1)?;
+            }
+            "set_flags" => {
+                let flags = call["flags"].as_u64().unwrap();
+                self.grid.set_flags(flags & 1 != 0, flags & 2 != 0, flags & 4 != 0)?;
+            }
+            "remove" => self.grid.remove(mesh)?,
+            "clear" => self.grid.clear()?,
+            "set_tets_enabled" => {
+                self.grid.set_tets_enabled(mesh, &self.indices(call, "indices"), call["enabled"] == 1)?;
+            }
+            "remove_tets" => self.grid.remove_tets(mesh, &self.indices(call, "indices"))?,
+            "append_copies" => {
+                let first = self.grid.append_copies(mesh, &self.indices(call, "copies_of"))?;
+                self.check(call, "first", first.into());
+            }
+            "replace_tets" => {
+                let corners: Vec<[u32; 4]> = self.array(call, "corners", "count", u32_of);
+                self.grid.replace_tets(mesh, &self.indices(call, "indices"), &corners)?;
+            }
+            "append_tets" => {
+                let corners: Vec<[u32; 4]> = self.array(call, "corners", "count", u32_of);
+                let first = self.grid.append_tets(mesh, &corners)?;
+                self.check(call, "first", first.into());
+            }
+            "save" => {
+                let bytes = self.grid.save()?;
+                self.check(call, "size", bytes.len().into());
+                self.check(call, "hash", hash_words(&bytes).into());
+            }
+            "load" => {
+                let offset = call["bytes"].as_u64().unwrap() as usize;
+                let bytes = &self.arrays[offset..offset + call["size"].as_u64().unwrap() as usize];
+                self.grid = Grid::load(bytes, GridOptions::default())?;
+            }
+            "suggest" => self.suggest(call)?,
+            other => panic!("a call that is not known: {other}"),
+        }
+        Ok(())
+    }
+
+    fn results(&self, call: &Value) {
+        let grid = &self.grid;
+        self.check(call, "hash", format!("{:016x}", grid.hash()).into());
+        self.check(call, "epoch", grid.epoch().into());
+        self.check(call, "contacts", summary(grid.contacts().as_slice().unwrap()));
+        self.check(call, "interior", grid.interiors().iter().map(|&i| u64::from(i)).sum::<u64>().into());
+        let pairs = grid.pairs();
+        self.check(call, "pairs", summary(pairs.view().as_slice().unwrap()));
+        self.check(call, "pair_contacts", summary(pairs.contact_indices().as_slice().unwrap()));
+        assert_eq!(pairs.iter().map(|pair| pairs.contacts_of(pair).len()).sum::<usize>(), grid.contacts().len());
+        let touches = grid.touch_events();
+        self.check(call, "touches", summary(touches.all().as_slice().unwrap()));
+        let counts = [touches.began().len(), touches.persisted().len(), touches.ended().len()];
+        self.check(call, "touches_began_persisted_ended", counts.to_vec().into());
+        if call.get("penetrations").is_some() {
+            self.check(call, "penetrations", summary(grid.penetrations().unwrap().as_slice().unwrap()));
+            self.check(call, "depths", summary(grid.depths().unwrap().as_slice().unwrap()));
+        } else {
+            assert!(grid.penetrations().is_err());
+        }
+        if call.get("contact_events").is_some() {
+            let events = grid.contact_events().unwrap();
+            self.check(call, "contact_events", summary(events.all().as_slice().unwrap()));
+            let counts = vec![events.began().len(), events.ended().len()];
+            self.check(call, "contact_events_began_ended", counts.into());
+        } else {
+            assert!(grid.contact_events().is_err());
+        }
+    }
+
+    fn meshes(&self, call: &Value) {
+        let found: Vec<Value> = self
+            .grid
+            .meshes()
+            .into_iter()
+            .map(|mesh| {
+                let info = self.grid.info(mesh).unwrap();
+                let self_collision = self.grid.filter(mesh).unwrap().self_collision;
+                serde_json::json!({
+                    "mesh": mesh.id(), "user_data": info.user_data.to_string(), "vertices": info.vertex_count,
+                    "tet_count": info.tet_count, "enabled_tets": info.enabled_tet_count,
+                    "enabled": u32::from(info.enabled), "flags": 2 + u32::from(self_collision),
+                    "format": u32::from(info.doubles), "tets": hash_words(bytes_of(&self.grid.tets(mesh).unwrap())),
+                })
+            })
+            .collect();
+        self.check(call, "meshes", found.into());
+    }
+
+    fn suggest(&self, call: &Value) -> voxtet::Result<()> {
+        let model = [CostModel::Paper, CostModel::Reference, CostModel::Fast][call["model"].as_u64().unwrap() as usize];
+        type Arrays = (Vec<[f32; 3]>, Vec<[u32; 4]>);
+        let arrays: Vec<Arrays> = call["meshes"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|mesh| {
+                (self.array(mesh, "positions", "vertices", f32_of), self.array(mesh, "tets", "tet_count", u32_of))
+            })
+            .collect();
+        let meshes: Vec<MeshArrays> = arrays.iter().map(|(p, t)| MeshArrays::new(p, t)).collect();
+        let found = suggest_cell_size(&meshes, SuggestOptions { model, ..SuggestOptions::default() })?;
+        let (zone_min, zone_max) = found.zone();
+        for (name, value) in [
+            ("cell_size", found.cell_size()),
+            ("zone_min", zone_min),
+            ("zone_max", zone_max),
+            ("predicted_cost", found.predicted_cost()),
+            ("mean_edge", found.stats().mean_edge),
+            ("curve_count", found.curve().len() as f64),
+        ] {
+            let expected = call[name].as_f64().unwrap();
+            assert!((value - expected).abs() <= 1e-6 * expected.abs(), "{name}: {value}, expected {expected}");
+        }
+        Ok(())
+    }
+}
+
+fn u32_of(bytes: &[u8]) -> u32 {
+    u32::from_le_bytes(bytes.try_into().unwrap())
+}
+
+fn f32_of(bytes: &[u8]) -> f32 {
+    f32::from_le_bytes(bytes.try_into().unwrap())
+}
+
+fn f64_of(bytes: &[u8]) -> f64 {
+    f64::from_le_bytes(bytes.try_into().unwrap())
+}
+
+fn number(value: &Value) -> u64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+fn filter_of(value: &Value) -> Filter {
+    Filter {
+        group: value["group"].as_i64().unwrap() as i32,
+        category: number(&value["category"]),
+        mask: number(&value["mask"]),
+        self_collision: value["self_collision"] == 1,
+        self_rings: value["self_rings"].as_u64().unwrap() as u32,
+        self_rest_distance: value["self_rest_distance"].as_f64().unwrap(),
+        penetration_mask: number(&value["penetration_mask"]),
+    }
+}
+
+/// Arguments that Rust's types rule out.
+fn cannot_be_written(call: &Value) -> bool {
+    let number = |name: &str| call[name].as_u64().unwrap_or(0);
+    number("enabled") > 1 || (call["call"] == "set_flags" && number("flags") > 7)
+}
+
+#[test]
+fn vectors() {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../vectors");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let script: Value = serde_json::from_slice(&read("vectors.json")).unwrap();
+    let mut replay = Replay { arrays: read("vectors.bin"), grid: Grid::new().unwrap(), scene: String::new() };
+    let mut calls = 0;
+    for scene in script["scenes"].as_array().unwrap() {
+        replay.scene = scene["name"].as_str().unwrap().to_owned();
+        for call in scene["calls"].as_array().unwrap().iter().filter(|call| !cannot_be_written(call)) {
+            replay.run(call);
+            calls += 1;
+        }
+    }
+    assert!(calls > 300, "{calls} calls");
+}
