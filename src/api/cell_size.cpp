@@ -153,7 +153,7 @@ vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_cou
                                    const vox_cost_bounds* bounds, vox_cost_minimum* out) {
     return border([&] {
         check_out_struct(out, "out");
-        require(terms, "terms");
+        if (term_count > 0) require(terms, "terms");
         for (std::uint64_t i = 0; i < term_count; ++i)
             if (!std::isfinite(terms[i].coefficient) || !std::isfinite(terms[i].power))
                 throw Error(VOX_ERROR_INVALID_ARGUMENT, format("term %" PRIu64 " is %g * size^%g", i,
