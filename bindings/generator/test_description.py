@@ -22,6 +22,8 @@ TEXTS = {name: describe.text_of(name) for name in describe.HEADERS}
 with open(os.path.join(BINDINGS, "api.json"), encoding="utf-8") as api_file:
     API = json.load(api_file)
 CLANG = next((c for c in (os.environ.get("VOX_CLANG"), shutil.which("clang"), shutil.which("clang-14")) if c), None)
+CLANG_ON_HEADERS = [CLANG, "-ffreestanding", "-nostdlibinc", "-std=c11", "-fsyntax-only", "-I",
+                    os.path.join(ROOT, "include"), "-x", "c", "-"]
 
 
 def type_texts(call):
@@ -124,15 +126,13 @@ class Clang(unittest.TestCase):
                 lines.append(f"_Static_assert(_Alignof({s['name']}) == {s['alignment'][model]}, \"\");")
                 lines += [f"_Static_assert(__builtin_offsetof({s['name']}, {f['name']}) == {f['offset'][model]}, \"\");"
                           for f in s["fields"]]
-            run = subprocess.run([CLANG, "--target=" + target, "-ffreestanding", "-nostdlibinc", "-std=c11", "-fsyntax-only",
-                                  "-I", os.path.join(ROOT, "include"), "-x", "c", "-"], input="\n".join(lines) + "\n",
-                                 text=True, stderr=subprocess.PIPE, check=False)
+            run = subprocess.run([*CLANG_ON_HEADERS, "--target=" + target], input="\n".join(lines) + "\n", text=True,
+                                 stderr=subprocess.PIPE, check=False)
             self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_names_types_and_values(self):
         source = "".join(f"#include <vox/{name}.h>\n" for name in describe.HEADERS)
-        run = subprocess.run([CLANG, "-ffreestanding", "-nostdlibinc", "-std=c11", "-fsyntax-only", "-Xclang",
-                              "-ast-dump=json", "-I", os.path.join(ROOT, "include"), "-x", "c", "-"], input=source, text=True,
+        run = subprocess.run([*CLANG_ON_HEADERS, "-Xclang", "-ast-dump=json"], input=source, text=True,
                              stdout=subprocess.PIPE, check=True)
         seen = set(clang_lines(json.loads(run.stdout)))
         self.assertEqual(seen ^ set(own_lines()), set())
@@ -212,11 +212,13 @@ class Faults(unittest.TestCase):
             ("VOX_ARRAY(size) const void* bytes", "VOX_ARRAY(size) const void* stuff", "stuff: what does this void*"),
             ("VOX_ARRAY(grid.contacts)", "VOX_ARRAY(grid.contact)", "there is no grid.contact"),
             ("VOX_UNTIL(epoch) const vox_pair* data", "const vox_pair* data", "data: how long is it valid?"),
-            ("VOX_UNTIL(epoch) const vox_pair* data", "VOX_UNTIL(grid_stop) const vox_pair* data", "no function and no event"),
+            ("VOX_UNTIL(epoch) const vox_pair* data", "VOX_UNTIL(grid_stop) const vox_pair* data",
+             "no function and no event"),
             ("VOX_API VOX_UNTIL(failure) const char*", "VOX_API const char*", "vox_last_error: how long is the result"),
             ('The same as "major.minor.patch". Static text.', 'The same as "major.minor.patch".',
              "vox_version_string: how long is the result"),
-            ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)", "no function releases a vox_grid"),
+            ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)",
+             "no function releases a vox_grid"),
             ("uint64_t fullest_cell;", "uint64_t fullness;", "fullness: a count, or bits?"),
             ("uint32_t flags; /* vox_grid_flags, combined", "uint32_t flags; /* of several kinds, combined", "which flags?"),
         ]:
@@ -236,9 +238,9 @@ class Faults(unittest.TestCase):
         everything = {"bindings/" + path for path in generate.files()}
         for old, new, without in [
             ("    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    float barycentric[4];",
-             "    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    double barycentric[4];", {"enums.d.ts", "exports.txt"}),
-            ("VOX_API vox_result vox_grid_clear(vox_grid* grid);", "VOX_API vox_result vox_grid_clear(vox_grid* grid, double rest);",
+             "    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    double barycentric[4];",
              {"enums.d.ts", "exports.txt"}),
+            ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);", {"enums.d.ts", "exports.txt"}),
             ("VOX_SIDE_LEAVES = 2,", "VOX_SIDE_LEAVES = 3,", {"exports.txt"}),
         ]:
             with self.subTest(new=new):

@@ -36,7 +36,8 @@ def python():
     for s in STRUCTS:
         here = getattr(_c, s["name"])
         assert ctypes.sizeof(here) == s["size"][model], s["name"]
-        assert [getattr(here, f["name"]).offset for f in s["fields"]] == [f["offset"][model] for f in s["fields"]], s["name"]
+        offsets = [getattr(here, f["name"]).offset for f in s["fields"]]
+        assert offsets == [f["offset"][model] for f in s["fields"]], s["name"]
     assert set(_c.dtypes) == whole_structs(API)
     for name, dtype in _c.dtypes.items():
         fields = next(s for s in STRUCTS if s["name"] == name)["fields"]

@@ -146,7 +146,7 @@ class CSharp:
                        f"{f['offset']['lp64']}, {f['offset']['wasm32']}));")
             yield "        }"
         yield ""
-        yield "        /// <summary>All structs and their fields. A program whose entries differ must not call the library.</summary>"
+        yield "        /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>"
         yield "        internal static List<LayoutEntry> Entries()"
         yield "        {"
         yield "            var entries = new List<LayoutEntry>();"
@@ -188,9 +188,10 @@ class CSharp:
             for f in part["functions"]:
                 yield ""
                 yield from self.summary(f["doc"], "        ")
-                yield f"        [DllImport({part['name']}, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]"
-                yield from wrapped(f"internal static extern {self.result(f['result'])} {f['name']}({self.parameters(f)});",
-                                   "        ", further=" " * 12)
+                yield (f"        [DllImport({part['name']}, CallingConvention = CallingConvention.Cdecl, "
+                       "ExactSpelling = true)]")
+                prototype = f"{self.result(f['result'])} {f['name']}({self.parameters(f)})"
+                yield from wrapped(f"internal static extern {prototype};", "        ", further=" " * 12)
         yield "    }"
 
     def text(self):

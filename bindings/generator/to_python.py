@@ -7,6 +7,25 @@ NUMBERS = {"uint8_t": "c_uint8", "char": "c_char", "int32_t": "c_int32", "uint32
 FORMATS = {"uint8_t": "u1", "int32_t": "i4", "uint32_t": "u4", "int64_t": "i8", "uint64_t": "u8", "float": "f4",
            "double": "f8"}
 
+BEGIN = """
+import enum
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t,
+                    c_uint8, c_uint32, c_uint64, c_void_p)
+
+from numpy import dtype
+""".split("\n")
+END = '''
+
+def declare(library, name, check=None):
+    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
+    of those in CHECKED."""
+    for function, (result, parameters) in FUNCTIONS[name].items():
+        found = getattr(library, function)
+        found.restype, found.argtypes = result, parameters
+        if check and function in CHECKED:
+            found.errcheck = check
+'''.split("\n")
+
 
 class Python:
     def __init__(self, api):
@@ -47,7 +66,8 @@ class Python:
         return "c_char_p" if self.text_pointer(t) else self.value(t)
 
     def function_type(self, call):
-        return "CFUNCTYPE(" + ", ".join([self.result(call["result"])] + [self.parameter(p) for p in call["parameters"]]) + ")"
+        types = [self.result(call["result"]), *(self.parameter(p) for p in call["parameters"])]
+        return f"CFUNCTYPE({', '.join(types)})"
 
     def field(self, f):
         if f["kind"] == "function":
@@ -89,15 +109,13 @@ class Python:
         yield ""
 
     def text(self):
-        lines = [f'"""{GENERATED}"""', "", "import enum",
-                 "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,",
-                 "                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)", "", "from numpy import dtype", ""]
+        lines = [f'"""{GENERATED}"""', *BEGIN]
         for c in sections(self.api, "constants"):
             lines.append(f"{c['name']} = {c['value']}")
         for e in sections(self.api, "enums"):
             lines += ["", "", f"class {pascal(e['name'])}(enum.{'IntFlag' if e['flags'] else 'IntEnum'}):"]
             lines += [f"    {name} = {value}" for name, value, _ in short_values(e)]
-        lines += ["", "", "# Of the structs that have no pointers: for arrays over the library's memory.", "dtypes = {}", "", ""]
+        lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.", "dtypes = {}", "", ""]
         for c in sections(self.api, "callbacks"):
             lines.append(f"{c['name']} = {self.function_type(c)}")
         lines.append("")
@@ -118,15 +136,7 @@ class Python:
         for f in sections(self.api, "functions"):
             if f["result"].get("base") == "vox_result":
                 lines.append(f'    "{f["name"]}",')
-        lines += ["}", "", "",
-                  "def declare(library, name, check=None):",
-                  '    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the',
-                  '    errcheck of those in CHECKED."""',
-                  "    for function, (result, parameters) in FUNCTIONS[name].items():",
-                  "        found = getattr(library, function)",
-                  "        found.restype, found.argtypes = result, parameters",
-                  "        if check and function in CHECKED:",
-                  "            found.errcheck = check", ""]
+        lines += ["}", *END]
         return "\n".join(lines)
 
 

@@ -67,7 +67,8 @@ class Rust:
             lines += ["", *wrapped(o["doc"], "/// "), "#[repr(C)]", f"pub struct {o['name']} {{", "    _data: [u8; 0],",
                       "    _marker: PhantomData<(*mut u8, PhantomPinned)>,", "}"]
         for c in sections(self.api, "callbacks"):
-            lines += ["", *wrapped(c["doc"], "/// "), "#[rustfmt::skip]", f"pub type {c['name']} = Option<{self.function(c)}>;"]
+            lines += ["", *wrapped(c["doc"], "/// "), "#[rustfmt::skip]"]
+            lines.append(f"pub type {c['name']} = Option<{self.function(c)}>;")
         whole = whole_structs(self.api)
         for s in sections(self.api, "structs"):
             traits = "Clone, Copy, Debug, PartialEq" if s["name"] in whole else "Clone, Copy, Debug"
@@ -91,7 +92,8 @@ class Rust:
                 name = s["name"]
                 lines.append(f"    assert!(size_of::<{name}>() == {s['size'][model]});")
                 lines.append(f"    assert!(align_of::<{name}>() == {s['alignment'][model]});")
-                lines += [f"    assert!(offset_of!({name}, {self.name(f)}) == {f['offset'][model]});" for f in s["fields"]]
+                for f in s["fields"]:
+                    lines.append(f"    assert!(offset_of!({name}, {self.name(f)}) == {f['offset'][model]});")
             lines.append("};")
         return "\n".join(lines) + "\n"
 

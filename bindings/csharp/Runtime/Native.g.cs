@@ -3393,7 +3393,7 @@ namespace Voxtet
             entries.Add(Entry("vox_time_fit.reserved", (byte*)&s.reserved - begin, 132, 132));
         }
 
-        /// <summary>All structs and their fields. A program whose entries differ must not call the library.</summary>
+        /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>
         internal static List<LayoutEntry> Entries()
         {
             var entries = new List<LayoutEntry>();

@@ -1,8 +1,8 @@
 """Written by bindings/generate.py from bindings/api.json. Do not edit."""
 
 import enum
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,
-                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t,
+                    c_uint8, c_uint32, c_uint64, c_void_p)
 
 from numpy import dtype
 
@@ -154,7 +154,7 @@ class SimBodyFlags(enum.IntFlag):
     FIXED = 2
 
 
-# Of the structs that have no pointers: for arrays over the library's memory.
+# Of structs without pointers: for arrays over the library's memory.
 dtypes = {}
 
 
@@ -1562,8 +1562,8 @@ CHECKED = {
 
 
 def declare(library, name, check=None):
-    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the
-    errcheck of those in CHECKED."""
+    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
+    of those in CHECKED."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)
         found.restype, found.argtypes = result, parameters
