@@ -48,7 +48,7 @@ int main(void) {
     for (int i = 0; i < cubes; ++i)
         many[i] = cube_at(0.8f * (float)(i % 10), 0.7f * (float)(i / 10 % 6), 0.9f * (float)(i / 60));
     vox_grid_desc serial = vox_default_grid_desc(), built_in = serial, own = serial;
-    built_in.worker_count = 0; /* a thread a core, where the library has threads of its own */
+    built_in.worker_count = 0; /* a thread a core */
     own.worker_count = workers;
     own.tasks.enqueue = enqueue;
     own.tasks.finish = finish;

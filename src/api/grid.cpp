@@ -4,6 +4,7 @@
 #include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/memory.hpp"
+#include "base/scheduler.hpp"
 #include "base/structs.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -47,9 +48,7 @@ const char* vox_build_info(void) {
 #elif defined(__wasm_simd128__)
         ", SIMD 128"
 #endif
-#if defined(VOX_TBB)
-        ", oneTBB"
-#endif
+        ", " VOX_SCHEDULER
 #if defined(NDEBUG)
         ", release"
 #else

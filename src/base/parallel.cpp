@@ -31,6 +31,7 @@ void Workers::set_count(std::uint32_t worker_count) {
         return;
     }
     const std::uint32_t count = Scheduler::most_workers(worker_count);
+    if (count == count_) return; // and keep the threads
     scheduler_ = count > 1 ? std::make_unique<Scheduler>(count) : nullptr;
     count_ = count;
 }

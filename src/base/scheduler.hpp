@@ -1,10 +1,23 @@
-// The built-in scheduler, which is oneTBB when the library is built with it, and serial otherwise.
+// The built-in scheduler: oneTBB where the library is built with it (VOX_TBB), else threads of its own, else
+// none.
 #pragma once
 
 #include <vox/vox.h>
 
 #include <cstdint>
 #include <memory>
+
+// What the built-in scheduler runs on, as vox_build_info names it. VOX_NO_THREADS: nothing may need threads.
+#if defined(VOX_TBB)
+#define VOX_SCHEDULER "oneTBB"
+#elif defined(VOX_NO_THREADS) || (defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)) ||           \
+    defined(__wasi__)
+#define VOX_SCHEDULER "no threads"
+#define VOX_SCHEDULER_SERIAL 1
+#else
+#define VOX_SCHEDULER "std::thread"
+#define VOX_SCHEDULER_THREADS 1
+#endif
 
 namespace vox {
 
@@ -13,17 +26,20 @@ public:
     // The number of workers that there can be when `asked` are asked for, where 0 asks for one per core.
     static std::uint32_t most_workers(std::uint32_t asked);
 
+    // Threads are made when a task first needs them, and kept. Where the system gives fewer, these and the
+    // caller's do all.
     explicit Scheduler(std::uint32_t worker_count);
     ~Scheduler();
     Scheduler(const Scheduler&) = delete;
     Scheduler& operator=(const Scheduler&) = delete;
 
-    // Does what vox_task_system.enqueue and finish do together.
+    // Does what vox_task_system.enqueue and finish do together. Not from two threads at the same time. After
+    // a fork, the child gets threads of its own.
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context);
 
 private:
-    struct Arena;
-    std::unique_ptr<Arena> arena_;
+    struct Pool;
+    std::unique_ptr<Pool> pool_;
 };
 
 } // namespace vox

@@ -38,6 +38,6 @@ done
 if [ "$threads" = lean ] && command -v readelf >/dev/null; then
     library=$(find "$scratch/prefix" -name 'libvox.so' | head -n 1)
     foreign=$(readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' |
-        grep -vE '^(libstdc\+\+|libc\+\+|libc\+\+abi|libgcc_s|libm|libc|ld-linux.*)\.so' || true)
+        grep -vE '^(libstdc\+\+|libc\+\+|libc\+\+abi|libgcc_s|libpthread|libm|libc|ld-linux.*)\.so' || true)
     [ -z "$foreign" ] || { echo "libvox.so needs $foreign"; exit 1; }
 fi
