@@ -38,6 +38,14 @@ Level level() noexcept;
 Level force_level(Level wanted) noexcept;
 Level best_level() noexcept;
 
+// What an x86 says of itself, by the instructions cpuid (of leaf 7: subleaf 0) and xgetbv; all 0 of other
+// machines. For tests.
+struct Processor {
+    std::uint32_t leaf_1_ecx = 0, leaf_7_ebx = 0;
+    std::uint64_t xcr0 = 0;
+};
+Level level_of(const Processor& processor) noexcept;
+
 // A name for messages, such as "AVX2".
 const char* level_name(Level level) noexcept;
 
