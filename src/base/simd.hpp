@@ -12,10 +12,18 @@
 #include <array>
 #include <cstdint>
 
+// Targets better than AVX3, or than NEON, have lower bits, and newer versions of Highway have more of them:
+// for instructions that are of no use here, or for vectors of unknown length.
 #if defined(__x86_64__) || defined(_M_X64)
-#define HWY_DISABLED_TARGETS HWY_SSSE3 // rare and slow; such machines run the portable code
-#elif defined(__aarch64__)
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128) // vectors of unknown length
+// SSSE3 is rare and slow; such machines run the portable code.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | (HWY_AVX3 - 1))
+#else
+#if defined(__aarch64__)
+#define HWY_DISABLED_TARGETS (HWY_NEON - 1)
+#endif
+#if !defined(HWY_COMPILE_ONLY_STATIC)
+#define HWY_COMPILE_ONLY_STATIC // nothing is chosen at run time
+#endif
 #endif
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
