@@ -5,7 +5,9 @@
 #include <vox/vox.h>
 
 #include <cstdarg>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -21,8 +23,35 @@ private:
     vox_result result_;
 };
 
+// Writes "nan" where the C library wrote a sign or a kind with it, "-nan" or "nan(ind)": the same text on
+// every machine. Only where it stands like a number, not in names.
+inline void write_nan_plainly(char* text) noexcept {
+    char* out = text;
+    for (const char* at = text; *at; *out++ = *at++) {
+        const char* number = at + (*at == '-');
+        if (std::strncmp(number, "nan", 3) != 0 || (at != text && !std::strchr(" ([,=", at[-1]))) continue;
+        const char* end = number + 3;
+        if (*end == '(')
+            if (const char* const close = std::strchr(end, ')')) end = close + 1;
+        if (!std::strchr(" )],;:", *end) && !(*end == '.' && (end[1] == ' ' || end[1] == 0))) continue;
+        std::memcpy(out, "nan", 3);
+        out += 3;
+        at = end;
+        if (*at == 0) break;
+    }
+    *out = 0;
+}
+
+// vsnprintf for messages. Longer texts are cut.
+inline void write_text(char* text, std::size_t size, const char* pattern, va_list arguments) {
+    (void)std::vsnprintf(text, size, pattern, arguments);
+    write_nan_plainly(text);
+}
+
 // printf into a string, for messages with numbers, as in throw Error(code, format("tet %u names ...", t)).
-#if defined(__GNUC__)
+#if defined(__MINGW_PRINTF_FORMAT)
+__attribute__((format(__MINGW_PRINTF_FORMAT, 1, 2)))
+#elif defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
 inline std::string
@@ -30,7 +59,7 @@ format(const char* pattern, ...) {
     char text[1024];
     va_list arguments;
     va_start(arguments, pattern);
-    (void)std::vsnprintf(text, sizeof text, pattern, arguments); // longer texts are cut
+    write_text(text, sizeof text, pattern, arguments);
     va_end(arguments);
     return text;
 }

@@ -627,7 +627,7 @@ void vox_grid::warn(const char* pattern, ...) const noexcept {
     char text[400];
     va_list arguments;
     va_start(arguments, pattern);
-    std::vsnprintf(text, sizeof text, pattern, arguments);
+    write_text(text, sizeof text, pattern, arguments);
     va_end(arguments);
     write_log(VOX_LOG_WARNING, text);
 }
