@@ -1732,7 +1732,8 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vox_abi_version();
 
-        /// <summary>Compiler, language level, instruction sets and options of this build, in one line.</summary>
+        /// <summary>Compiler, language level, instruction sets, built-in scheduler and options of this build, in one
+        /// line.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_build_info();
 

@@ -378,8 +378,11 @@ pub struct vox_grid_desc {
     pub tasks: vox_task_system,
     /// Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
     /// per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do
-    /// not depend on it. The reference engine is always serial. A library built without oneTBB has no threads of its
-    /// own, so its built-in scheduler is serial, too.
+    /// not depend on it. The reference engine is always serial. The built-in scheduler never uses more threads than
+    /// there are cores, the calling thread being one of them, nor more than the system gives. It is oneTBB, or without
+    /// it (vox_build_info says which) each such grid has threads of its own, from the first step that needs them until
+    /// its end. They sleep between steps. Only builds for systems without threads, such as plain WebAssembly, are
+    /// serial. In a process made by fork, a grid with threads of its own makes new ones.
     pub worker_count: u32,
     /// vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS
     pub flags: u32,
@@ -1665,7 +1668,8 @@ extern "C" {
     /// VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time
     /// compares it with that of the header it was written for. Cannot fail.
     pub fn vox_abi_version() -> u32;
-    /// Compiler, language level, instruction sets and options of this build, in one line. Static text. Cannot fail.
+    /// Compiler, language level, instruction sets, built-in scheduler and options of this build, in one line. Static
+    /// text. Cannot fail.
     pub fn vox_build_info() -> *const c_char;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers. Errors: INVALID_ARGUMENT when desc is
     /// null or struct_size is not in [4, 65536].
@@ -1902,10 +1906,11 @@ extern "C" {
     /// reading their positions. (When a moving mesh comes to rest, it is processed in one more step, in which the copy
     /// is made.) A step after a failed one, or after a change of a setting, processes all meshes. In the steady state
     /// (same meshes, no more work than before) it allocates nothing, with any number of workers. The memory of the
-    /// built-in scheduler belongs to oneTBB and is not counted. Errors: INVALID_STATE (a mesh has no positions),
-    /// NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_ARGUMENT (doubles under
-    /// VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does vox_grid_failure. LIMIT (more than
-    /// VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY.
+    /// built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted. Errors:
+    /// INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
+    /// allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as
+    /// does vox_grid_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+    /// OUT_OF_MEMORY.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
     /// scenes that have nothing to do with each other. The grids are split among `worker_count` threads (0: one per
