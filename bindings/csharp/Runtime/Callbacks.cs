@@ -1,0 +1,55 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+#if !UNITY_5_3_OR_NEWER
+    /// <summary>Unity's ahead-of-time compiler asks for it on methods that native code calls, and finds it by name.</summary>
+    [AttributeUsage(AttributeTargets.Method)]
+    sealed class MonoPInvokeCallbackAttribute : Attribute
+    {
+        public MonoPInvokeCallbackAttribute(Type type) { }
+    }
+#else
+    using MonoPInvokeCallbackAttribute = AOT.MonoPInvokeCallbackAttribute;
+#endif
+
+    /// <summary>Functions of the caller that the library calls. An exception must not cross it.</summary>
+    sealed class Callbacks
+    {
+        readonly Action<LogLevel, string> log;
+        GCHandle self;
+
+        static readonly LogWrite write = Write; // never collected
+
+        internal Callbacks(Action<LogLevel, string> log)
+        {
+            this.log = log;
+            self = GCHandle.Alloc(this);
+        }
+
+        internal void Install(ref GridDesc desc)
+        {
+            desc.log.write = Marshal.GetFunctionPointerForDelegate(write);
+            desc.log.user = GCHandle.ToIntPtr(self);
+        }
+
+        internal void Free()
+        {
+            if (self.IsAllocated) self.Free();
+        }
+
+        [MonoPInvokeCallback(typeof(LogWrite))]
+        static void Write(LogLevel level, IntPtr text, IntPtr user)
+        {
+            try
+            {
+                ((Callbacks)GCHandle.FromIntPtr(user).Target).log(level, VoxException.Text(text));
+            }
+            catch (Exception error) // its line is lost
+            {
+                System.Diagnostics.Debug.WriteLine(error);
+            }
+        }
+    }
+}

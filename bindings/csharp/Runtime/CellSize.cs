@@ -1,0 +1,161 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+    /// <summary>A cell size for anybody's grid, and the reasons for it.</summary>
+    public static unsafe class CellSize
+    {
+        /// <summary>The cell size that minimises the cost model for a mesh: three numbers a vertex, four indices a
+        /// tetrahedron.</summary>
+        public static Suggestion Suggest(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets,
+                                         CostModel model = CostModel.Paper)
+        {
+            return Suggest(new[] { positions.ToArray() }, new[] { tets.ToArray() }, model);
+        }
+
+        /// <summary>The same for several meshes, positions[i] with tets[i].</summary>
+        public static Suggestion Suggest(float[][] positions, uint[][] tets, CostModel model = CostModel.Paper)
+        {
+            if (positions == null) throw new ArgumentNullException("positions");
+            if (tets == null) throw new ArgumentNullException("tets");
+            if (positions.Length != tets.Length)
+                throw new ArgumentException(tets.Length + " arrays of tets, expected " + positions.Length, "tets");
+            VoxException.CheckLibrary();
+            var descs = new MeshDesc[positions.Length];
+            var pins = new GCHandle[2 * positions.Length];
+            try
+            {
+                for (int i = 0; i < descs.Length; ++i)
+                {
+                    if (positions[i] == null || tets[i] == null) throw new ArgumentNullException("mesh " + i);
+                    if (positions[i].Length % 3 != 0 || tets[i].Length % 4 != 0)
+                        throw new ArgumentException("mesh " + i + " has " + positions[i].Length + " numbers and " +
+                                                    tets[i].Length + " indices, expected 3 a vertex and 4 a tetrahedron");
+                    pins[2 * i] = GCHandle.Alloc(positions[i], GCHandleType.Pinned);
+                    pins[2 * i + 1] = GCHandle.Alloc(tets[i], GCHandleType.Pinned);
+                    MeshDesc desc;
+                    VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
+                    desc.positions = pins[2 * i].AddrOfPinnedObject();
+                    desc.vertex_count = (ulong)positions[i].Length / 3;
+                    desc.tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
+                    desc.tet_count = (ulong)tets[i].Length / 4;
+                    descs[i] = desc;
+                }
+                SuggestDesc settings;
+                VoxException.Check(Native.vox_suggest_desc_init(&settings, (uint)sizeof(SuggestDesc)));
+                settings.model = model;
+                Suggestion suggestion;
+                suggestion.struct_size = (uint)sizeof(Suggestion);
+                fixed (MeshDesc* d = descs)
+                    VoxException.Check(Native.vox_suggest_cell_size(&settings, d, (ulong)descs.Length, &suggestion));
+                return suggestion;
+            }
+            finally
+            {
+                foreach (GCHandle pin in pins)
+                    if (pin.IsAllocated) pin.Free();
+            }
+        }
+
+        /// <summary>Measures the weights of the models of the engines on this machine, and uses them from now on.</summary>
+        public static CostWeights Calibrate()
+        {
+            CostWeights weights;
+            weights.struct_size = (uint)sizeof(CostWeights);
+            VoxException.Check(Native.vox_cost_calibrate(&weights));
+            return weights;
+        }
+
+        /// <summary>The weights in use.</summary>
+        public static CostWeights Weights
+        {
+            get
+            {
+                CostWeights weights;
+                weights.struct_size = (uint)sizeof(CostWeights);
+                VoxException.Check(Native.vox_cost_get_weights(&weights));
+                return weights;
+            }
+            set { VoxException.Check(Native.vox_cost_set_weights(&value)); }
+        }
+
+        /// <summary>The paper's Eq. 9: how far n cells per axis are from the best number, in units of the zone.</summary>
+        public static double ZoneDistance(double n, double min, double best, double max)
+        {
+            double distance;
+            VoxException.Check(Native.vox_zone_distance(n, min, best, max, &distance));
+            return distance;
+        }
+
+        sealed class Caller
+        {
+            internal Func<double, double> Cost;
+            internal Exception Error;
+        }
+
+        static readonly CostFunction call = Call; // never collected
+
+        [MonoPInvokeCallback(typeof(CostFunction))]
+        static double Call(double cellSize, IntPtr user)
+        {
+            var caller = (Caller)GCHandle.FromIntPtr(user).Target;
+            if (caller.Error != null) return double.NaN;
+            try
+            {
+                return caller.Cost(cellSize);
+            }
+            catch (Exception error) // goes on in Minimise
+            {
+                caller.Error = error;
+                return double.NaN;
+            }
+        }
+
+        /// <summary>The method for any algorithm: the cell size between min and max of least cost. What the function throws
+        /// goes on here.</summary>
+        public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0.05)
+        {
+            if (cost == null) throw new ArgumentNullException("cost");
+            var caller = new Caller { Cost = cost };
+            GCHandle user = GCHandle.Alloc(caller);
+            try
+            {
+                CostBounds bounds;
+                VoxException.Check(Native.vox_cost_bounds_init(&bounds, (uint)sizeof(CostBounds)));
+                bounds.min = min;
+                bounds.max = max;
+                bounds.zone_loss = zoneLoss;
+                CostMinimum minimum;
+                minimum.struct_size = (uint)sizeof(CostMinimum);
+                Result result = Native.vox_cost_minimise(Marshal.GetFunctionPointerForDelegate(call),
+                                                         GCHandle.ToIntPtr(user), &bounds, &minimum);
+                if (caller.Error != null) throw caller.Error;
+                VoxException.Check(result);
+                return minimum;
+            }
+            finally
+            {
+                user.Free();
+            }
+        }
+    }
+
+    public sealed unsafe partial class Grid
+    {
+        /// <summary>The cell size that minimises a cost model for the meshes of this grid; without one, that of its engine.
+        /// </summary>
+        public Suggestion SuggestCellSize(CostModel? model = null)
+        {
+            SuggestDesc settings;
+            VoxException.Check(Native.vox_suggest_desc_init(&settings, (uint)sizeof(SuggestDesc)));
+            settings.model = model ?? CostModel.Paper;
+            Suggestion suggestion;
+            suggestion.struct_size = (uint)sizeof(Suggestion);
+            using (var use = handle.Read())
+                VoxException.Check(Native.vox_grid_suggest_cell_size(use.Pointer, model.HasValue ? &settings : null,
+                                                                     &suggestion));
+            return suggestion;
+        }
+    }
+}

@@ -1,0 +1,716 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+    /// <summary>A set of meshes that collide. Dispose returns its memory; a grid that is forgotten returns it when it is
+    /// collected. One thread changes a grid at a time, and many may read it meanwhile not: who breaks that gets an
+    /// InvalidOperationException.</summary>
+    public sealed unsafe partial class Grid : IDisposable
+    {
+        readonly GridHandle handle;
+        ulong version = 1; // what ends views of results raises it
+        ulong layout = 1;  // what ends positions raises it
+
+        public Grid() : this(new GridOptions()) { }
+
+        public Grid(GridOptions options)
+        {
+            if (options == null) throw new ArgumentNullException("options");
+            VoxException.CheckLibrary();
+            Callbacks callbacks;
+            GridDesc desc = options.Desc(out callbacks);
+            IntPtr grid;
+            handle = Owned(Native.vox_grid_create(&desc, &grid), &grid, callbacks);
+        }
+
+        Grid(GridHandle handle) { this.handle = handle; }
+
+        static GridHandle Owned(Result result, IntPtr* grid, Callbacks callbacks)
+        {
+            if (result != Result.Ok && callbacks != null) callbacks.Free();
+            VoxException.Check(result);
+            return new GridHandle(*grid) { Callbacks = callbacks };
+        }
+
+        /// <summary>A grid from the bytes of Save, which need not be trusted.</summary>
+        public static Grid Load(ReadOnlySpan<byte> bytes, GridOptions options = null)
+        {
+            VoxException.CheckLibrary();
+            Callbacks callbacks;
+            GridDesc desc = (options ?? new GridOptions()).Desc(out callbacks);
+            IntPtr grid;
+            fixed (byte* data = &MemoryMarshal.GetReference(NotNull(bytes)))
+                return new Grid(Owned(Native.vox_grid_load((IntPtr)data, (ulong)bytes.Length, &desc, &grid), &grid,
+                                      callbacks));
+        }
+
+        // A span of no elements has a null pointer, which is not allowed where something has to be read.
+        static ReadOnlySpan<byte> NotNull(ReadOnlySpan<byte> bytes)
+        {
+            return bytes.IsEmpty ? new byte[1] : bytes;
+        }
+
+        /// <summary>The grid as bytes that are the same on every machine.</summary>
+        public byte[] Save()
+        {
+            using (var use = handle.Read())
+            {
+                ulong size;
+                VoxException.Check(Native.vox_grid_save(use.Pointer, IntPtr.Zero, 0, &size));
+                var bytes = new byte[checked((int)size)];
+                fixed (byte* data = bytes) VoxException.Check(Native.vox_grid_save(use.Pointer, (IntPtr)data, size, &size));
+                return bytes;
+            }
+        }
+
+        /// <summary>Ends the grid, its views and its positions.</summary>
+        public void Dispose()
+        {
+            ++version;
+            ++layout;
+            handle.Dispose();
+        }
+
+        internal void CheckVersion(ulong since)
+        {
+            if (since != version || handle.IsClosed)
+                throw new InvalidOperationException("this view ended: the grid was stepped, changed or disposed of since");
+        }
+
+        internal void CheckLayout(ulong since)
+        {
+            if (since != layout || handle.IsClosed)
+                throw new InvalidOperationException("these positions ended: the mesh was removed or changed, or the grid " +
+                                                    "disposed of since");
+        }
+
+        internal Handle.Use Read() { return handle.Read(); }
+
+        // ---- settings ----
+
+        /// <summary>Removes all meshes and contacts and keeps the settings.</summary>
+        public void Clear()
+        {
+            using (var use = handle.Change())
+            {
+                ++version;
+                ++layout;
+                VoxException.Check(Native.vox_grid_clear(use.Pointer));
+            }
+        }
+
+        /// <summary>Takes memory for that many meshes and contacts in advance.</summary>
+        public void Reserve(uint meshes, ulong contacts)
+        {
+            using (var use = handle.Change())
+            {
+                ++version;
+                VoxException.Check(Native.vox_grid_reserve(use.Pointer, meshes, contacts));
+            }
+        }
+
+        /// <summary>The cell size in use, 0 if none was chosen yet. Set: that of the following steps, 0 for the library's
+        /// choice.</summary>
+        public double CellSize
+        {
+            get
+            {
+                double size;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_cell_size(use.Pointer, &size));
+                return size;
+            }
+            set { using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_cell_size(use.Pointer, value)); }
+        }
+
+        /// <summary>Threads of the following steps; 0: one per core.</summary>
+        public void SetWorkers(uint workers)
+        {
+            using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_worker_count(use.Pointer, workers));
+        }
+
+        public GridFlags Flags
+        {
+            get
+            {
+                GridFlags flags;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_flags(use.Pointer, &flags));
+                return flags;
+            }
+            set
+            {
+                using (var use = handle.Change())
+                {
+                    ++version;
+                    VoxException.Check(Native.vox_grid_set_flags(use.Pointer, value));
+                }
+            }
+        }
+
+        // ---- meshes ----
+
+        static Format FormatOf<T>()
+        {
+            if (typeof(T) == typeof(float)) return Format.Float3;
+            if (typeof(T) == typeof(double)) return Format.Double3;
+            throw new ArgumentException("positions are float or double, not " + typeof(T).Name);
+        }
+
+        static ulong Count(int numbers, int each, string name)
+        {
+            if (numbers % each != 0)
+                throw new ArgumentException(name + " has " + numbers + " numbers, expected " + each + " for each", name);
+            return (ulong)(numbers / each);
+        }
+
+        static MeshDesc Describe<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets) where T : struct
+        {
+            MeshDesc desc;
+            VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
+            desc.flags = MeshFlags.CopyPositions;
+            desc.position_format = FormatOf<T>();
+            desc.vertex_count = Count(positions.Length, 3, "positions");
+            desc.tet_count = Count(tets.Length, 4, "tets");
+            return desc;
+        }
+
+        Mesh Insert<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets, ulong userData, Filter? filter,
+                       ReadOnlySpan<T> restPositions) where T : struct
+        {
+            MeshDesc desc = Describe(positions, tets);
+            if (!restPositions.IsEmpty && restPositions.Length != positions.Length)
+                throw new ArgumentException(restPositions.Length + " numbers, expected " + positions.Length, "restPositions");
+            desc.user_data = userData;
+            Filter copy = filter ?? DefaultFilter;
+            desc.filter = &copy;
+            uint mesh;
+            fixed (byte* p = &MemoryMarshal.GetReference(MemoryMarshal.AsBytes(positions)))
+            fixed (byte* r = &MemoryMarshal.GetReference(MemoryMarshal.AsBytes(restPositions)))
+            fixed (uint* t = &MemoryMarshal.GetReference(tets))
+            using (var use = handle.Change())
+            {
+                desc.positions = (IntPtr)p;
+                desc.rest_positions = (IntPtr)r;
+                desc.tets = t;
+                VoxException.Check(Native.vox_mesh_insert(use.Pointer, &desc, &mesh));
+            }
+            return new Mesh(mesh);
+        }
+
+        /// <summary>Adds a mesh: three numbers a vertex, four indices a tetrahedron, both copied. GetPositions moves it.
+        /// </summary>
+        public Mesh Add(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets, ulong userData = 0, Filter? filter = null,
+                        ReadOnlySpan<float> restPositions = default(ReadOnlySpan<float>))
+        {
+            return Insert(positions, tets, userData, filter, restPositions);
+        }
+
+        /// <summary>The same of doubles.</summary>
+        public Mesh Add(ReadOnlySpan<double> positions, ReadOnlySpan<uint> tets, ulong userData = 0, Filter? filter = null,
+                        ReadOnlySpan<double> restPositions = default(ReadOnlySpan<double>))
+        {
+            return Insert(positions, tets, userData, filter, restPositions);
+        }
+
+        /// <summary>A filter with the default of every field, to be changed.</summary>
+        public static Filter DefaultFilter
+        {
+            get
+            {
+                Filter filter;
+                VoxException.Check(Native.vox_filter_init(&filter, (uint)sizeof(Filter)));
+                return filter;
+            }
+        }
+
+        /// <summary>Removes a mesh. The contacts of the last step stay as they are until the next one.</summary>
+        public void Remove(Mesh mesh)
+        {
+            using (var use = handle.Change())
+            {
+                ++layout;
+                VoxException.Check(Native.vox_mesh_remove(use.Pointer, mesh.Id));
+            }
+        }
+
+        /// <summary>Whether the mesh is one of this grid.</summary>
+        public bool Contains(Mesh mesh)
+        {
+            using (var use = handle.Read()) return Native.vox_mesh_is_valid(use.Pointer, mesh.Id) != 0;
+        }
+
+        /// <summary>All meshes, in the order of their ids.</summary>
+        public Mesh[] GetMeshes()
+        {
+            using (var use = handle.Read())
+            {
+                ulong count;
+                VoxException.Check(Native.vox_grid_meshes(use.Pointer, null, 0, &count));
+                var ids = new uint[count];
+                fixed (uint* p = ids) VoxException.Check(Native.vox_grid_meshes(use.Pointer, p, count, &count));
+                return Array.ConvertAll(ids, id => new Mesh(id));
+            }
+        }
+
+        static MeshInfo InfoOf(IntPtr grid, Mesh mesh)
+        {
+            MeshInfo info;
+            info.struct_size = (uint)sizeof(MeshInfo);
+            VoxException.Check(Native.vox_mesh_get_info(grid, mesh.Id, &info));
+            return info;
+        }
+
+        /// <summary>A mesh as it is now.</summary>
+        public MeshFacts GetFacts(Mesh mesh)
+        {
+            MeshInfo info;
+            using (var use = handle.Read()) info = InfoOf(use.Pointer, mesh);
+            return new MeshFacts
+            {
+                UserData = info.user_data,
+                VertexCount = info.vertex_count,
+                TetCount = info.tet_count,
+                EnabledTetCount = info.enabled_tet_count,
+                Enabled = info.enabled != 0,
+                Flags = info.flags,
+                Format = info.position_format
+            };
+        }
+
+        /// <summary>The number the mesh was added with.</summary>
+        public ulong GetUserData(Mesh mesh)
+        {
+            ulong userData;
+            using (var use = handle.Read()) VoxException.Check(Native.vox_mesh_user_data(use.Pointer, mesh.Id, &userData));
+            return userData;
+        }
+
+        /// <summary>The tetrahedra of a mesh as they were given, those that are disabled or removed, too.</summary>
+        public uint[] GetTets(Mesh mesh)
+        {
+            using (var use = handle.Read())
+            {
+                ulong count;
+                VoxException.Check(Native.vox_mesh_copy_tets(use.Pointer, mesh.Id, null, null, 0, &count));
+                var tets = new uint[4 * count];
+                fixed (uint* t = tets)
+                    VoxException.Check(Native.vox_mesh_copy_tets(use.Pointer, mesh.Id, t, null, count, &count));
+                return tets;
+            }
+        }
+
+        Positions<T> Map<T>(Mesh mesh) where T : struct
+        {
+            using (var use = handle.Change())
+            {
+                MeshInfo info = InfoOf(use.Pointer, mesh);
+                if (info.position_format != FormatOf<T>())
+                    throw new ArgumentException("positions of " + mesh + " are " + info.position_format + ", asked for as " +
+                                                FormatOf<T>());
+                IntPtr positions;
+                ulong stride;
+                VoxException.Check(Native.vox_mesh_map_positions(use.Pointer, mesh.Id, &positions, &stride));
+                return new Positions<T>(this, layout, (void*)positions, 3 * info.vertex_count);
+            }
+        }
+
+        /// <summary>The positions of a mesh that was added as floats, in the library's memory: write to them between steps.
+        /// </summary>
+        public Positions<float> GetPositions(Mesh mesh) { return Map<float>(mesh); }
+
+        /// <summary>The same of a mesh that was added as doubles.</summary>
+        public Positions<double> GetDoublePositions(Mesh mesh) { return Map<double>(mesh); }
+
+        /// <summary>Moves a mesh as a whole by an affine map, three rows of four numbers; none: not at all.</summary>
+        public void SetTransform(Mesh mesh, ReadOnlySpan<double> matrix)
+        {
+            if (matrix.Length != 12 && matrix.Length != 0)
+                throw new ArgumentException(matrix.Length + " numbers, expected 12 or none", "matrix");
+            fixed (double* m = &MemoryMarshal.GetReference(matrix))
+            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_set_transform(use.Pointer, mesh.Id, m));
+        }
+
+        /// <summary>Sets what a mesh collides with.</summary>
+        public void SetFilter(Mesh mesh, Filter filter)
+        {
+            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_set_filter(use.Pointer, mesh.Id, &filter));
+        }
+
+        /// <summary>What a mesh collides with.</summary>
+        public Filter GetFilter(Mesh mesh)
+        {
+            Filter filter = DefaultFilter;
+            using (var use = handle.Read()) VoxException.Check(Native.vox_mesh_filter(use.Pointer, mesh.Id, &filter));
+            return filter;
+        }
+
+        /// <summary>Leaves a mesh out of the following steps, or takes it in again.</summary>
+        public void SetEnabled(Mesh mesh, bool enabled)
+        {
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_set_enabled(use.Pointer, mesh.Id, enabled ? 1u : 0u));
+        }
+
+        /// <summary>Whether two meshes collide, if their filters let them.</summary>
+        public void SetPairEnabled(Mesh a, Mesh b, bool enabled)
+        {
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_grid_set_pair_enabled(use.Pointer, a.Id, b.Id, enabled ? 1u : 0u));
+        }
+
+        /// <summary>Makes the next step process a mesh even if it did not move, for measurements.</summary>
+        public void MarkMoved(Mesh mesh)
+        {
+            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_mark_moved(use.Pointer, mesh.Id));
+        }
+
+        // ---- cutting and growing ----
+
+        /// <summary>Replaces vertices, tetrahedra and positions of a mesh.</summary>
+        public void SetTopology(Mesh mesh, ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets)
+        {
+            MeshDesc desc = Describe(positions, tets);
+            fixed (float* p = &MemoryMarshal.GetReference(positions))
+            fixed (uint* t = &MemoryMarshal.GetReference(tets))
+            using (var use = handle.Change())
+            {
+                ++layout;
+                desc.positions = (IntPtr)p;
+                desc.tets = t;
+                VoxException.Check(Native.vox_mesh_set_topology(use.Pointer, mesh.Id, &desc));
+            }
+        }
+
+        /// <summary>Disables tetrahedra, so that they contain nothing, or enables them again.</summary>
+        public void SetTetsEnabled(Mesh mesh, ReadOnlySpan<uint> tets, bool enabled)
+        {
+            fixed (uint* t = &MemoryMarshal.GetReference(tets))
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_set_tets_enabled(use.Pointer, mesh.Id, t, (ulong)tets.Length,
+                                                                    enabled ? 1u : 0u));
+        }
+
+        /// <summary>Gives tetrahedra other corners, four each.</summary>
+        public void ReplaceTets(Mesh mesh, ReadOnlySpan<uint> tets, ReadOnlySpan<uint> corners)
+        {
+            if (corners.Length != 4 * tets.Length)
+                throw new ArgumentException(corners.Length + " corners, expected " + 4 * tets.Length, "corners");
+            fixed (uint* t = &MemoryMarshal.GetReference(tets))
+            fixed (uint* c = &MemoryMarshal.GetReference(corners))
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_replace_tets(use.Pointer, mesh.Id, t, (ulong)tets.Length, c));
+        }
+
+        /// <summary>Adds tetrahedra of four corners each; the index of the first.</summary>
+        public uint AppendTets(Mesh mesh, ReadOnlySpan<uint> corners)
+        {
+            uint first;
+            ulong count = Count(corners.Length, 4, "corners");
+            fixed (uint* c = &MemoryMarshal.GetReference(corners))
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_append_tets(use.Pointer, mesh.Id, c, count, &first));
+            return first;
+        }
+
+        /// <summary>Removes tetrahedra. Their vertices stay.</summary>
+        public void RemoveTets(Mesh mesh, ReadOnlySpan<uint> tets)
+        {
+            fixed (uint* t = &MemoryMarshal.GetReference(tets))
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_remove_tets(use.Pointer, mesh.Id, t, (ulong)tets.Length));
+        }
+
+        /// <summary>Adds copies of vertices, where these are; the index of the first.</summary>
+        public uint AppendCopies(Mesh mesh, ReadOnlySpan<uint> copiesOf)
+        {
+            VerticesDesc desc;
+            VoxException.Check(Native.vox_vertices_desc_init(&desc, (uint)sizeof(VerticesDesc)));
+            uint first;
+            fixed (uint* c = &MemoryMarshal.GetReference(copiesOf))
+            using (var use = handle.Change())
+            {
+                ++layout;
+                desc.count = (ulong)copiesOf.Length;
+                desc.copies_of = c;
+                VoxException.Check(Native.vox_mesh_append_vertices(use.Pointer, mesh.Id, &desc, &first));
+            }
+            return first;
+        }
+
+        /// <summary>Adds vertices at these positions, to a mesh that was added as floats; the index of the first.</summary>
+        public uint AppendVertices(Mesh mesh, ReadOnlySpan<float> positions)
+        {
+            GetPositions(mesh); // of its own, also in a mesh that has had no vertices
+            VerticesDesc desc;
+            VoxException.Check(Native.vox_vertices_desc_init(&desc, (uint)sizeof(VerticesDesc)));
+            uint first;
+            desc.count = Count(positions.Length, 3, "positions");
+            fixed (float* p = &MemoryMarshal.GetReference(positions))
+            using (var use = handle.Change())
+            {
+                ++layout;
+                desc.positions = (IntPtr)p;
+                VoxException.Check(Native.vox_mesh_append_vertices(use.Pointer, mesh.Id, &desc, &first));
+            }
+            return first;
+        }
+
+        /// <summary>Removes vertices that no enabled tetrahedron has.</summary>
+        public void RemoveVertices(Mesh mesh, ReadOnlySpan<uint> vertices)
+        {
+            fixed (uint* v = &MemoryMarshal.GetReference(vertices))
+            using (var use = handle.Change())
+                VoxException.Check(Native.vox_mesh_remove_vertices(use.Pointer, mesh.Id, v, (ulong)vertices.Length));
+        }
+
+        // ---- step and results ----
+
+        /// <summary>Finds all contacts of the positions as they are now. It ends the views of the last step.</summary>
+        public void Step()
+        {
+            using (var use = handle.Change())
+            {
+                ++version;
+                VoxException.Check(Native.vox_grid_step(use.Pointer));
+            }
+        }
+
+        /// <summary>Steps many grids, several at the same time, on that many threads (0: one per core). If grids fail, the
+        /// others are stepped nevertheless; the text of the exception begins with the index of the first.</summary>
+        public static void StepAll(Grid[] grids, uint workers = 0)
+        {
+            if (grids == null) throw new ArgumentNullException("grids");
+            var uses = new Handle.Use[grids.Length];
+            int begun = 0;
+            try
+            {
+                var pointers = new IntPtr[grids.Length];
+                for (; begun < grids.Length; ++begun)
+                {
+                    if (grids[begun] == null) throw new ArgumentNullException("grids[" + begun + "]");
+                    uses[begun] = grids[begun].handle.Change(); // refuses one that is named twice
+                    pointers[begun] = uses[begun].Pointer;
+                }
+                foreach (Grid grid in grids) ++grid.version;
+                fixed (IntPtr* p = pointers)
+                    VoxException.Check(Native.vox_grids_step(p, (ulong)pointers.Length, null, workers, null));
+            }
+            finally
+            {
+                while (begun > 0) uses[--begun].Dispose();
+            }
+        }
+
+        /// <summary>The contacts of the last step, in canonical order.</summary>
+        public View<Contact> Contacts
+        {
+            get
+            {
+                ContactView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contacts(use.Pointer, &view));
+                return new View<Contact>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>For each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary.</summary>
+        public View<byte> Interiors
+        {
+            get
+            {
+                InteriorView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contact_interiors(use.Pointer, &view));
+                return new View<byte>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>How deep each vertex is in another mesh, and which way leads out.</summary>
+        public View<Penetration> Penetrations
+        {
+            get
+            {
+                PenetrationView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_penetrations(use.Pointer, &view));
+                return new View<Penetration>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>Depths and directions of the penetrations in double.</summary>
+        public View<Depth> Depths
+        {
+            get
+            {
+                DepthView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_depths(use.Pointer, &view));
+                return new View<Depth>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>The pairs of meshes that touched in the last step.</summary>
+        public View<Pair> Pairs
+        {
+            get
+            {
+                PairView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_pairs(use.Pointer, &view));
+                return new View<Pair>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>Indices of the contacts, pair by pair: those of a pair begin at Pair.first.</summary>
+        public View<uint> PairContacts
+        {
+            get
+            {
+                PairView view;
+                ContactView contacts;
+                using (var use = handle.Read())
+                {
+                    VoxException.Check(Native.vox_grid_pairs(use.Pointer, &view));
+                    VoxException.Check(Native.vox_grid_contacts(use.Pointer, &contacts));
+                }
+                return new View<uint>(this, version, view.contacts, (UIntPtr)sizeof(uint), contacts.count);
+            }
+        }
+
+        /// <summary>Pairs that began, persisted and ended in the last step.</summary>
+        public Events<TouchEvent> TouchEvents
+        {
+            get
+            {
+                TouchView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_touch_events(use.Pointer, &view));
+                return new Events<TouchEvent>(new View<TouchEvent>(this, version, view.data, view.byte_stride, view.count),
+                                              view.began, view.persisted, view.ended);
+            }
+        }
+
+        /// <summary>Vertices that entered or left a mesh in the last step (GridFlags.ContactEvents).</summary>
+        public Events<ContactEvent> ContactEvents
+        {
+            get
+            {
+                ContactEventView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contact_events(use.Pointer, &view));
+                return new Events<ContactEvent>(
+                    new View<ContactEvent>(this, version, view.data, view.byte_stride, view.count), view.began, 0, view.ended);
+            }
+        }
+
+        /// <summary>The contacts in which a mesh takes part, or those between two meshes, copied.</summary>
+        public Contact[] CopyContacts(Mesh mesh, Mesh? other = null)
+        {
+            using (var use = handle.Read())
+            {
+                ulong count = 0;
+                var contacts = new Contact[0];
+                for (int pass = 0; pass < 2; ++pass)
+                {
+                    if (pass == 1) contacts = new Contact[count];
+                    fixed (Contact* c = contacts)
+                        VoxException.Check(
+                            other.HasValue
+                                ? Native.vox_pair_copy_contacts(use.Pointer, mesh.Id, other.Value.Id, c, count, &count)
+                                : Native.vox_mesh_copy_contacts(use.Pointer, mesh.Id, c, count, &count));
+                }
+                return contacts;
+            }
+        }
+
+        /// <summary>A hash of the contacts: the same on every machine and in every language.</summary>
+        public ulong Hash
+        {
+            get
+            {
+                ulong hash;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_hash(use.Pointer, &hash));
+                return hash;
+            }
+        }
+
+        /// <summary>Number of steps and other changes so far.</summary>
+        public ulong Epoch
+        {
+            get
+            {
+                ulong epoch;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_epoch(use.Pointer, &epoch));
+                return epoch;
+            }
+        }
+
+        /// <summary>The index-th mesh that made the last step fail or that it left out; its `mesh` is 0 beyond the last.
+        /// </summary>
+        public Failure GetFailure(uint index = 0)
+        {
+            Failure failure;
+            failure.struct_size = (uint)sizeof(Failure);
+            using (var use = handle.Read()) VoxException.Check(Native.vox_grid_failure(use.Pointer, index, &failure));
+            return failure;
+        }
+
+        /// <summary>What the last step did.</summary>
+        public Counters Counters
+        {
+            get
+            {
+                Counters counters;
+                counters.struct_size = (uint)sizeof(Counters);
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_counters(use.Pointer, &counters));
+                return counters;
+            }
+        }
+
+        /// <summary>Nanoseconds of the last step, by stage.</summary>
+        public Profile Profile
+        {
+            get
+            {
+                Profile profile;
+                profile.struct_size = (uint)sizeof(Profile);
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_profile(use.Pointer, &profile));
+                return profile;
+            }
+        }
+
+        // ---- readings ----
+
+        /// <summary>Computes position, closest surface and depth of the contacts of the last step, or those of one mesh, or of
+        /// a mesh with another.</summary>
+        public void PrepareReadings(ReadingFlags what = ReadingFlags.Position | ReadingFlags.Surface | ReadingFlags.Depth,
+                                    Mesh? mesh = null, Mesh? other = null)
+        {
+            ReadingsDesc desc;
+            VoxException.Check(Native.vox_readings_desc_init(&desc, (uint)sizeof(ReadingsDesc)));
+            desc.what = what;
+            desc.mesh_a = mesh.HasValue ? mesh.Value.Id : Native.VOX_NULL_MESH;
+            desc.mesh_b = other.HasValue ? other.Value.Id : Native.VOX_NULL_MESH;
+            using (var use = handle.Change())
+            {
+                ++version;
+                VoxException.Check(Native.vox_grid_prepare_readings_of(use.Pointer, &desc));
+            }
+        }
+
+        /// <summary>The readings prepared since the last step.</summary>
+        public View<Reading> Readings
+        {
+            get
+            {
+                ReadingView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_readings(use.Pointer, &view));
+                return new View<Reading>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>Their depths and directions in double.</summary>
+        public View<Depth> ReadingDepths
+        {
+            get
+            {
+                DepthView view;
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_reading_depths(use.Pointer, &view));
+                return new View<Depth>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+    }
+}

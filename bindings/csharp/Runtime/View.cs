@@ -1,0 +1,137 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+    static class SizeOf<T> where T : struct
+    {
+        internal static readonly int Value = Marshal.SizeOf(typeof(T));
+    }
+
+    /// <summary>Records of the last step, or positions, in the library's memory: no copy, no allocation. It cannot leave the
+    /// stack, and throws InvalidOperationException when it is used after what ended it: the next step, a change, Dispose.
+    /// </summary>
+    public readonly ref struct View<T> where T : struct
+    {
+        readonly ReadOnlySpan<T> records;
+        readonly Grid grid;
+        readonly ulong version;
+
+        internal unsafe View(Grid grid, ulong version, void* data, UIntPtr byteStride, ulong count)
+        {
+            this.grid = grid;
+            this.version = version;
+            int size = SizeOf<T>.Value;
+            if (count == 0)
+                records = ReadOnlySpan<T>.Empty;
+            else if ((ulong)byteStride == (ulong)size)
+                records = new ReadOnlySpan<T>(data, checked((int)count));
+            else
+                records = Packed(data, byteStride, checked((int)count), size); // a later library: longer records
+        }
+
+        static unsafe ReadOnlySpan<T> Packed(void* data, UIntPtr byteStride, int count, int size)
+        {
+            var copy = new T[count];
+            for (int i = 0; i < count; ++i)
+                copy[i] = new ReadOnlySpan<T>((byte*)data + (ulong)i * (ulong)byteStride, 1)[0];
+            return copy;
+        }
+
+        void Check()
+        {
+            if (grid != null) grid.CheckVersion(version);
+        }
+
+        public int Length { get { Check(); return records.Length; } }
+
+        public ref readonly T this[int index] { get { Check(); return ref records[index]; } }
+
+        /// <summary>A copy of your own.</summary>
+        public T[] ToArray() { Check(); return records.ToArray(); }
+
+        /// <summary>The records as a span, which does not notice when they end: use it before the next change of the grid.
+        /// </summary>
+        public ReadOnlySpan<T> AsSpan() { Check(); return records; }
+
+        public Enumerator GetEnumerator() { return new Enumerator(this); }
+
+        public ref struct Enumerator
+        {
+            readonly View<T> view;
+            int index;
+
+            internal Enumerator(View<T> view)
+            {
+                this.view = view;
+                index = -1;
+            }
+
+            public bool MoveNext() { return ++index < view.Length; }
+
+            public ref readonly T Current { get { return ref view[index]; } }
+        }
+    }
+
+    /// <summary>The positions of a mesh: x, y, z of one vertex after the other, to be written between steps. It cannot leave
+    /// the stack, and throws when it is used after the mesh was removed or got other or more vertices.</summary>
+    public readonly ref struct Positions<T> where T : struct
+    {
+        readonly Span<T> numbers;
+        readonly Grid grid;
+        readonly ulong layout;
+
+        internal unsafe Positions(Grid grid, ulong layout, void* data, ulong count)
+        {
+            this.grid = grid;
+            this.layout = layout;
+            numbers = data == null || count == 0 ? Span<T>.Empty : new Span<T>(data, checked((int)count));
+        }
+
+        void Check()
+        {
+            if (grid != null) grid.CheckLayout(layout);
+        }
+
+        /// <summary>How many numbers: three a vertex.</summary>
+        public int Length { get { Check(); return numbers.Length; } }
+
+        public ref T this[int index] { get { Check(); return ref numbers[index]; } }
+
+        /// <summary>Copies all numbers from an array of the same length.</summary>
+        public void Set(ReadOnlySpan<T> source)
+        {
+            Check();
+            if (source.Length != numbers.Length)
+                throw new ArgumentException(source.Length + " numbers, expected " + numbers.Length, "source");
+            source.CopyTo(numbers);
+        }
+
+        public T[] ToArray() { Check(); return numbers.ToArray(); }
+
+        /// <summary>The numbers as a span, which does not notice when they end: use it before the next change of the mesh.
+        /// </summary>
+        public Span<T> AsSpan() { Check(); return numbers; }
+    }
+
+    /// <summary>What the last step changed: those that began, then those that persisted, then those that ended.</summary>
+    public readonly ref struct Events<T> where T : struct
+    {
+        /// <summary>All of them.</summary>
+        public readonly View<T> All;
+        /// <summary>How many began; they come first.</summary>
+        public readonly int Began;
+        /// <summary>How many persisted; they follow.</summary>
+        public readonly int Persisted;
+        /// <summary>How many ended; they come last.</summary>
+        public readonly int Ended;
+
+        internal Events(View<T> all, ulong began, ulong persisted, ulong ended)
+        {
+            All = all;
+            Began = (int)began;
+            Persisted = (int)persisted;
+            Ended = (int)ended;
+        }
+    }
+}
