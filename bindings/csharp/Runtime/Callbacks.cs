@@ -1,19 +1,20 @@
 using System;
 using System.Runtime.InteropServices;
 
-namespace Voxtet
-{
 #if !UNITY_5_3_OR_NEWER
+namespace AOT
+{
     /// <summary>Unity's ahead-of-time compiler asks for it on methods that native code calls, and finds it by name.</summary>
     [AttributeUsage(AttributeTargets.Method)]
     sealed class MonoPInvokeCallbackAttribute : Attribute
     {
         public MonoPInvokeCallbackAttribute(Type type) { }
     }
-#else
-    using MonoPInvokeCallbackAttribute = AOT.MonoPInvokeCallbackAttribute;
+}
 #endif
 
+namespace Voxtet
+{
     /// <summary>Functions of the caller that the library calls. An exception must not cross it.</summary>
     sealed class Callbacks
     {
@@ -39,7 +40,7 @@ namespace Voxtet
             if (self.IsAllocated) self.Free();
         }
 
-        [MonoPInvokeCallback(typeof(LogWrite))]
+        [AOT.MonoPInvokeCallback(typeof(LogWrite))]
         static void Write(LogLevel level, IntPtr text, IntPtr user)
         {
             try

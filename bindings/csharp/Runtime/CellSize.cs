@@ -96,7 +96,7 @@ namespace Voxtet
 
         static readonly CostFunction call = Call; // never collected
 
-        [MonoPInvokeCallback(typeof(CostFunction))]
+        [AOT.MonoPInvokeCallback(typeof(CostFunction))]
         static double Call(double cellSize, IntPtr user)
         {
             var caller = (Caller)GCHandle.FromIntPtr(user).Target;

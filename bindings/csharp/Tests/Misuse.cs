@@ -1,0 +1,397 @@
+using System;
+using System.Collections.Generic;
+using System.Threading;
+
+namespace Voxtet.Tests
+{
+    /// <summary>What a user may do wrong, and what threads may do at once.</summary>
+    static class Misuse
+    {
+        static readonly uint[] tet = { 0, 1, 2, 3 };
+        static readonly float[] unit = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+
+        /// <summary>A block of n^3 cubes with edge 1, five tetrahedra each, from x on.</summary>
+        static void Block(uint n, float x, out float[] positions, out uint[] tets)
+        {
+            uint m = n + 1;
+            var p = new List<float>();
+            var t = new List<uint>();
+            for (uint v = 0; v < m * m * m; ++v) p.AddRange(new[] { x + v % m, v / m % m, (float)(v / m / m) });
+            uint[][] cuts =
+            {
+                new uint[] { 0, 1, 2, 4, 3, 2, 1, 7, 5, 4, 7, 1, 6, 7, 4, 2, 1, 2, 4, 7 },
+                new uint[] { 1, 3, 0, 5, 2, 0, 3, 6, 4, 6, 5, 0, 7, 5, 6, 3, 0, 5, 3, 6 }
+            };
+            for (uint c = 0; c < n * n * n; ++c)
+            {
+                uint i = c % n, j = c / n % n, k = c / n / n;
+                foreach (uint d in cuts[(i + j + k) % 2])
+                    t.Add(i + (d & 1) + m * (j + (d >> 1 & 1)) + m * m * (k + (d >> 2)));
+            }
+            positions = p.ToArray();
+            tets = t.ToArray();
+        }
+
+        static Grid TwoBlocks(out Mesh a, out Mesh b, GridOptions options = null, uint n = 6)
+        {
+            var grid = new Grid(options ?? new GridOptions());
+            float[] positions;
+            uint[] tets;
+            Block(n, 0, out positions, out tets);
+            a = grid.Add(positions, tets);
+            Block(n, n / 2f + 0.3f, out positions, out tets);
+            b = grid.Add(positions, tets);
+            return grid;
+        }
+
+        static void Put(Grid grid, Mesh mesh, int index, float number)
+        {
+            Positions<float> positions = grid.GetPositions(mesh);
+            positions[index] = number;
+        }
+
+        public static void Errors()
+        {
+            var grid = new Grid();
+            Mesh mesh = grid.Add(unit, tet);
+            Test.Throws<VoxArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2, 4 }), "names vertex 4 of 4");
+            Test.Throws<ArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2 }), "3 numbers, expected 4");
+            Test.Throws<ArgumentException>(() => grid.Add(new float[4], tet), "4 numbers, expected 3");
+            Test.Throws<ArgumentException>(() => grid.Add(unit, tet, 0, null, new float[3]), "3 numbers, expected 12");
+            Test.Throws<VoxArgumentException>(() => new Grid(new GridOptions { CellSize = -1 }), "cell_size is -1");
+            Test.Throws<VoxException>(() => new Grid(new GridOptions { ByteBudget = 10 }), "budget is 10");
+            Test.Throws<ArgumentNullException>(() => new Grid(null), "");
+            Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[5]), "snapshot");
+            Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[0]), "snapshot");
+            Test.Throws<ArgumentException>(() => grid.GetDoublePositions(mesh), "are Float3, asked for as Double3");
+            Test.Throws<ArgumentException>(() => grid.GetPositions(mesh).Set(new float[3]), "3 numbers, expected 12");
+            Test.Throws<IndexOutOfRangeException>(() => Put(grid, mesh, 12, 0), "");
+            Test.Throws<VoxException>(() => { var r = grid.Readings; }, "");
+            Test.Throws<VoxException>(() => grid.QueryRay(new Double3(), new Double3()), "");
+            Test.Throws<ArgumentException>(() => grid.SetTransform(mesh, new double[3]), "3 numbers, expected 12");
+            Test.Throws<ArgumentException>(() => grid.ReplaceTets(mesh, new uint[1], new uint[3]), "3 corners, expected 4");
+            Put(grid, mesh, 5, float.NaN);
+            Test.Throws<VoxException>(() => grid.Step(), "vertex 1");
+            Test.Same(grid.GetFailure().mesh, mesh.Id, "failure");
+            Put(grid, mesh, 5, 0);
+            grid.Step();
+            grid.Remove(mesh);
+            Test.Throws<VoxException>(() => grid.Remove(mesh), "stale");
+            Test.Throws<VoxException>(() => grid.GetFacts(mesh), "stale");
+            Test.That(!grid.Contains(mesh), "a removed mesh");
+            grid.Dispose();
+            grid.Dispose();
+            Test.Throws<ObjectDisposedException>(() => grid.Step(), "");
+            Test.Throws<ObjectDisposedException>(() => { ulong hash = grid.Hash; }, "");
+        }
+
+        public static void Views()
+        {
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b);
+            grid.Step();
+            View<Contact> contacts = grid.Contacts;
+            int count = contacts.Length;
+            Test.That(count > 100, "contacts: " + count);
+            Contact[] kept = contacts.ToArray();
+            Test.Same(grid.CopyContacts(a).Length, count, "contacts of a mesh");
+            Test.Same(grid.CopyContacts(a, b).Length, count, "contacts of a pair");
+            Positions<float> positions = grid.GetPositions(b);
+            for (int i = 0; i < positions.Length; i += 3) positions[i] += 100;
+            grid.Step();
+            string end = "";
+            try { count = contacts.Length; } catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("this view ended"), end);
+            try { end = ""; kept[0] = contacts[0]; } catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("this view ended"), end);
+            Test.Same(grid.Contacts.Length, 0, "contacts");
+            Test.Same(grid.TouchEvents.Ended, 1, "pairs that ended");
+            positions[0] = 0; // still there after a step
+            grid.Remove(b);
+            try { end = ""; positions[0] = 1; } catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("these positions ended"), end);
+            View<Contact> last = grid.Contacts;
+            grid.Dispose();
+            try { end = ""; count = last.Length; } catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("this view ended"), end);
+            Test.That(kept[0].barycentric[0] >= 0, "a copy");
+        }
+
+        public static void Threads()
+        {
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b, new GridOptions { Workers = 0 }, 12);
+            grid.Step();
+            ulong hash = grid.Hash;
+            int refused = 0, wrong = 0;
+            var threads = new Thread[4];
+            for (int t = 0; t < threads.Length; ++t)
+            {
+                threads[t] = new Thread(() =>
+                {
+                    for (int i = 0; i < 200; ++i)
+                        try
+                        {
+                            grid.MarkMoved(a);
+                            grid.Step();
+                            if (grid.Hash != hash) Interlocked.Increment(ref wrong);
+                        }
+                        catch (InvalidOperationException)
+                        {
+                            Interlocked.Increment(ref refused);
+                        }
+                        catch (Exception)
+                        {
+                            Interlocked.Increment(ref wrong);
+                        }
+                });
+                threads[t].Start();
+            }
+            foreach (Thread thread in threads) thread.Join();
+            Test.Same(wrong, 0, "wrong results");
+            grid.Step();
+            Test.Same(grid.Hash, hash, "after " + refused + " refused calls");
+            // A view is asked while the grid steps and goes.
+            QueryView view = grid.TakeQueryView();
+            int found = 0;
+            var asking = new Thread(() =>
+            {
+                var hits = new PointHit[8];
+                for (int i = 0; i < 500; ++i) found += (int)view.QueryPoints(new[] { 7.5, 5.25, 3.125 }, hits);
+            });
+            asking.Start();
+            for (int i = 0; i < 10; ++i)
+            {
+                grid.MarkMoved(a);
+                grid.Step();
+            }
+            grid.Dispose();
+            asking.Join();
+            Test.Same(found, 1000, "hits of a view");
+            view.Dispose();
+            Test.Throws<ObjectDisposedException>(() => { ulong epoch = view.Epoch; }, "");
+        }
+
+        public static void Log()
+        {
+            var lines = new List<string>();
+            Grid grid = null;
+            grid = new Grid(new GridOptions
+            {
+                Log = (level, text) =>
+                {
+                    lines.Add(level + " " + text);
+                    try { grid.Step(); } catch (InvalidOperationException) { lines.Add("refused"); }
+                    throw new Exception("of a log");
+                }
+            });
+            GC.Collect();
+            grid.Add(unit, new uint[0]); // edges and faces collide with nothing
+            Test.Same(lines.Count, 2, "lines");
+            Test.That(lines[0].StartsWith("Warning "), lines[0]);
+            Test.Same(lines[1], "refused", "a call of the grid from its log");
+            grid.Dispose();
+        }
+
+        public static void CellSizes()
+        {
+            float[] positions;
+            uint[] tets;
+            Block(5, 0, out positions, out tets);
+            Suggestion suggestion = CellSize.Suggest(positions, tets);
+            Test.That(suggestion.zone_min < suggestion.cell_size && suggestion.cell_size < suggestion.zone_max, "the zone");
+            Test.That(suggestion.curve[1].cell_size > suggestion.curve[0].cell_size, "the curve");
+            Test.Throws<ArgumentException>(() => CellSize.Suggest(new float[1][], new uint[2][]), "2 arrays of tets");
+            Test.Throws<ArgumentNullException>(() => CellSize.Suggest(new float[1][], new uint[1][]), "mesh 0");
+            Test.Throws<VoxArgumentException>(() => CellSize.Suggest(unit, new uint[0]), "");
+            CostMinimum least = CellSize.Minimise(x => (x - 2) * (x - 2) + 1, 0.1, 10);
+            Test.That(Math.Abs(least.cell_size - 2) < 1e-3, "least at " + least.cell_size);
+            Test.Throws<FormatException>(() => CellSize.Minimise(x => { throw new FormatException("of a cost"); }, 0.1, 10),
+                                         "of a cost");
+            Test.Throws<VoxArgumentException>(() => CellSize.Minimise(x => x, 2, 1), "");
+            Test.Same(CellSize.ZoneDistance(3, 1, 3, 9), 0.0, "distance");
+            CostWeights weights = CellSize.Weights;
+            CellSize.Weights = weights;
+            Test.Same(CellSize.Weights.fast_bin_vertex, weights.fast_bin_vertex, "weights");
+            Mesh a, b;
+            using (Grid grid = TwoBlocks(out a, out b))
+                Test.That(grid.SuggestCellSize().cell_size > 0 && grid.SuggestCellSize(CostModel.Paper).cell_size > 0, "a grid");
+        }
+
+        public static void Files()
+        {
+            string folder = System.IO.Path.Combine(System.IO.Path.GetTempPath(), "voxtet-" + Guid.NewGuid());
+            System.IO.Directory.CreateDirectory(folder);
+            string path = System.IO.Path.Combine(folder, "bälle.msh");
+            try
+            {
+                using (MeshFile ball = MeshFile.Ball(1, 0.3))
+                {
+                    ball.Save(path);
+                    using (MeshFile read = MeshFile.Load(path))
+                    {
+                        Test.Same(read.GetTets().Length, ball.GetTets().Length, "tets");
+                        Test.Same(read.GetPositions()[7], ball.GetPositions()[7], "positions");
+                        Test.Same(read.Warnings, "", "warnings");
+                        Test.Same(read.Report.inverted_tets, 0ul, "inverted tets");
+                        Test.Same(read.GetTriangles().Length % 3, 0, "triangles");
+                    }
+                }
+                Test.Throws<VoxArgumentException>(() => MeshFile.Read("a.msh", new byte[] { 36, 77 }), "a.msh");
+            }
+            finally
+            {
+                System.IO.Directory.Delete(folder, true);
+            }
+            Test.Throws<VoxException>(() => MeshFile.Load(path), "bälle.msh");
+            Test.Throws<ArgumentException>(() => MeshFile.Load("a\0b"), "zero character");
+            Test.Throws<VoxArgumentException>(() => MeshFile.Ball(-1, 0.1), "");
+            using (MeshFile torus = MeshFile.Torus(1, 0.3, 0.1)) Test.That(torus.Report.volume > 1.5, "a torus");
+        }
+
+        public static void ManyGrids()
+        {
+            var grids = new Grid[20];
+            Mesh a = Mesh.None, b;
+            for (int i = 0; i < grids.Length; ++i) grids[i] = TwoBlocks(out a, out b);
+            Grid.StepAll(grids, 2);
+            foreach (Grid grid in grids) Test.Same(grid.Hash, grids[0].Hash, "hash");
+            Put(grids[7], a, 9, float.PositiveInfinity);
+            Test.Throws<VoxException>(() => Grid.StepAll(grids), "grid 7: ");
+            Test.That(grids[8].Contacts.Length > 100, "the others are stepped");
+            Test.Throws<InvalidOperationException>(() => Grid.StepAll(new[] { grids[0], grids[0] }), "");
+            Test.Throws<ArgumentNullException>(() => Grid.StepAll(new Grid[1]), "grids[0]");
+            Grid.StepAll(new Grid[0]);
+            foreach (Grid grid in grids) grid.Dispose();
+        }
+
+        public static void EmptyArrays()
+        {
+            using (var grid = new Grid())
+            {
+                Mesh mesh = grid.Add(new float[0], new uint[0]);
+                Test.Same(grid.GetPositions(mesh).Length, 0, "positions");
+                grid.Step();
+                grid.PrepareQueries();
+                Test.Same(grid.QueryPoints(new double[0], new PointHit[0]), 0ul, "hits");
+                grid.QueryClosest(new double[0], new ClosestHit[0]);
+                Test.Same(grid.AppendVertices(mesh, unit), 0u, "first vertex");
+                Test.Same(grid.AppendTets(mesh, tet), 0u, "first tet");
+                Test.Same(grid.GetPositions(mesh)[3], 1f, "positions");
+                foreach (Contact contact in grid.Contacts) Test.That(false, "a contact of " + contact.vertex);
+                grid.Step();
+            }
+        }
+
+        /// <summary>Calls with arguments at random: each succeeds or throws, and the grid still steps.</summary>
+        public static void AnythingGoes()
+        {
+            var random = new Random(1);
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b);
+            int refused = 0, done = 0;
+            for (int round = 0; round < 3000; ++round)
+            {
+                Mesh[] meshes = grid.GetMeshes();
+                Mesh mesh = random.Next(4) == 0 || meshes.Length == 0 ? new Mesh((uint)random.Next()) : meshes[random.Next(meshes.Length)];
+                var list = new uint[random.Next(4)];
+                for (int i = 0; i < list.Length; ++i) list[i] = (uint)random.Next(1500);
+                var corners = new uint[4 * list.Length];
+                for (int i = 0; i < corners.Length; ++i) corners[i] = (uint)random.Next(345);
+                double number = new[] { 0, 1.5, -2, 1e300, double.NaN, double.PositiveInfinity }[random.Next(6)];
+                try
+                {
+                    switch (random.Next(17))
+                    {
+                        case 0: grid.RemoveTets(mesh, list); break;
+                        case 1: grid.SetTetsEnabled(mesh, list, random.Next(2) == 0); break;
+                        case 2: grid.ReplaceTets(mesh, list, corners); break;
+                        case 3: grid.AppendTets(mesh, corners); break;
+                        case 4: grid.AppendCopies(mesh, list); break;
+                        case 5: grid.RemoveVertices(mesh, list); break;
+                        case 6: grid.SetTransform(mesh, new[] { 1, 0, 0, number, 0, 1, 0, 0, 0, 0, 1, 0 }); break;
+                        case 7: grid.CellSize = number; break;
+                        case 8: grid.SetPairEnabled(mesh, new Mesh((uint)random.Next(9000)), random.Next(2) == 0); break;
+                        case 9:
+                            Filter filter = Grid.DefaultFilter;
+                            filter.mask >>= random.Next(64);
+                            filter.self_collision = (uint)random.Next(3);
+                            grid.SetFilter(mesh, filter);
+                            break;
+                        case 10: grid.SetEnabled(mesh, random.Next(2) == 0); break;
+                        case 11: grid.Flags = (GridFlags)random.Next(9); break;
+                        case 12: if (random.Next(9) == 0) grid.Remove(mesh); break;
+                        case 13:
+                            float[] positions;
+                            uint[] tets;
+                            Block(3, random.Next(40) / 10f, out positions, out tets);
+                            if (meshes.Length < 4) grid.Add(positions, tets);
+                            break;
+                        case 14: grid.PrepareQueries(); grid.QueryPoints(new[] { number, 0, 0 }, new PointHit[2]); break;
+                        case 15: grid.PrepareReadings((ReadingFlags)random.Next(9)); break;
+                        default: grid.Step(); break;
+                    }
+                    ++done;
+                }
+                catch (VoxException error)
+                {
+                    Test.That(error.Message != "" && error.Code != Result.ErrorInternal, error.ToString());
+                    ++refused;
+                }
+            }
+            Test.That(refused > 300 && done > 300, refused + " refused, " + done + " done");
+            grid.Dispose();
+        }
+
+        /// <summary>A frame takes no memory of the collector's.</summary>
+        public static void NoAllocation()
+        {
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b);
+            double sum = 0;
+            Frame(grid, a, ref sum);
+            GC.Collect();
+            int collections = GC.CollectionCount(0);
+            long before = GC.GetTotalMemory(false);
+            for (int frame = 0; frame < 2000; ++frame) Frame(grid, a, ref sum);
+            Test.That(GC.CollectionCount(0) == collections && GC.GetTotalMemory(false) - before < 20000,
+                      "2000 frames took " + (GC.GetTotalMemory(false) - before) + " bytes");
+            Test.That(sum > 0, "depths");
+            grid.Dispose();
+        }
+
+        static void Frame(Grid grid, Mesh mesh, ref double sum)
+        {
+            Positions<float> positions = grid.GetPositions(mesh);
+            positions[0] = positions[0] > 0 ? 0 : 0.01f;
+            grid.Step();
+            foreach (Penetration penetration in grid.Penetrations) sum += penetration.depth;
+            sum += grid.TouchEvents.Persisted + (double)grid.Counters.contacts;
+        }
+
+        static long ResidentKilobytes()
+        {
+            foreach (string line in System.IO.File.ReadAllLines("/proc/self/status"))
+                if (line.StartsWith("VmRSS:")) return long.Parse(line.Substring(6).Replace("kB", "").Trim());
+            return 0;
+        }
+
+        /// <summary>Grids that are disposed of, and grids that are forgotten.</summary>
+        public static void NothingLeaks()
+        {
+            if (!System.IO.File.Exists("/proc/self/status")) return;
+            Mesh a, b;
+            long before = 0;
+            for (int i = 0; i < 3000; ++i)
+            {
+                if (i == 1000) before = ResidentKilobytes();
+                Grid grid = TwoBlocks(out a, out b, null, 3);
+                grid.Step();
+                if (i % 2 == 0) grid.Dispose();
+                if (i % 100 == 0) { GC.Collect(); GC.WaitForPendingFinalizers(); }
+            }
+            long more = ResidentKilobytes() - before;
+            Test.That(more < 20000, "2000 grids left " + more + " kB");
+        }
+    }
+}

@@ -1,0 +1,330 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Runtime.InteropServices;
+
+namespace Voxtet.Tests
+{
+    /// <summary>Replays bindings/vectors: the same results as in every other language.</summary>
+    sealed class Vectors
+    {
+        readonly byte[] arrays;
+        readonly object script;
+        Grid grid;
+        string place;
+
+        Vectors(string folder)
+        {
+            arrays = File.ReadAllBytes(Path.Combine(folder, "vectors.bin"));
+            script = Json.Parse(File.ReadAllText(Path.Combine(folder, "vectors.json")));
+        }
+
+        public static void Run(string folder)
+        {
+            var vectors = new Vectors(folder);
+            int calls = 0;
+            foreach (Dictionary<string, object> scene in (List<object>)((Dictionary<string, object>)vectors.script)["scenes"])
+                foreach (Dictionary<string, object> call in (List<object>)scene["calls"])
+                {
+                    vectors.place = scene["name"] + ": " + call["call"] + " " + calls;
+                    vectors.Replay(new Call(call));
+                    ++calls;
+                }
+            vectors.grid.Dispose();
+            Test.That(calls > 300, "only " + calls + " calls");
+        }
+
+        struct Call
+        {
+            public readonly Dictionary<string, object> Fields;
+            public Call(Dictionary<string, object> fields) { Fields = fields; }
+            public bool Has(string name) { return Fields.ContainsKey(name); }
+            public double Number(string name) { return (double)Fields[name]; }
+            public uint Uint(string name) { return (uint)(double)Fields[name]; }
+            public string Text(string name) { return (string)Fields[name]; }
+            public Mesh Mesh(string name = "mesh") { return new Mesh(Has(name) ? Uint(name) : 0); }
+        }
+
+        void Replay(Call call)
+        {
+            if (!call.Has("fails"))
+            {
+                Make(call);
+                return;
+            }
+            // Arguments that a bool rules out.
+            if (call.Has("enabled") && call.Number("enabled") > 1) return;
+            try
+            {
+                Make(call);
+            }
+            catch (VoxException error)
+            {
+                Test.Same((double)(int)error.Code, call.Number("fails"), place);
+                Test.Same(error.Message, call.Text("text"), place);
+                return;
+            }
+            Test.That(false, place + " did not fail");
+        }
+
+        T[] Array<T>(Call call, string name, ulong count) where T : struct
+        {
+            return MemoryMarshal.Cast<byte, T>(new ReadOnlySpan<byte>(arrays, (int)call.Number(name),
+                                                                      (int)count * Marshal.SizeOf(typeof(T)))).ToArray();
+        }
+
+        static ulong HashOf(ReadOnlySpan<byte> bytes)
+        {
+            ulong hash = 0xcbf29ce484222325;
+            foreach (uint w in MemoryMarshal.Cast<byte, uint>(bytes))
+                hash = unchecked((hash ^ (w == 0x80000000 ? 0 : w)) * 0x100000001b3);
+            return hash;
+        }
+
+        void Check<T>(Call call, string name, ReadOnlySpan<T> items) where T : struct
+        {
+            var expected = (List<object>)call.Fields[name];
+            Test.Same((double)items.Length, (double)expected[0], place + ": " + name);
+            Test.Same(HashOf(MemoryMarshal.AsBytes(items)).ToString("x16"), (string)expected[1], place + ": " + name);
+        }
+
+        void Check(Call call, string name, double found) { Test.Same(found, call.Number(name), place + ": " + name); }
+
+        void CheckCounts(Call call, string name, params int[] found)
+        {
+            var expected = (List<object>)call.Fields[name];
+            for (int i = 0; i < found.Length; ++i) Test.Same((double)found[i], (double)expected[i], place + ": " + name);
+        }
+
+        static Filter FilterOf(Call call)
+        {
+            var fields = new Call((Dictionary<string, object>)call.Fields["filter"]);
+            Filter filter = Grid.DefaultFilter;
+            filter.group = (int)fields.Number("group");
+            filter.category = ulong.Parse(fields.Text("category"));
+            filter.mask = ulong.Parse(fields.Text("mask"));
+            filter.self_collision = fields.Uint("self_collision");
+            filter.self_rings = fields.Uint("self_rings");
+            filter.self_rest_distance = fields.Number("self_rest_distance");
+            filter.penetration_mask = ulong.Parse(fields.Text("penetration_mask"));
+            return filter;
+        }
+
+        static Double3 Point(Call call, string name)
+        {
+            var point = new Double3();
+            for (int i = 0; i < 3; ++i) point[i] = (double)((List<object>)call.Fields[name])[i];
+            return point;
+        }
+
+        void Make(Call call)
+        {
+            Mesh mesh = call.Mesh();
+            uint count = call.Has("count") ? call.Uint("count") : 0;
+            switch (call.Text("call"))
+            {
+                case "create":
+                    if (grid != null) grid.Dispose();
+                    grid = new Grid(new GridOptions { Flags = (GridFlags)call.Uint("flags"), CellSize = call.Number("cell_size") });
+                    break;
+                case "insert":
+                {
+                    uint[] tets = Array<uint>(call, "tets", 4 * call.Uint("tet_count"));
+                    ulong userData = ulong.Parse(call.Text("user_data"));
+                    Filter? filter = null;
+                    if (call.Has("filter")) filter = FilterOf(call);
+                    Mesh added = call.Uint("format") == 1
+                                     ? grid.Add(Array<double>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter)
+                                     : grid.Add(Array<float>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter);
+                    Test.Same((double)added.Id, call.Number("mesh"), place);
+                    break;
+                }
+                case "move":
+                    if (call.Uint("format") == 1)
+                        grid.GetDoublePositions(mesh).Set(Array<double>(call, "positions", 3 * call.Uint("vertices")));
+                    else
+                        grid.GetPositions(mesh).Set(Array<float>(call, "positions", 3 * call.Uint("vertices")));
+                    break;
+                case "step":
+                    grid.Step();
+                    break;
+                case "results":
+                    Results(call);
+                    break;
+                case "readings":
+                    grid.PrepareReadings();
+                    Check(call, "readings", grid.Readings.AsSpan());
+                    break;
+                case "prepare_queries":
+                    grid.PrepareQueries();
+                    break;
+                case "query_points":
+                {
+                    double[] points = Array<double>(call, "points", 3 * count);
+                    var hits = new PointHit[4096];
+                    int found = (int)grid.QueryPoints(points, hits);
+                    Check(call, "hits", new ReadOnlySpan<PointHit>(hits, 0, found));
+                    using (QueryView view = grid.TakeQueryView()) found = (int)view.QueryPoints(points, hits);
+                    Check(call, "hits", new ReadOnlySpan<PointHit>(hits, 0, found));
+                    break;
+                }
+                case "query_closest_points":
+                {
+                    var hits = new ClosestHit[count];
+                    grid.QueryClosest(Array<double>(call, "points", 3 * count), hits);
+                    Check<ClosestHit>(call, "hits", hits);
+                    break;
+                }
+                case "query_ray":
+                    Check<RayHit>(call, "hits", new[] { grid.QueryRay(Point(call, "from"), Point(call, "to")) });
+                    break;
+                case "query_ray_hits":
+                {
+                    var hits = new FacetHit[4096];
+                    int found = (int)grid.QueryRayHits(Point(call, "from"), Point(call, "to"), hits);
+                    Check(call, "hits", new ReadOnlySpan<FacetHit>(hits, 0, found));
+                    break;
+                }
+                case "query_box":
+                {
+                    var hits = new TetHit[4096];
+                    int found = (int)grid.QueryBox(Point(call, "min"), Point(call, "max"), hits);
+                    Check(call, "hits", new ReadOnlySpan<TetHit>(hits, 0, found));
+                    break;
+                }
+                case "meshes":
+                    Meshes(call);
+                    break;
+                case "set_transform":
+                    grid.SetTransform(mesh, Array<double>(call, "matrix", 12));
+                    break;
+                case "set_filter":
+                    grid.SetFilter(mesh, FilterOf(call));
+                    break;
+                case "set_enabled":
+                    grid.SetEnabled(mesh, call.Uint("enabled") != 0);
+                    break;
+                case "set_pair_enabled":
+                    grid.SetPairEnabled(call.Mesh("mesh_a"), call.Mesh("mesh_b"), call.Uint("enabled") != 0);
+                    break;
+                case "set_flags":
+                    grid.Flags = (GridFlags)call.Uint("flags");
+                    break;
+                case "remove":
+                    grid.Remove(mesh);
+                    break;
+                case "clear":
+                    grid.Clear();
+                    break;
+                case "set_tets_enabled":
+                    grid.SetTetsEnabled(mesh, Array<uint>(call, "indices", count), call.Uint("enabled") != 0);
+                    break;
+                case "remove_tets":
+                    grid.RemoveTets(mesh, Array<uint>(call, "indices", count));
+                    break;
+                case "append_copies":
+                    Check(call, "first", grid.AppendCopies(mesh, Array<uint>(call, "copies_of", count)));
+                    break;
+                case "replace_tets":
+                    grid.ReplaceTets(mesh, Array<uint>(call, "indices", count), Array<uint>(call, "corners", 4 * count));
+                    break;
+                case "append_tets":
+                    Check(call, "first", grid.AppendTets(mesh, Array<uint>(call, "corners", 4 * count)));
+                    break;
+                case "save":
+                {
+                    byte[] bytes = grid.Save();
+                    Check(call, "size", bytes.Length);
+                    System.Array.Resize(ref bytes, (bytes.Length + 3) / 4 * 4);
+                    Test.Same(HashOf(bytes).ToString("x16"), call.Text("hash"), place);
+                    break;
+                }
+                case "load":
+                {
+                    Grid loaded = Grid.Load(new ReadOnlySpan<byte>(arrays, (int)call.Number("bytes"), (int)call.Number("size")));
+                    grid.Dispose();
+                    grid = loaded;
+                    break;
+                }
+                case "suggest":
+                    Suggest(call);
+                    break;
+                default:
+                    throw new ArgumentException("a call that is not known: " + call.Text("call"));
+            }
+        }
+
+        void Results(Call call)
+        {
+            Test.Same(grid.Hash.ToString("x16"), call.Text("hash"), place);
+            Check(call, "epoch", grid.Epoch);
+            Check(call, "contacts", grid.Contacts.AsSpan());
+            int interior = 0;
+            foreach (byte i in grid.Interiors) interior += i;
+            Check(call, "interior", interior);
+            Check(call, "pairs", grid.Pairs.AsSpan());
+            Check(call, "pair_contacts", grid.PairContacts.AsSpan());
+            Events<TouchEvent> touches = grid.TouchEvents;
+            Check(call, "touches", touches.All.AsSpan());
+            CheckCounts(call, "touches_began_persisted_ended", touches.Began, touches.Persisted, touches.Ended);
+            if (call.Has("penetrations"))
+            {
+                Check(call, "penetrations", grid.Penetrations.AsSpan());
+                Check(call, "depths", grid.Depths.AsSpan());
+            }
+            else
+            {
+                Test.Throws<VoxException>(() => { var p = grid.Penetrations; }, "VOX_GRID_PENETRATIONS");
+            }
+            if (!call.Has("contact_events")) return;
+            Events<ContactEvent> events = grid.ContactEvents;
+            Check(call, "contact_events", events.All.AsSpan());
+            CheckCounts(call, "contact_events_began_ended", events.Began, events.Ended);
+        }
+
+        void Meshes(Call call)
+        {
+            var expected = (List<object>)call.Fields["meshes"];
+            Mesh[] found = grid.GetMeshes();
+            Test.Same((double)found.Length, (double)expected.Count, place);
+            for (int i = 0; i < found.Length; ++i)
+            {
+                var mesh = new Call((Dictionary<string, object>)expected[i]);
+                MeshFacts facts = grid.GetFacts(found[i]);
+                Test.Same(facts.UserData.ToString(), mesh.Text("user_data"), place);
+                Check(mesh, "mesh", found[i].Id);
+                Check(mesh, "vertices", facts.VertexCount);
+                Check(mesh, "tet_count", facts.TetCount);
+                Check(mesh, "enabled_tets", facts.EnabledTetCount);
+                Check(mesh, "enabled", facts.Enabled ? 1 : 0);
+                Check(mesh, "flags", (uint)facts.Flags);
+                Check(mesh, "format", (int)facts.Format);
+                uint[] tets = grid.GetTets(found[i]);
+                Test.Same(HashOf(MemoryMarshal.AsBytes(new ReadOnlySpan<uint>(tets))).ToString("x16"), mesh.Text("tets"), place);
+            }
+        }
+
+        void Suggest(Call call)
+        {
+            var meshes = (List<object>)call.Fields["meshes"];
+            var positions = new float[meshes.Count][];
+            var tets = new uint[meshes.Count][];
+            for (int i = 0; i < meshes.Count; ++i)
+            {
+                var mesh = new Call((Dictionary<string, object>)meshes[i]);
+                positions[i] = Array<float>(mesh, "positions", 3 * mesh.Uint("vertices"));
+                tets[i] = Array<uint>(mesh, "tets", 4 * mesh.Uint("tet_count"));
+            }
+            Suggestion found = CellSize.Suggest(positions, tets, (CostModel)call.Uint("model"));
+            var pairs = new Dictionary<string, double>
+            {
+                { "cell_size", found.cell_size }, { "zone_min", found.zone_min }, { "zone_max", found.zone_max },
+                { "predicted_cost", found.predicted_cost }, { "mean_edge", found.stats.mean_edge },
+                { "curve_count", found.curve_count }
+            };
+            foreach (KeyValuePair<string, double> pair in pairs)
+                Test.That(Math.Abs(pair.Value - call.Number(pair.Key)) <= 1e-6 * Math.Abs(call.Number(pair.Key)),
+                          place + ": " + pair.Key + " is " + pair.Value + ", expected " + call.Number(pair.Key));
+        }
+    }
+}
