@@ -31,7 +31,7 @@ struct Answer {
     vox_io_report report;
 };
 
-// It reserves terabytes of address space.
+// AddressSanitizer reserves terabytes of address space, so no limit can be set under it.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool address_sanitizer = true;
 #elif defined(__has_feature)
@@ -153,12 +153,10 @@ private:
         return status;
     }
 
-    // The pipe is at its end although more should come: the process has ended, or is about to.
+    // The pipe is at its end although more should come, and nothing says that the process is. One that has
+    // ended by itself keeps its status.
     std::string how_it_ended() {
-        int status = 0;
-        while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-        }
-        child_ = -1;
+        const int status = end();
         if (!WIFSIGNALED(status)) return "it ended without an answer";
         if (WTERMSIG(status) == SIGXCPU) return "it used more processor time than a minute";
         return std::string("it was ended by a signal: ") + strsignal(WTERMSIG(status));
