@@ -180,7 +180,8 @@ void measure(const Options& options, vox_experiment* experiment, const vox_sugge
             ++measured;
         }
     }
-    warn_if_busy(std::chrono::steady_clock::now() - begin, double(std::clock() - used) / CLOCKS_PER_SEC);
+    if (measured > 0)
+        warn_if_busy(std::chrono::steady_clock::now() - begin, double(std::clock() - used) / CLOCKS_PER_SEC);
 }
 
 void collect(const Options& options, const SweepLog& log, std::vector<Size>& sizes) {

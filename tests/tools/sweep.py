@@ -160,6 +160,9 @@ class Sweep(Files):
         # A whole file is not measured again: two runs say the same. More rounds only add lines.
         self.assertEqual(run_json("sweep", *BALL, "--rounds", 2, "--resume", cut), found)
         self.assertEqual(self.lines(cut), again)
+        # Nor is it said that the machine was busy meanwhile.
+        done = subprocess.run([TOOL, "sweep", *map(str, BALL), "--rounds", "2", "--resume", cut], capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
         run_json("sweep", *BALL, "--rounds", 3, "--resume", cut)
         self.assertEqual(self.lines(cut)[:len(again)], again)
         self.assertEqual(len(self.lines(cut)), 1 + 3 * (6 + len(RULES)))
