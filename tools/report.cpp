@@ -54,12 +54,24 @@ Json counters_json(const vox_counters& counters) {
             {"skipped_degenerate", counters.skipped_degenerate},
             {"bytes", counters.bytes},
             {"peak_bytes", counters.peak_bytes},
+            {"moved_meshes", counters.moved_meshes},
+            {"carried_contacts", counters.carried_contacts},
             {"penetrations", counters.penetrations},
             {"leaving_edges", counters.leaving_edges},
             {"edge_tests", counters.edge_tests},
             {"closest_searches", counters.closest_searches},
             {"closest_tests", counters.closest_tests},
-            {"unknown_penetrations", counters.unknown_penetrations}};
+            {"disabled_meshes", counters.disabled_meshes},
+            {"filtered", counters.filtered},
+            {"cell_size_changes", counters.cell_size_changes},
+            {"unknown_penetrations", counters.unknown_penetrations},
+            {"carried_penetrations", counters.carried_penetrations},
+            {"skipped_meshes", counters.skipped_meshes},
+            {"meshes_without_tets", counters.meshes_without_tets},
+            {"total_touches_began", counters.total_touches_began},
+            {"total_touches_ended", counters.total_touches_ended},
+            {"total_contacts_began", counters.total_contacts_began},
+            {"total_contacts_ended", counters.total_contacts_ended}};
 }
 
 Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {

@@ -381,6 +381,13 @@ class CommandLine(Files):
             for key in "contacts", "penetrations", "hash", "meshes":
                 self.assertEqual(once[key], often[key])
         self.assertIn("in which all vertices move", run(*placed, "--repeat", 3).stdout.decode())
+        # A hair inside, the corner of B leaves A and comes back as it moves.
+        for double in [], ["--double"]:
+            near = ["collide", self.one, self.one, "--scale", 2, "--offset", 0.0001, 0.2, 0.3, *double]
+            once, often = run_json(*near)["counters"], run_json(*near, "--repeat", 20)["counters"]
+            self.assertEqual(once["total_touches_began"], 1)
+            self.assertGreater(often["total_touches_began"], 1)
+            self.assertEqual(often["total_touches_ended"], often["total_touches_began"] - 1)
 
     def test_collide_as_text(self):
         done = run("collide", self.two, self.two, "--limit", 2)
