@@ -35,6 +35,8 @@ void place(Body& body, const Placement& placement) {
 } // namespace
 
 Mesh load_mesh(const std::string& path, vox_io_report* report) {
+    Progress progress;
+    progress.show_reading(path);
     vox_io_mesh* loaded = nullptr;
     const vox_result result = vox_io_load(path.c_str(), nullptr, &loaded);
     if (result == VOX_ERROR_UNSUPPORTED) return load_by_assimp(path, vox_last_error(), report);
@@ -54,8 +56,6 @@ Body own_body(const std::string& name, vox_io_mesh* mesh) {
 }
 
 Body load_body(const std::string& path, const Placement& placement, const Fill& fill) {
-    Progress progress;
-    progress.show_reading(path);
     Body body;
     body.name = path;
     body.mesh = load_mesh(path);

@@ -4,7 +4,6 @@
 #include "failure.hpp"
 #include "report.hpp"
 #include "shape.hpp"
-#include "terminal.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -28,8 +27,6 @@ struct Info {
 };
 
 Info read_info(const std::string& file) {
-    Progress progress;
-    progress.show_reading(file);
     Info info;
     info.file = file;
     info.report.struct_size = sizeof info.report;

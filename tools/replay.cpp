@@ -85,6 +85,7 @@ void run(const Options& options) {
             times.push_back(epoch);
         }
         if (!options.json) {
+            progress.hide();
             print_text(options, file, epoch, grid);
             continue;
         }
@@ -93,6 +94,7 @@ void run(const Options& options) {
         add_result(json, grid, profile_of(grid));
         list.push_back(std::move(json));
     }
+    progress.hide();
     // Files of one time would be drawn over each other.
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
         std::iota(times.begin(), times.end(), 0u);

@@ -42,9 +42,7 @@ constexpr const char* rows_utf8[8] = {"", "▏", "▎", "▍", "▌", "▋", "�
 
 Progress::Progress() : begin_(std::chrono::steady_clock::now()) {}
 
-Progress::~Progress() {
-    if (shown_ && !lines) std::fputs("\r\033[K", stderr);
-}
+Progress::~Progress() { hide(); }
 
 void Progress::show_always() { lines = !standard_error_is_terminal(); }
 
@@ -66,6 +64,12 @@ void Progress::show_reading(const std::string& path) {
         std::snprintf(words, sizeof words, ", %.0f MB", bytes * 1e-6);
     // Readers take some tens of megabytes a second.
     if (lines || (standard_error_is_terminal() && bytes > 1e7)) print("reading " + path + words);
+}
+
+void Progress::hide() {
+    if (lines || !shown_) return;
+    std::fputs("\r\033[K", stderr);
+    shown_ = false;
 }
 
 void Progress::print(const std::string& where) {

@@ -24,6 +24,8 @@ public:
     void show(const std::string& where);
     // Names the file and its size, at once if it is so large that reading it will take long.
     void show_reading(const std::string& path);
+    // Erases the line, before something else is printed where it may stand.
+    void hide();
 
 private:
     void print(const std::string& where);

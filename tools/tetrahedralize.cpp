@@ -55,8 +55,6 @@ void print_text(const Options& options, const vox_io_quality& quality) {
 
 void run(const Options& options) {
     check_output(options.out, {".msh", ".vtu"}); // filling may take minutes
-    Progress progress;
-    progress.show_reading(options.surface);
     const Mesh surface = load_mesh(options.surface);
     const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);

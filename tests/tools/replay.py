@@ -1,9 +1,11 @@
 """vox collide --save and vox replay: the same contacts whatever the engine, and files that are refused."""
 
+import os
+import subprocess
 import unittest
 
 from command_line import TETS, TWO_TETS, msh
-from vox import Files, run, run_json
+from vox import TOOL, Files, run, run_json
 
 
 class Replay(Files):
@@ -34,6 +36,28 @@ class Replay(Files):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("2 meshes, 10 vertices, 4 tetrahedra", done.stdout.decode())
         self.assertIn(self.collided["hash"], done.stdout.decode())
+
+    @unittest.skipUnless(hasattr(os, "openpty"), "no terminals here")
+    def test_progress_on_a_terminal_is_erased_before_results(self):
+        def on_a_terminal(*arguments):
+            ours, terminal = os.openpty()
+            self.addCleanup(os.close, ours)
+            with subprocess.Popen([TOOL, "replay", *arguments], stdout=terminal, stderr=terminal) as vox:
+                os.close(terminal)
+                text = b""
+                try:
+                    while piece := os.read(ours, 4096):
+                        text += piece
+                except OSError:  # how Linux says that nobody writes any more
+                    pass
+            self.assertEqual(vox.returncode, 0)
+            return text.decode()
+        for json in [], ["--json"]:
+            for steps in "100000", "500000":  # progress is shown after half a second
+                text = on_a_terminal(self.snapshot, self.snapshot, "--steps", steps, *json)
+                self.assertNotRegex(text, r"of 2(?!\r\x1b\[K)")
+                if "snapshot 2 of 2" in text:
+                    break
 
     def test_refused(self):
         self.refused(1, "cannot be opened: No such file", "replay", self.snapshot + ".not")
