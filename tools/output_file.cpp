@@ -24,10 +24,11 @@ std::string lower_case(std::string text) {
 
 } // namespace
 
+bool has_ending(const std::string& path, const char* ending) { return lower_case(path).ends_with(ending); }
+
 void check_output(const std::string& path, std::initializer_list<const char*> endings) {
-    const std::string name = lower_case(path);
-    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-    if (endings.size() > 0 && std::none_of(endings.begin(), endings.end(), ends)) {
+    const auto matches = [&](const char* ending) { return has_ending(path, ending); };
+    if (endings.size() > 0 && std::none_of(endings.begin(), endings.end(), matches)) {
         std::string words;
         for (const char* ending : endings) words += (words.empty() ? "" : " or ") + std::string(ending);
         throw Failure(path + ": expected a name that ends with " + words);

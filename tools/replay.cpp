@@ -27,7 +27,7 @@ struct Options {
     bool json = false;
 };
 
-bool is_series(const std::string& out) { return out.ends_with(".pvd"); }
+bool is_series(const std::string& out) { return has_ending(out, ".pvd"); }
 
 // The file of one snapshot of a series, beside it: of run.pvd, run_0007.vtu.
 std::string file_in_series(const std::string& out, std::size_t index) {
