@@ -43,7 +43,8 @@ void check_output(const std::string& path, std::initializer_list<const char*> en
     std::FILE* const file = std::fopen(path.c_str(), "ab");
     if (!file) fail(path, std::strerror(errno));
     std::fclose(file);
-    if (!existed) std::filesystem::remove(path, error);
+    // Of a symbolic link that led nowhere, the file that is there now is removed, and not the link.
+    if (!existed) std::filesystem::remove(std::filesystem::canonical(path, error), error);
 }
 
 void write_file(const std::string& path, const std::string& text) {

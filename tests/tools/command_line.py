@@ -441,6 +441,10 @@ class CommandLine(Files):
         self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept)
         self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", kept + ".vtu")
         self.assertFalse(os.path.exists(kept + ".vtu"))
+        link = self.path("link.msh")
+        os.symlink("not_yet.msh", link)
+        self.refused(1, "missing.obj", "tetrahedralize", "missing.obj", "-o", link)
+        self.assertEqual((os.path.islink(link), os.path.exists(link)), (True, False))
         with open(kept, encoding="ascii") as file:
             self.assertEqual(file.read(), "kept")
 
