@@ -229,8 +229,9 @@ CommandLine::~CommandLine() = default;
 
 Command CommandLine::add(const std::string& name, const std::string& description) {
     CLI::App* const command = app_->add_subcommand(name, description);
-    command->add_flag("--progress", progress_,
-                      "Show progress on standard error also if that is not a terminal");
+    // Options call their functions before the command runs.
+    command->add_flag_callback("--progress", Progress::show_always,
+                               "Show progress on standard error also if that is not a terminal");
     return Command(command);
 }
 
@@ -245,9 +246,6 @@ int CommandLine::run(int argc, char** argv) {
                 *app_, ("there is no command '" + arguments.back() + "'" + nearest(arguments.back(), names))
                            .c_str());
     }
-    // Commands run within parse(), so that this must be known before.
-    if (std::find(arguments.begin(), arguments.end(), "--progress") != arguments.end())
-        Progress::show_always();
     try {
         app_->parse(arguments); // also runs the command
         return 0;

@@ -135,7 +135,6 @@ public:
 
 private:
     std::unique_ptr<CLI::App> app_;
-    bool progress_ = false;
 };
 
 } // namespace tool

@@ -59,6 +59,8 @@ class Usage(Files):
         done = run("info", self.mesh, "--progress")
         self.assertEqual(done.stderr.decode(), f"vox: reading {self.mesh}, 1 kB\n")
         self.assertEqual(done.stdout, run("info", self.mesh).stdout)
+        done = run("info", "--", self.mesh, "--progress")  # a file of that name
+        self.assertNotIn(b"reading", done.stderr)
         done = run("collide", self.mesh, "--self", "--progress")
         self.assertIn(b"vox: first step\n", done.stderr)  # later ones only after a second each
 
