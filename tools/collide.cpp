@@ -164,7 +164,7 @@ void add_collide(CommandLine& line) {
     command
         .option("--repeat", options->repeat,
                 "Number of steps to time, after one to warm up; the bodies wobble, and come back")
-        .range(1u, 1000000u);
+        .range(1, 1000000);
     command.option("--limit", options->limit, "Most contacts to print as text");
     command.flag("--no-depth", options->no_depth, "Find contacts only, without depths and directions");
     command

@@ -89,8 +89,6 @@ std::string unexpected(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     const std::string word = rest.front().substr(0, rest.front().find('='));
     const bool option = word.starts_with('-');
-    if (chosen.empty() && !option)
-        return "there is no command '" + word + "'" + nearest(word, command_names(app));
     return "unexpected " + std::string(option ? "option" : "argument") + " '" + word + "'" +
            (option ? nearest(word, option_names(chosen.empty() ? app : *chosen.front())) : "");
 }
@@ -163,7 +161,7 @@ Option& Option::fraction() {
     return number([](double value) { return value > 0 && value < 1; }, "a number between 0 and 1");
 }
 
-Option& Option::whole(std::uint64_t least, std::uint64_t most) {
+Option& Option::range(std::uint64_t least, std::uint64_t most) {
     const auto check = [least, most](const std::string& text) {
         std::uint64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -176,9 +174,6 @@ Option& Option::whole(std::uint64_t least, std::uint64_t most) {
     option_->check(CLI::Validator(check, ""));
     return *this;
 }
-
-Option& Option::range(std::uint32_t least, std::uint32_t most) { return whole(least, most); }
-Option& Option::range(std::uint64_t least, std::uint64_t most) { return whole(least, most); }
 
 // ---- commands -------------------------------------------------------------------------------------
 
@@ -196,10 +191,10 @@ Option Command::option(const std::string& name, std::vector<double>& value, cons
     return Option(app_->add_option(name, value, description));
 }
 Option Command::option(const std::string& name, std::uint32_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description)).whole(0, UINT32_MAX);
+    return Option(app_->add_option(name, value, description)).range(0, UINT32_MAX);
 }
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description)).whole(0, UINT64_MAX);
+    return Option(app_->add_option(name, value, description)).range(0, UINT64_MAX);
 }
 
 Option Command::flag(const std::string& name, bool& value, const std::string& description) {

@@ -43,15 +43,13 @@ public:
     Option& positive();
     Option& not_negative();
     Option& fraction(); // between 0 and 1
-    Option& range(std::uint32_t least, std::uint32_t most);
+    // A whole number. CLI11 alone takes -1 for the largest one there is.
     Option& range(std::uint64_t least, std::uint64_t most);
 
 private:
     friend class Command;
     // Accepts finite numbers for which `accept` is true; `words` describes them, e.g. "a number above 0".
     Option& number(bool (*accept)(double value), const std::string& words);
-    // CLI11 alone takes -1 for the largest number there is.
-    Option& whole(std::uint64_t least, std::uint64_t most);
 
     CLI::Option* option_;
 };

@@ -42,7 +42,7 @@ public:
         return left + std::clamp(part, 0.0, 1.0) * (width - left - right);
     }
     double y(double cost) const {
-        const double part = least_ > 0 ? std::min(cost / least_, top) / top : 0;
+        const double part = std::min(cost / least_, top) / top;
         return height - below - part * (height - above - below);
     }
     bool shows(double cell_size) const {
@@ -145,7 +145,7 @@ std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& f
         const bool on_left = x > (left + width - right) / 2;
         add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"%s\" fill=\"#7d5015\">%s, %+.0f %%</text>\n",
             on_left ? x - 6 : x + 6, label + 4, on_left ? "end" : "start", rule.name,
-            axes.least() > 0 ? 100 * (rule.cost / axes.least() - 1) : 0.0);
+            100 * (rule.cost / axes.least() - 1));
         label += 18;
     }
     add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" fill=\"#2c7a2c\"/>\n", axes.x(s.cell_size),

@@ -8,7 +8,7 @@
 
 namespace tool {
 
-// The text of an SVG file, which names the mesh files.
+// The text of an SVG file, which names the mesh files, for a suggestion where something collides.
 std::string curve_svg(const vox_suggestion& suggestion, const std::vector<std::string>& files);
 
 } // namespace tool

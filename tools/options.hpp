@@ -19,7 +19,7 @@ inline const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VO
 
 inline void add_threads(Command& command, vox_grid_desc& grid) {
     command.option("--threads", grid.worker_count, "Threads of a step; 0: one per core")
-        .range(0u, VOX_MAX_WORKERS);
+        .range(0, VOX_MAX_WORKERS);
 }
 
 // How the reference engine stores cells.

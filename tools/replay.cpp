@@ -108,7 +108,7 @@ void add_replay(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     Command command = line.add("replay", "Run steps of the grids in snapshots");
     command.option("FILE", options->files, "Snapshots written by collide --save or vox_grid_save").required();
-    command.option("--steps", options->steps, "Number of steps to run").range(1u, 1000000u);
+    command.option("--steps", options->steps, "Number of steps to run").range(1, 1000000);
     command.choice("--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
     add_threads(command, options->grid);
     command

@@ -138,13 +138,15 @@ Json bounds(const double (&min)[3], const double (&max)[3]) {
     return {{"min", point(min)}, {"max", point(max)}};
 }
 
+bool collides(const vox_suggestion& suggestion) { return suggestion.predicted_cost > 0; }
+
 void add_suggestion(Json& json, const vox_suggestion& suggestion) {
     json["cell_size"] = number(suggestion.cell_size);
     json["cells_per_axis"] = number(suggestion.cells_per_axis);
-    const bool collides = suggestion.predicted_cost > 0; // if not, every cell size is as good
-    json["zone"] = {{"min", collides ? number(suggestion.zone_min) : Json(nullptr)},
-                    {"max", collides ? number(suggestion.zone_max) : Json(nullptr)}};
-    json["collides"] = collides;
+    const bool has_zone = collides(suggestion);
+    json["zone"] = {{"min", has_zone ? number(suggestion.zone_min) : Json(nullptr)},
+                    {"max", has_zone ? number(suggestion.zone_max) : Json(nullptr)}};
+    json["collides"] = has_zone;
     json["predicted_cost"] = number(suggestion.predicted_cost);
     json["model"] = model_name(suggestion.model);
     json["rules"] = rules(suggestion.rules);

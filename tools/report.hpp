@@ -20,6 +20,9 @@ Json number(std::optional<double> value);
 Json point(const double (&coordinates)[3]);
 Json bounds(const double (&min)[3], const double (&max)[3]);
 
+// Whether anything collides. If not, every cell size is as good as any other.
+bool collides(const vox_suggestion& suggestion);
+
 // Adds the keys of `vox suggest`.
 void add_suggestion(Json& json, const vox_suggestion& suggestion);
 

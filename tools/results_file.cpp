@@ -124,7 +124,7 @@ void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, c
     text += deep ? ",depth,direction_x,direction_y,direction_z,state\n" : "\n";
     const vox_contact_view contacts = contacts_of(grid);
     const vox_penetration_view penetrations = deep ? penetrations_of(grid) : vox_penetration_view{};
-    std::uint64_t next = 0; // penetrations are in the order of their first contacts
+    std::uint64_t at = 0; // the penetration of the contact at hand
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact contact = contact_at(contacts, i);
         const float* weight = contact.barycentric;
@@ -134,17 +134,15 @@ void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, c
                       static_cast<double>(weight[0]), static_cast<double>(weight[1]),
                       static_cast<double>(weight[2]), static_cast<double>(weight[3]));
         text += line;
-        while (next < penetrations.count && penetration_at(penetrations, next).contact <= i) ++next;
-        const vox_penetration p = next > 0 ? penetration_at(penetrations, next - 1) : vox_penetration{};
-        // A filter may leave out the penetrations of a pair.
-        if (next > 0 && p.mesh_a == contact.mesh_a && p.vertex == contact.vertex &&
-            p.mesh_b == contact.mesh_b) {
+        if (deep) {
+            // The contacts of a vertex in one mesh stand together. They share a penetration, which names the
+            // first of them.
+            if (at + 1 < penetrations.count && penetration_at(penetrations, at + 1).contact == i) ++at;
+            const vox_penetration p = penetration_at(penetrations, at);
             std::snprintf(line, sizeof line, ",%.9g,%.9g,%.9g,%.9g,%s", static_cast<double>(p.depth),
                           static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
                           static_cast<double>(p.direction[2]), state_name(p.state));
             text += line;
-        } else if (deep) {
-            text += ",,,,,";
         }
         text += '\n';
     }

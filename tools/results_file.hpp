@@ -27,7 +27,7 @@ DrawnMesh drawn_mesh(const Body& body, vox_mesh id);
 // `tet` (its number; -1: a triangle), `contacts` (vertices in it). Throws Failure.
 void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid);
 
-// Writes one line for each contact. Throws Failure.
+// Writes one line for each contact, in a grid without filters. Throws Failure.
 void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, const vox_grid* grid);
 
 // The text of a .pvd file, ParaView's list of files with a time each.

@@ -101,14 +101,13 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
     constexpr std::size_t header = 24;
     constexpr std::uint32_t is_disabled = 2, is_transformed = 4;
     std::vector<DrawnMesh> meshes;
-    std::vector<vox_mesh> disabled;
     for (std::size_t at = header; at < bytes.size();) {
         const std::string name(bytes.begin() + std::ptrdiff_t(at), bytes.begin() + std::ptrdiff_t(at) + 4);
         Numbers chunk(bytes.data() + at + 8);
         const auto size = static_cast<std::size_t>(chunk.next<std::uint64_t>());
         at += 16 + (size + 7) / 8 * 8;
         if (name == "MESH") {
-            DrawnMesh& mesh = meshes.emplace_back();
+            DrawnMesh mesh;
             mesh.id = chunk.next<std::uint32_t>();
             const auto bits = chunk.next<std::uint32_t>();
             (void)chunk.next<std::uint64_t>(); // user data
@@ -128,18 +127,15 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
             if (bits & is_transformed) place(transform, mesh.positions);
             for (double& x : mesh.positions)
                 if (!std::isfinite(x)) x = 0; // a vertex that was removed
-            if (bits & is_disabled || !placed) disabled.push_back(mesh.id);
+            if (placed && !(bits & is_disabled)) meshes.push_back(std::move(mesh));
         } else if (name == "CUTS") { // these come after the meshes
             const auto id = chunk.next<std::uint32_t>();
             (void)chunk.next<std::uint32_t>();
             const auto mesh =
                 std::find_if(meshes.begin(), meshes.end(), [id](const DrawnMesh& m) { return m.id == id; });
-            keep_on(*mesh, chunk);
+            if (mesh != meshes.end()) keep_on(*mesh, chunk);
         }
     }
-    std::erase_if(meshes, [&](const DrawnMesh& mesh) {
-        return std::find(disabled.begin(), disabled.end(), mesh.id) != disabled.end();
-    });
     return meshes;
 }
 

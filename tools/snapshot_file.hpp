@@ -23,7 +23,7 @@ struct Snapshot {
 Snapshot load_snapshot(const std::string& path, const vox_grid_desc& machine);
 
 // The meshes of a snapshot that vox_grid_load has accepted, by id, where they are and without the tetrahedra
-// that are off. Disabled meshes are left out.
+// that are off. Meshes that are disabled or without positions are left out.
 std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes);
 
 } // namespace tool

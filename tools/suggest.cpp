@@ -35,7 +35,7 @@ const Choices<vox_area_reading> area_readings = {{"unique-facets", VOX_AREA_UNIQ
 void print_rule(const char* name, double cell_size, double cost, const vox_suggestion& found,
                 const char* source) {
     if (!(cell_size > 0)) return;
-    const double loss = found.predicted_cost > 0 ? 100 * (cost / found.predicted_cost - 1) : 0;
+    const double loss = 100 * (cost / found.predicted_cost - 1);
     std::printf("  %-22s %-12.9g %6.2f %+7.0f %%   %s\n", name, cell_size, cell_size / found.stats.mean_edge,
                 loss, source);
 }
@@ -61,7 +61,7 @@ void print_levels(const vox_suggestion& found) {
 
 void print_text(const vox_suggestion& found, std::size_t mesh_count) {
     const double mean_edge = found.stats.mean_edge;
-    if (!(found.predicted_cost > 0)) {
+    if (!collides(found)) {
         std::printf("Nothing collides: %s. Every cell size costs the engine the same, which is nothing.\n"
                     "The mean edge is %.9g. --model paper suggests a cell size from the tetrahedra alone.\n",
                     mesh_count == 1 ? "there is one mesh, and --self is not given"
@@ -112,7 +112,7 @@ void run(const Options& options) {
     found.struct_size = sizeof found;
     check(vox_suggest_cell_size(&options.desc, meshes.data(), meshes.size(), &found));
     if (!options.svg.empty()) {
-        if (!(found.predicted_cost > 0))
+        if (!collides(found))
             throw Failure(options.svg + ": nothing collides, so that there is no cost to draw");
         write_file(options.svg, curve_svg(found, options.files));
     }

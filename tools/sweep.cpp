@@ -469,8 +469,7 @@ void add_sweep(CommandLine& line) {
     command.option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
         .fraction();
     command.flag("--as-placed", options->as_placed, "Do not rotate the bodies");
-    command.option("--frames", options->experiment.frames, "Number of detections in a sample")
-        .range(1u, 1000u);
+    command.option("--frames", options->experiment.frames, "Number of detections in a sample").range(1, 1000);
     command.option("--time-step", options->experiment.time_step, "Duration of a frame").positive();
     command.choice("--engine", options->grid.engine, engine_choices, "Algorithm");
     add_cells(command, options->grid);
@@ -483,8 +482,8 @@ void add_sweep(CommandLine& line) {
                                   "Range of cell sizes given in cells per axis, MIN MAX");
     for (Option range : {sizes, cells}) range.count(2).shown_as("FLOAT").positive();
     sizes.excludes(cells);
-    command.option("--count", options->count, "Number of cell sizes in the range").range(5u, 10000u);
-    command.option("--rounds", options->rounds, "Number of samples of each cell size").range(1u, 10000u);
+    command.option("--count", options->count, "Number of cell sizes in the range").range(5, 10000);
+    command.option("--rounds", options->rounds, "Number of samples of each cell size").range(1, 10000);
     command.option("--seed", options->seed, "Seed for the order of the samples");
     Option csv = command.option("--csv", options->csv, "Write each sample to this new file");
     command.flag("--force", options->force, "Replace the file of --csv if it exists").needs(csv);

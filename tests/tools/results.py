@@ -2,8 +2,10 @@
 
 import csv
 import os
+import struct
 import unittest
 import xml.etree.ElementTree
+import zlib
 
 from command_line import TETS, TWO_TETS, msh
 from vox import Files, run, run_json
@@ -88,7 +90,11 @@ class Results(Files):
 
     def test_table(self):
         out = self.path("out.csv")
-        found = run_json("collide", self.two, self.two, "--csv", out)
+        # Where the two tetrahedra overlap, a vertex has two contacts and one penetration.
+        folded = self.write("folded.msh", msh(TWO_TETS[:4] + [(0.1, 0.1, 0.1)], TETS))
+        found = run_json("collide", self.two, folded, "--offset", -0.2, -0.21, -0.22, "--self", "--csv", out)
+        self.assertGreater(found["contact_count"], len(found["penetrations"]))
+        self.assertGreater(len({p["depth"] for p in found["penetrations"]}), 1)
         with open(out, encoding="ascii", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), found["contact_count"])
@@ -138,6 +144,35 @@ class Results(Files):
         run_json("replay", snapshots[1], "-o", single)
         self.assertEqual(self.arrays(single), self.arrays(self.path("1.vtu")))
         self.assertEqual(found["contact_count"], 0)
+
+    def test_meshes_that_are_disabled_and_tets_that_are_off(self):
+        snapshot, out = self.path("grid.vox"), self.path("out.vtu")
+        run_json(*self.placed, "--save", snapshot)
+        with open(snapshot, "rb") as file:
+            data = file.read()
+        first = data.index(b"MESH")
+        second = data.index(b"MESH", first + 1)
+
+        def changed(disabled, cut):
+            """The snapshot with some meshes disabled and tet 1 of the first one off (docs/snapshot.md)."""
+            text = bytearray(data)
+            for at in disabled:
+                text[at + 20] |= 2
+            if cut:
+                end = second + 16 + (int.from_bytes(text[second + 8:second + 16], "little") + 7) // 8 * 8
+                text[end:end] = b"CUTS" + struct.pack("<IQ", 0, 32) + text[first + 16:first + 20] + \
+                    struct.pack("<I3Q", 0, 2, 0, 0)
+            text[16:24] = len(text).to_bytes(8, "little")
+            text[12:16] = zlib.crc32(text[16:]).to_bytes(4, "little")
+            with open(snapshot, "wb") as file:
+                file.write(text)
+            run_json("replay", snapshot, "-o", out)
+            arrays = self.arrays(out)
+            return [(int(m), int(t)) for m, t in zip(arrays["CellData", "mesh"], arrays["CellData", "tet"])]
+        self.assertEqual(changed([], False), [(0, 0), (0, 1), (1, 0)])
+        self.assertEqual(changed([second], False), [(0, 0), (0, 1)])
+        self.assertEqual(changed([], True), [(0, 0), (1, 0)])
+        self.assertEqual(changed([first], True), [(0, 0)])  # the other one
 
     def test_refused(self):
         for code, words, *arguments in (
