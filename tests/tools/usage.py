@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import unittest
@@ -23,8 +24,11 @@ class Usage(Files):
         return done.stdout.decode("ascii")
 
     def options(self, command):
-        """The long options that --help shows."""
-        return set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", run(command, "--help").stdout.decode(), re.M))
+        """The long options that --help shows, with the words that each accepts."""
+        text = run(command, "--help").stdout.decode()
+        found = re.findall(r"^  (?:-\w,)?(--[a-z-]+)(?: ([\w-]+(?:\|[\w-]+)+))?", text, re.M)
+        self.assertIn("--help", dict(found))
+        return {option: choices.split("|") if choices else [] for option, choices in found}
 
     def test_words_that_are_not_known(self):
         for arguments, words in (
@@ -77,29 +81,67 @@ class Usage(Files):
                                   capture_output=True)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
 
-    def test_completions_have_all_options(self):
-        for shell in "bash", "zsh", "fish":
-            text = self.generated(shell)
-            for command in COMMANDS:
-                self.assertIn(command, text)
-                for option in self.options(command):
-                    self.assertIn(option[2:] if shell == "fish" else option, text)
-            if shutil.which(shell):
-                checked = subprocess.run([shell, "-n"], input=text.encode(), capture_output=True)
-                self.assertEqual((checked.returncode, checked.stderr), (0, b""))
+    def check_syntax(self, shell, text):
+        if shutil.which(shell):
+            checked = subprocess.run([shell, "-n"], input=text.encode(), capture_output=True)
+            self.assertEqual((checked.returncode, checked.stderr), (0, b""))
 
     @unittest.skipUnless(shutil.which("bash"), "no bash here")
     def test_bash_completes(self):
-        def complete(*words):
-            script = (self.generated("bash") + f"COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _vox; "
-                      "printf '%s\\n' \"${COMPREPLY[@]}\"")
-            return subprocess.run(["bash", "-c", script], capture_output=True, check=True).stdout.decode().split()
-        self.assertEqual(complete("vox", "coll"), ["collide"])
-        self.assertEqual(complete("vox", "help", "inf"), ["info"])
-        self.assertEqual(complete("vox", "collide", "--no-d"), ["--no-depth"])
-        self.assertEqual(complete("vox", "collide", "a", "--engine", "f"), ["fast"])
-        self.assertEqual(complete("vox", "generate", "z"), ["zsh"])
-        self.assertEqual(complete("vox", "info", "some-file"), [])  # left to bash
+        text = self.generated("bash")
+        self.check_syntax("bash", text)
+        # The last word is to be completed.
+        expected = [(["coll"], ["collide"]), (["help", ""], COMMANDS), (["generate", "z"], ["zsh"]),
+                    ([""], [*COMMANDS, "help", "-h", "--help", "--version"]),
+                    (["info", "some-file"], [])]  # left to bash
+        for command in COMMANDS:
+            options = self.options(command)
+            expected.append(([command, "--"], list(options)))
+            for option, choices in options.items():
+                expected.append(([command, "a", option], [o for o in options if o.startswith(option)]))
+                if choices:
+                    expected.append(([command, "a", option, ""], choices))
+                    expected.append(([command, "a", option, choices[-1][:-1]], choices[-1:]))
+        # Calls the function that is registered for vox, as bash does.
+        script = text + "how=$(complete -p vox); how=${how#*-F }\n"
+        for words, _ in expected:
+            script += f"COMP_WORDS=(vox {shlex.join(words)}); COMP_CWORD={len(words)}; COMPREPLY=(); ${{how%% *}}\n"
+            script += "echo ${COMPREPLY[@]}\n"
+        done = subprocess.run(["bash", "-c", script], capture_output=True, check=True)
+        self.assertEqual(done.stderr, b"")
+        replies = done.stdout.decode().splitlines()
+        self.assertEqual(len(replies), len(expected))
+        for (words, answer), reply in zip(expected, replies):
+            self.assertEqual(reply.split(), answer, words)
+
+    def test_zsh_completions(self):
+        text = self.generated("zsh")
+        self.check_syntax("zsh", text)
+        self.assertEqual(re.findall(r"^  '(\w+):", text, re.M), [*COMMANDS, "help"])
+        for command in COMMANDS:
+            part = re.search(rf"^{command}\)\n  _arguments(.*?)\n  ;;\n", text, re.M | re.S).group(1)
+            found = {option: action.split() for option, action in
+                     re.findall(r"^    '(--[a-z-]+)\[.*?(?<!\\)\](?::.*:\((.*)\))?", part, re.M)}
+            self.assertEqual(found, self.options(command))
+
+    def test_fish_completions(self):
+        text = self.generated("fish")
+        self.check_syntax("fish", text)
+        commands, options = [], {command: {} for command in COMMANDS}
+        for line in text.splitlines()[1:]:
+            words = shlex.split(line)
+            self.assertEqual(words[:4], ["complete", "-c", "vox", "-n"])
+            values = {word: words[i + 1] for i, word in enumerate(words[:-1]) if re.fullmatch("-[lad]", word)}
+            seen, _, command = words[4].partition(" ")
+            if "-l" not in values:
+                if seen == "__fish_use_subcommand":
+                    commands.append(values["-a"])
+            elif seen == "__fish_seen_subcommand_from":
+                self.assertEqual("-f" in words, "-a" in values)  # words to choose from, and no files
+                options[command]["--" + values["-l"]] = values.get("-a", "").split()
+        self.assertEqual(commands, [*COMMANDS, "help"])
+        for command in COMMANDS:
+            self.assertEqual(options[command], self.options(command))
 
     def test_closed_output(self):
         if os.path.exists("/dev/full"):
