@@ -235,18 +235,20 @@ int run(int argc, char** argv) {
     std::size_t bodies = 16000, samples = 4;
     std::uint64_t seed = 1;
     std::string only, only_filter;
-    for (int i = 1; i + 1 < argc; i += 2) {
+    for (int i = 1; i < argc; i += 2) {
         const std::string option = argv[i];
+        const char* const value = argv[i + 1]; // the array ends with null
+        if (!value) throw std::runtime_error(option + " needs a value");
         if (option == "--bodies")
-            bodies = std::size_t(std::atoll(argv[i + 1]));
+            bodies = std::size_t(std::atoll(value));
         else if (option == "--samples")
-            samples = std::size_t(std::atoll(argv[i + 1]));
+            samples = std::size_t(std::atoll(value));
         else if (option == "--seed")
-            seed = std::uint64_t(std::atoll(argv[i + 1]));
+            seed = std::uint64_t(std::atoll(value));
         else if (option == "--kind")
-            only = argv[i + 1];
+            only = value;
         else if (option == "--filter")
-            only_filter = argv[i + 1];
+            only_filter = value;
         else
             throw std::runtime_error("unknown option " + option);
     }

@@ -5,7 +5,6 @@
 #include "internal/stage_checks.hpp"
 #include "mesh/filter.hpp"
 
-#include <cfloat>
 #include <deque>
 #include <limits>
 
