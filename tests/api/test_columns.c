@@ -9,7 +9,7 @@
 
 enum { most = 3 };
 
-/* Coordinate c of position v is at byte offset + v * stride + c * component. */
+/* Coordinate c of position v is at byte offset + v * stride + c * component. All 0: one after the other. */
 typedef struct layout {
     const char* name;
     vox_format format;
@@ -56,13 +56,19 @@ static laid_out lay_out(const layout* l, const float* positions, uint32_t count)
     const int columns = l->component == 1;
     a.real_stride = l->stride ? l->stride : columns ? number : 3 * number;
     if (columns) a.component = (count + padding) * a.real_stride;
-    a.real_component = a.component;
+    a.real_component = a.component ? a.component : number;
     const uint64_t size = count * a.real_stride + 2 * a.real_component + number + padding;
     a.memory = (unsigned char*)malloc(size);
     memset(a.memory, 0xff, size); /* NaN between the numbers */
     a.data = a.memory + padding;
     for (uint32_t v = 0; v < count; ++v) write_position(&a, v, positions + 3 * v);
     return a;
+}
+
+/* The positions one after the other. */
+static laid_out pack(vox_format format, const float* positions, uint32_t count) {
+    const layout packed = {"packed", format, 0, 0, 0};
+    return lay_out(&packed, positions, count);
 }
 
 static vox_mesh_desc laid_out_desc(const body* b, const laid_out* a) {
@@ -77,8 +83,7 @@ static vox_mesh_desc laid_out_desc(const body* b, const laid_out* a) {
 /* Two grids with the same bodies; those of `packed` have the usual layout. */
 typedef struct scene {
     body bodies[most];
-    double* doubles[most]; /* of the packed ones, for the formats of doubles */
-    laid_out arrays[most];
+    laid_out packed_arrays[most], arrays[most];
     vox_grid *packed, *grid;
     vox_mesh packed_ids[most], ids[most];
 } scene;
@@ -95,14 +100,9 @@ static scene new_scene(const layout* l, uint32_t mesh_flags) {
                 float* p = box->positions + 3 * v;
                 if (p[0] > 2.5f) p[0] = 5 - 0.9f * p[0] + 0.1f * p[1];
             }
-        s.doubles[b] = (double*)malloc(3 * sizeof(double) * box->vertex_count);
-        for (size_t i = 0; i < 3 * (size_t)box->vertex_count; ++i)
-            s.doubles[b][i] = (double)box->positions[i];
+        s.packed_arrays[b] = pack(l->format, box->positions, box->vertex_count);
         s.arrays[b] = lay_out(l, box->positions, box->vertex_count);
-        vox_mesh_desc usual =
-            l->format == VOX_FORMAT_FLOAT3
-                ? body_desc(box)
-                : vox_mesh_desc_doubles(s.doubles[b], box->vertex_count, box->tets, box->tet_count);
+        vox_mesh_desc usual = laid_out_desc(box, &s.packed_arrays[b]);
         vox_mesh_desc desc = laid_out_desc(box, &s.arrays[b]);
         if (b == 2) usual.flags = desc.flags = VOX_MESH_SELF_COLLISION;
         desc.flags |= mesh_flags;
@@ -117,7 +117,7 @@ static void free_scene(scene* s) {
     vox_grid_destroy(s->grid);
     for (int b = 0; b < most; ++b) {
         free_body(&s->bodies[b]);
-        free(s->doubles[b]);
+        free(s->packed_arrays[b].memory);
         free(s->arrays[b].memory);
     }
 }
@@ -126,7 +126,7 @@ static void move(scene* s, int b, float by) {
     for (uint32_t v = 0; v < s->bodies[b].vertex_count; ++v) {
         float* p = s->bodies[b].positions + 3 * v;
         p[0] += by;
-        for (int axis = 0; axis < 3; ++axis) s->doubles[b][3 * v + (uint32_t)axis] = (double)p[axis];
+        write_position(&s->packed_arrays[b], v, p);
         write_position(&s->arrays[b], v, p);
     }
 }
@@ -222,9 +222,7 @@ START_TEST(copied) {
     uint64_t stride = 0;
     ck_ok(vox_mesh_map_positions(s.grid, s.ids[1], &mapped, &stride));
     ck_assert_uint_eq(stride, l->format == VOX_FORMAT_FLOAT3 ? 12 : 24);
-    ck_assert_mem_eq(mapped,
-                     l->format == VOX_FORMAT_FLOAT3 ? (void*)s.bodies[1].positions : (void*)s.doubles[1],
-                     stride * s.bodies[1].vertex_count);
+    ck_assert_mem_eq(mapped, s.packed_arrays[1].data, stride * s.bodies[1].vertex_count);
     step_both(&s);
     /* And bound again. */
     ck_ok(vox_mesh_bind_strided_positions(s.grid, s.ids[1], s.arrays[1].data, s.arrays[1].format,
@@ -243,16 +241,14 @@ START_TEST(rest_poses_and_growth) {
     scene s = new_scene(l, 0);
     for (int grows_own = 0; grows_own < 2; ++grows_own) {
         body rest = make_box(4, 0.37f, 1.8f, 0.2f, 0.14f);
+        laid_out packed_rest = pack(l->format, rest.positions, rest.vertex_count);
         laid_out laid_rest = lay_out(l, rest.positions, rest.vertex_count);
         vox_filter filter = vox_default_filter();
         filter.self_collision = 1;
         filter.self_rest_distance = 1;
-        vox_mesh_desc usual = body_desc(&s.bodies[2]), desc = laid_out_desc(&s.bodies[2], &s.arrays[2]);
-        double* doubles = (double*)malloc(3 * sizeof(double) * rest.vertex_count);
-        for (size_t i = 0; i < 3 * (size_t)rest.vertex_count; ++i) doubles[i] = (double)rest.positions[i];
-        usual.positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)s.bodies[2].positions : s.doubles[2];
-        usual.position_format = l->format;
-        usual.rest_positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)rest.positions : doubles;
+        vox_mesh_desc usual = laid_out_desc(&s.bodies[2], &s.packed_arrays[2]);
+        vox_mesh_desc desc = laid_out_desc(&s.bodies[2], &s.arrays[2]);
+        usual.rest_positions = packed_rest.data;
         desc.rest_positions = laid_rest.data;
         desc.rest_position_byte_stride = laid_rest.stride;
         desc.rest_position_component_byte_stride = laid_rest.component;
@@ -275,15 +271,14 @@ START_TEST(rest_poses_and_growth) {
                 grown[3 * v + axis] = v < first_new
                                           ? s.bodies[2].positions[3 * v + axis]
                                           : 0.3f + 0.1f * (float)axis + 0.05f * (float)(v - first_new);
-        double* grown_doubles = (double*)malloc(3 * sizeof(double) * count);
-        for (uint32_t i = 0; i < 3 * count; ++i) grown_doubles[i] = (double)grown[i];
-        laid_out laid_grown = lay_out(l, grown, count), laid_new_rest = lay_out(l, grown + 3 * first_new, 3);
+        const float* new_rest = grown + 3 * first_new;
+        laid_out packed_grown = pack(l->format, grown, count), laid_grown = lay_out(l, grown, count);
+        laid_out packed_new_rest = pack(l->format, new_rest, 3), laid_new_rest = lay_out(l, new_rest, 3);
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first = 0;
         vertices.count = 3;
-        vertices.positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)grown : grown_doubles;
-        vertices.rest_positions = l->format == VOX_FORMAT_FLOAT3 ? (const void*)(grown + 3 * first_new)
-                                                                 : grown_doubles + 3 * first_new;
+        vertices.positions = packed_grown.data;
+        vertices.rest_positions = packed_new_rest.data;
         ck_ok(vox_mesh_append_vertices(s.packed, s.packed_ids[2], &vertices, &first));
         vertices.positions = laid_grown.data;
         vertices.position_byte_stride = laid_grown.stride;
@@ -294,17 +289,18 @@ START_TEST(rest_poses_and_growth) {
         ck_ok(vox_mesh_append_vertices(s.grid, s.ids[2], &vertices, &first));
         ck_assert_uint_eq(first, before);
         step_both(&s);
+        free(packed_rest.memory);
         free(laid_rest.memory);
         if (grows_own == 0) { /* back to the borrowed arrays before these end */
             const vox_mesh_desc empty = vox_default_mesh_desc();
             ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &empty));
             ck_ok(vox_mesh_set_topology(s.grid, s.ids[2], &empty));
         }
+        free(packed_grown.memory);
+        free(packed_new_rest.memory);
         free(laid_grown.memory);
         free(laid_new_rest.memory);
         free(grown);
-        free(grown_doubles);
-        free(doubles);
         free_body(&rest);
     }
     free_scene(&s);
