@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -24,12 +25,16 @@ public:
 
     // Throws INVALID_STATE if the receiver cancels.
     void report(double fraction) const {
-        if (receive_ && receive_(at(fraction), user_) != 0)
+        if (receive_ && cancels(at(fraction)))
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("cancelled by the progress function at %.0f %%", 100 * at(fraction)));
     }
 
 private:
+    bool cancels(double fraction) const {
+        const CallersFloats floats;
+        return receive_(fraction, user_) != 0;
+    }
     double at(double fraction) const { return from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0); }
 
     std::int32_t (*receive_)(double, void*) = nullptr;
