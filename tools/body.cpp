@@ -36,9 +36,16 @@ void place(Body& body, const Placement& placement) {
 
 Mesh load_mesh(const std::string& path, vox_io_report* report) {
     Progress progress;
-    progress.show_reading(path);
+    progress.begin_reading(path);
+    vox_io_load_desc desc;
+    check(vox_io_load_desc_init(&desc, sizeof desc));
+    desc.progress = [](double fraction, void* user) -> std::int32_t {
+        static_cast<Progress*>(user)->show_read(fraction);
+        return 0;
+    };
+    desc.progress_user = &progress;
     vox_io_mesh* loaded = nullptr;
-    const vox_result result = vox_io_load(path.c_str(), nullptr, &loaded);
+    const vox_result result = vox_io_load(path.c_str(), &desc, &loaded);
     if (result == VOX_ERROR_UNSUPPORTED) return load_by_assimp(path, vox_last_error(), report);
     check(result);
     Mesh mesh(loaded);

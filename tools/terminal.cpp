@@ -49,21 +49,28 @@ void Progress::show_always() { lines = !standard_error_is_terminal(); }
 void Progress::show(const std::string& where) {
     const auto now = std::chrono::steady_clock::now();
     const bool due = lines ? !shown_ || now - last_ >= std::chrono::seconds(1)
-                           : standard_error_is_terminal() && now - begin_ >= std::chrono::milliseconds(500);
+                           : standard_error_is_terminal() && now - begin_ >= std::chrono::milliseconds(500) &&
+                                 now - last_ >= std::chrono::milliseconds(100);
     if (due) print(where);
 }
 
-void Progress::show_reading(const std::string& path) {
+void Progress::begin_reading(const std::string& path) {
+    reading_ = "reading " + path;
     std::error_code error;
     const double bytes = static_cast<double>(std::filesystem::file_size(path, error));
-    if (error) return; // the reader says why
+    if (error) return; // of a pipe the size is not known; of what cannot be read, the reader says why
     char words[48];
     if (bytes < 1e6)
         std::snprintf(words, sizeof words, ", %.0f kB", std::ceil(bytes * 1e-3));
     else
         std::snprintf(words, sizeof words, ", %.0f MB", bytes * 1e-6);
+    reading_ += words;
     // Readers take some tens of megabytes a second.
-    if (lines || (standard_error_is_terminal() && bytes > 1e7)) print("reading " + path + words);
+    if (lines || (standard_error_is_terminal() && bytes > 1e7)) print(reading_);
+}
+
+void Progress::show_read(double fraction) {
+    show(reading_ + ": " + std::to_string(static_cast<int>(100 * fraction)) + " %");
 }
 
 void Progress::hide() {

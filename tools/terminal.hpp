@@ -23,7 +23,9 @@ public:
 
     void show(const std::string& where);
     // Names the file and its size, at once if it is so large that reading it will take long.
-    void show_reading(const std::string& path);
+    void begin_reading(const std::string& path);
+    // The same, and which fraction of the work is done.
+    void show_read(double fraction);
     // Erases the line, before something else is printed where it may stand.
     void hide();
 
@@ -31,6 +33,7 @@ private:
     void print(const std::string& where);
 
     bool shown_ = false;
+    std::string reading_;
     std::chrono::steady_clock::time_point begin_, last_;
 };
 

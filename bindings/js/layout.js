@@ -597,12 +597,14 @@ export const structs = {
     zone_max: [32, "f64", 1],
     curve: [40, "vox_cost_sample", 64],
   } },
-  vox_io_load_desc: { size: 28, fields: {
+  vox_io_load_desc: { size: 36, fields: {
     struct_size: [0, "u32", 1],
     format: [4, "i32", 1],
     mesh_index: [8, "u32", 1],
     reserved: [12, "u32", 1],
     allocator: [16, "vox_allocator", 1],
+    progress: [28, "pointer", 1],
+    progress_user: [32, "pointer", 1],
   } },
   vox_io_source: { size: 12, fields: {
     name: [0, "pointer", 1],

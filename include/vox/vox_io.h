@@ -48,6 +48,10 @@ typedef struct vox_io_load_desc {
     /* Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
      * reading needs besides is taken from that heap and released at the end of the call. */
     vox_allocator allocator;
+    /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about half
+     * of it is reading, the rest the report. A result other than 0 cancels. May be null. */
+    VOX_OPTIONAL VOX_UNTIL(return) int32_t (*progress)(double fraction, void* user);
+    VOX_UNTIL(return) void* progress_user;
 } vox_io_load_desc;
 
 #define VOX_IO_ALL_MESHES 0xffffffffu /* for vox_io_load_desc.mesh_index: joins all meshes of the scene */
@@ -70,7 +74,7 @@ typedef struct vox_io_mesh vox_io_mesh;
  * that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is read
  * and must not be shortened meanwhile.
  * Errors: FILE, FORMAT (the text names the file, the line or byte, and what was expected there),
- * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT. */
+ * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT, INVALID_STATE (cancelled). */
 VOX_API vox_result vox_io_load(const char* path, VOX_OPTIONAL const vox_io_load_desc* desc,
                                vox_io_mesh** out_mesh);
 

@@ -72,9 +72,19 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-MeshData load(const std::string& path, const vox_io_load_desc& desc) {
+// Each file has its part of the progress.
+MeshData read_pair(File node, File ele, const Progress& progress) {
+    const auto size = [](const File& file) { return static_cast<double>(file.bytes.size()); };
+    const double nodes = size(node) / (size(node) + size(ele));
+    node.progress = progress.part(0, nodes);
+    ele.progress = progress.part(nodes, 1);
+    return read_tetgen(without_byte_order_mark(std::move(node)), without_byte_order_mark(std::move(ele)));
+}
+
+MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progress& progress) {
     const FileBytes bytes(path);
-    const File& file = bytes.file();
+    File file = bytes.file();
+    file.progress = progress;
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
     if (which == VOX_IO_FORMAT_ASSIMP && desc.format == which)
@@ -90,8 +100,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc) {
         path.substr(0, path.size() - extension.size()) + (is_node ? "ele" : "node");
     const FileBytes other(other_path);
     refuse_other_content(other.file());
-    return read_tetgen(without_byte_order_mark(is_node ? file : other.file()),
-                       without_byte_order_mark(is_node ? other.file() : file));
+    return is_node ? read_pair(file, other.file(), progress) : read_pair(other.file(), file, progress);
 }
 
 File file_of(const vox_io_source& source, std::size_t index) {
@@ -100,10 +109,12 @@ File file_of(const vox_io_source& source, std::size_t index) {
     return {source.name ? source.name : format("source %zu", index), {data, source.size}};
 }
 
-MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load_desc& desc) {
+MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load_desc& desc,
+              const Progress& progress) {
     if (count != 1 && count != 2) refuse(format("source_count is %zu, not 1 or 2", count));
     require(sources, "sources");
-    const File first = file_of(sources[0], 0);
+    File first = file_of(sources[0], 0);
+    first.progress = progress;
     refuse_other_content(first);
     if (count == 1) {
         const vox_io_format which = format_of(first, desc.format);
@@ -118,8 +129,16 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
     const File second = file_of(sources[1], 1);
     refuse_other_content(second);
     const bool swapped = extension_of(first.name) == "ele" || extension_of(second.name) == "node";
-    return read_tetgen(without_byte_order_mark(swapped ? second : first),
-                       without_byte_order_mark(swapped ? first : second));
+    return swapped ? read_pair(second, first, progress) : read_pair(first, second, progress);
+}
+
+// Makes the mesh that `read` reads. Reading takes about as long as the diagnosis.
+template <class Read>
+vox_io_mesh* made(const vox_io_load_desc& desc, const Read& read) {
+    const Progress progress(desc.progress, desc.progress_user);
+    progress.report(0);
+    MeshData data = read(progress.part(0, 0.5));
+    return make_mesh(std::move(data), desc.allocator, progress.part(0.5, 1));
 }
 
 MeshData checked(const vox_io_mesh_view& arrays) {
@@ -171,7 +190,7 @@ vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_me
         require(path, "path");
         require(out_mesh, "out_mesh");
         const vox_io_load_desc wanted = checked(desc);
-        *out_mesh = make_mesh(load(path, wanted), wanted.allocator);
+        *out_mesh = made(wanted, [&](const Progress& progress) { return load(path, wanted, progress); });
     });
 }
 
@@ -180,7 +199,8 @@ vox_result vox_io_read(const vox_io_source* sources, size_t source_count, const 
     return border([&] {
         require(out_mesh, "out_mesh");
         const vox_io_load_desc wanted = checked(desc);
-        *out_mesh = make_mesh(read(sources, source_count, wanted), wanted.allocator);
+        *out_mesh = made(
+            wanted, [&](const Progress& progress) { return read(sources, source_count, wanted, progress); });
     });
 }
 

@@ -197,7 +197,7 @@ std::string counted(std::uint64_t number, const char* singular, const char* plur
 
 } // namespace
 
-vox_io_report diagnose(const MeshData& data) {
+vox_io_report diagnose(const MeshData& data, const Progress& progress) {
     vox_io_report report{};
     report.struct_size = sizeof report;
     report.format = data.format;
@@ -212,14 +212,19 @@ vox_io_report diagnose(const MeshData& data) {
         report.degenerate_triangles += v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
     }
     count_components(data, report);
+    progress.report(0.1);
     count_duplicate_vertices(data, report);
+    progress.report(0.2);
     if (report.tets > 0) {
         count_facets(data, report);
+        progress.report(0.6);
         count_duplicate_tets(data, report);
+        progress.report(0.8);
         measure_tets(data, report);
     } else if (report.triangles > 0) {
         report.boundary_facets = report.triangles;
         count_edges(data, report);
+        progress.report(0.8);
         measure_surface(data, report);
     }
     return report;

@@ -16,11 +16,11 @@ std::pmr::vector<Number> moved(std::vector<Number>& from, std::pmr::memory_resou
 
 } // namespace
 
-vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator) {
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator, const Progress& progress) {
     check_allocator(allocator, "desc.allocator");
     CallerMemory memory(allocator);
     MeshHandle mesh(std::pmr::polymorphic_allocator<>(&memory).new_object<vox_io_mesh>(memory));
-    mesh->report = diagnose(data);
+    mesh->report = diagnose(data, progress);
     mesh->warnings = warnings_of(data, mesh->report);
     mesh->data = std::move(data);
     MeshData& own = mesh->data;
@@ -31,6 +31,7 @@ vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator) {
         mesh->triangles = moved(own.triangles, &mesh->memory);
         mesh->arrays = {mesh->positions, mesh->tets, mesh->triangles};
     }
+    progress.report(1);
     return mesh.release();
 }
 

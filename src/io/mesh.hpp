@@ -30,7 +30,7 @@ struct DestroyMesh {
 using MeshHandle = std::unique_ptr<vox_io_mesh, DestroyMesh>;
 
 // Finds what is odd about a mesh, as numbers and as text (diagnosis.cpp).
-vox_io_report diagnose(const MeshData& data);
+vox_io_report diagnose(const MeshData& data, const Progress& progress);
 // One line for everything in the report that a user should know; "" if there is nothing.
 std::string warnings_of(const MeshData& data, const vox_io_report& report);
 

@@ -1,6 +1,8 @@
 // The plain arrays that every reader and mesher produces, numbered as in the file.
 #pragma once
 
+#include "io/progress.hpp"
+
 #include <vox/vox_io.h>
 
 #include <cstdint>
@@ -37,6 +39,6 @@ inline vox_io_mesh_view view_of(const MeshArrays& arrays) {
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices
 // are below the number of vertices. This is the only way to make a vox_io_mesh. Its arrays are those of
 // `data`, or copies in the memory of an allocator that has functions.
-vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator = {});
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator = {}, const Progress& progress = {});
 
 } // namespace vox::io

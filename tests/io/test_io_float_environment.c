@@ -40,6 +40,7 @@ static record results(const float_mode* mode) {
     const vox_io_mesh_view surface = {corners, 4, NULL, 0, facets, 4};
     vox_io_mesh* meshes[5];
     vox_io_write_desc desc;
+    vox_io_load_desc load;
     vox_io_tetrahedralize_desc fill;
     vox_io_report report;
     vox_io_quality quality;
@@ -48,17 +49,20 @@ static record results(const float_mode* mode) {
     report.struct_size = sizeof report;
     quality.struct_size = sizeof quality;
     ck_ok(vox_io_tetrahedralize_desc_init(&fill, (uint32_t)sizeof fill));
-    fill.progress = watch;
-    fill.progress_user = &r;
+    ck_ok(vox_io_load_desc_init(&load, (uint32_t)sizeof load));
+    fill.progress = load.progress = watch;
+    fill.progress_user = load.progress_user = &r;
     ck_ok(vox_io_write_desc_init(&desc, (uint32_t)sizeof desc));
     desc.format = VOX_IO_WRITE_MSH_41;
-    ck_in_mode(mode, vox_io_read(&source, 1, NULL, &meshes[0]));
     ck_in_mode(mode, vox_io_make_ball(0.7, 0.23, &meshes[1]));
     ck_in_mode(mode, vox_io_make_torus(1.0, 0.3, 0.17, &meshes[2]));
     ck_in_mode(mode, vox_io_mesh_create(&surface, &meshes[3]));
     set_float_mode(mode);
     r.state = float_state();
     set_float_mode(&float_modes[0]);
+    ck_in_mode(mode, vox_io_read(&source, 1, &load, &meshes[0]));
+    ck_assert_int_gt(r.reports, 0);
+    r.reports = 0;
     ck_in_mode(mode, vox_io_tetrahedralize(meshes[3], &fill, &meshes[4]));
     ck_assert_int_gt(r.reports, 0);
     for (int i = 0; i < 5; ++i) {

@@ -5,6 +5,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import time
 import unittest
 
 from command_line import TETS, TWO_TETS, msh
@@ -61,12 +62,30 @@ class Usage(Files):
     def test_progress(self):
         self.assertEqual(run("info", self.mesh).stderr, b"")
         done = run("info", self.mesh, "--progress")
-        self.assertEqual(done.stderr.decode(), f"vox: reading {self.mesh}, 1 kB\n")
+        self.assertEqual(done.stderr.decode().splitlines()[0], f"vox: reading {self.mesh}, 1 kB")
         self.assertEqual(done.stdout, run("info", self.mesh).stdout)
         done = run("info", "--", self.mesh, "--progress")  # a file of that name
         self.assertNotIn(b"reading", done.stderr)
         done = run("collide", self.mesh, "--self", "--progress")
         self.assertIn(b"vox: first step\n", done.stderr)  # later ones only after a second each
+
+    @unittest.skipUnless(hasattr(os, "mkfifo"), "no pipes with names here")
+    def test_progress_of_reading(self):
+        # From a pipe the file comes when the first line is more than a second old, so that the next one is due.
+        count = 40000
+        points = [(i, i % 2, i % 3) for i in range(count)]
+        text = msh(points, [(i, i + 1, i + 2, i + 3) for i in range(1, count - 3)])
+        pipe = self.path("pipe.msh")
+        os.mkfifo(pipe)
+        with subprocess.Popen([TOOL, "info", pipe, "--progress"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE) as vox:
+            with open(pipe, "w", encoding="ascii") as file:
+                time.sleep(1.1)
+                file.write(text)
+            shown = vox.communicate(timeout=600)[1].decode().splitlines()
+        self.assertEqual(vox.returncode, 0)
+        self.assertEqual(shown[0], f"vox: reading {pipe}: 0 %")
+        self.assertIn(shown[1], [f"vox: reading {pipe}: {percent} %" for percent in range(1, 50)])
 
     def test_manual_page_has_all_options(self):
         page = self.generated("man").replace("\\-", "-")

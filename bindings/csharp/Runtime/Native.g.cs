@@ -1236,6 +1236,10 @@ namespace Voxtet
         /// <summary>Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's
         /// heap.</summary>
         public Allocator allocator;
+        /// <summary>Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to
+        /// 1: about half of it is reading, the rest the report.</summary>
+        public IntPtr progress;
+        public IntPtr progress_user;
     }
 
     /// <summary>One file in memory.</summary>
@@ -1652,6 +1656,9 @@ namespace Voxtet
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate void TaskSystemFinish(IntPtr handle, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate int IoLoadDescProgress(double fraction, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate int IoTetrahedralizeDescProgress(double fraction, IntPtr user);
@@ -3095,12 +3102,14 @@ namespace Voxtet
         {
             IoLoadDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_load_desc", sizeof(IoLoadDesc), 40, 28));
+            entries.Add(Entry("vox_io_load_desc", sizeof(IoLoadDesc), 56, 36));
             entries.Add(Entry("vox_io_load_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_load_desc.format", (byte*)&s.format - begin, 4, 4));
             entries.Add(Entry("vox_io_load_desc.mesh_index", (byte*)&s.mesh_index - begin, 8, 8));
             entries.Add(Entry("vox_io_load_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
             entries.Add(Entry("vox_io_load_desc.allocator", (byte*)&s.allocator - begin, 16, 16));
+            entries.Add(Entry("vox_io_load_desc.progress", (byte*)&s.progress - begin, 40, 28));
+            entries.Add(Entry("vox_io_load_desc.progress_user", (byte*)&s.progress_user - begin, 48, 32));
         }
 
         static void AddIoSource(List<LayoutEntry> entries)

@@ -18,6 +18,11 @@ std::string Scanner::place(std::size_t offset) const {
     return format("%s, line %zu", name_.c_str(), line);
 }
 
+void Scanner::report_progress() {
+    progress_.report(static_cast<double>(at_ - begin_) / static_cast<double>(end_ - begin_));
+    reported_ = at_;
+}
+
 void Scanner::expected(const char* what) {
     skip_blanks();
     const bool line_end = at_line_end();

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/llu.hpp"
+#include "io/progress.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,6 +21,7 @@ namespace vox::io {
 struct File {
     std::string name; // for error texts
     std::string_view bytes;
+    Progress progress{}; // of reading it
 };
 
 // Text for an error message, shortened to `longest` characters, with unprintable ones shown as "?".
@@ -27,13 +29,14 @@ std::string printable(std::string_view text, std::size_t longest = 40);
 
 // A position in a file. Fields are read within one line unless skip_space() is called between them; line ends
 // are "\n", "\r\n" or "\r". Line numbers are computed only when a failure needs one, so that reading does not
-// pay for them.
+// pay for them. skip_space() and take() report the file's progress now and then, which throws if it is
+// cancelled.
 class Scanner {
 public:
     // `comment` begins a comment, which extends to the end of its line; 0: the format has no comments.
     explicit Scanner(const File& file, char comment = 0)
-        : name_(file.name), begin_(file.bytes.data()), at_(begin_), end_(begin_ + file.bytes.size()),
-          comment_(comment) {}
+        : name_(file.name), progress_(file.progress), begin_(file.bytes.data()), at_(begin_),
+          end_(begin_ + file.bytes.size()), comment_(comment) {}
 
     // ---- place ----
 
@@ -60,7 +63,8 @@ public:
         while (at_ != end_ && is_blank(*at_)) ++at_;
     }
     // Skips blanks, comments and line ends.
-    void skip_space() noexcept {
+    void skip_space() {
+        note_progress();
         for (;; ++at_) {
             while (at_ != end_ && (is_blank(*at_) || is_line_end(*at_))) ++at_;
             if (at_ == end_ || !comment_ || *at_ != comment_) return;
@@ -148,6 +152,7 @@ public:
         if (size > remaining())
             fail(format("expected %zu bytes (%s), found the end of the file after %zu", size, what,
                         remaining()));
+        note_progress();
         const char* data = at_;
         at_ += size;
         return data;
@@ -174,11 +179,19 @@ private:
         return c == end_ || is_blank(*c) || is_line_end(*c) || (comment_ && *c == comment_);
     }
     [[noreturn]] void out_of_range(const char* what);
+    void note_progress() {
+        if (at_ - reported_ >= report_every) report_progress();
+    }
+    void report_progress();
+
+    static constexpr std::ptrdiff_t report_every = 1 << 18; // bytes: a millisecond or two
 
     const std::string& name_;
+    const Progress& progress_;
     const char* begin_;
     const char* at_;
     const char* end_;
+    const char* reported_ = begin_; // the farthest place that was reported
     char comment_;
     bool bytes_ = false;
 };

@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include <cctype>
+#include <iterator>
 
 namespace vox::io {
 namespace {
@@ -49,12 +50,14 @@ public:
 
         const pugi::xml_node grid = root.child("UnstructuredGrid");
         if (!grid) fail(root, "expected an element UnstructuredGrid, found none");
-        bool any = false;
-        for (const pugi::xml_node piece : grid.children("Piece")) {
-            read_piece(piece);
-            any = true;
+        const auto pieces = grid.children("Piece");
+        const auto count = static_cast<double>(std::distance(pieces.begin(), pieces.end()));
+        if (count == 0) fail(grid, "expected an element Piece, found none");
+        double done = 0;
+        for (const pugi::xml_node piece : pieces) {
+            read_piece(piece, file_.progress.part(done / count, (done + 1) / count));
+            ++done;
         }
-        if (!any) fail(grid, "expected an element Piece, found none");
         skipped_.report(data_);
         require_tets(data_, file_.name);
         return std::move(data_);
@@ -203,7 +206,8 @@ private:
     }
 
     template <class Out>
-    void append(const Array& array, std::uint64_t values, std::vector<Out>& out) {
+    void append(const Array& array, std::uint64_t values, std::vector<Out>& out, const Progress& progress) {
+        progress.report(0);
         out.reserve(out.size() + values);
         if (!array.text) {
             if (!std::is_floating_point_v<Out> &&
@@ -211,7 +215,7 @@ private:
                 fail(array.where, "expected an integer type, found a floating-point type");
             return append_vtk_numbers(array.type, array.bytes.data(), values, swap_, out);
         }
-        const File text{file_.name, array.where.child_value()};
+        const File text{file_.name, array.where.child_value(), progress};
         Scanner in(text);
         try {
             for (std::uint64_t i = 0; i < values; ++i) {
@@ -224,6 +228,7 @@ private:
             in.skip_space();
             if (!in.done()) in.expected("the end of the array");
         } catch (const Error& error) {
+            if (error.result() == VOX_ERROR_INVALID_STATE) throw; // cancelled
             fail(array.where, format("in the array's text: %s", error.what()), error.result());
         }
     }
@@ -244,7 +249,7 @@ private:
         return array;
     }
 
-    void read_piece(const pugi::xml_node& piece) {
+    void read_piece(const pugi::xml_node& piece, const Progress& progress) {
         const std::uint64_t points = number_of(piece, "NumberOfPoints");
         const std::uint64_t cells = number_of(piece, "NumberOfCells");
         const std::uint64_t first_vertex = data_.positions.size() / 3;
@@ -255,7 +260,7 @@ private:
             if (!array) fail(piece, "expected a DataArray in an element Points, found none");
             const auto components = array.attribute("NumberOfComponents").as_ullong(3);
             if (components != 3) fail(array, format("expected 3 components, found %llu", llu(components)));
-            append(open(array, 3 * points), 3 * points, data_.positions);
+            append(open(array, 3 * points), 3 * points, data_.positions, progress.part(0, 0.4));
             for (std::uint64_t i = 3 * first_vertex; i < data_.positions.size(); ++i)
                 if (!std::isfinite(data_.positions[i]))
                     fail(array, format("point %llu: expected a coordinate, found one that is not finite",
@@ -266,15 +271,15 @@ private:
         if (!node) fail(piece, "expected an element Cells, found none");
         std::vector<std::uint64_t> ends, types, connectivity;
         const pugi::xml_node offsets = cell_array(node, "offsets");
-        append(open(offsets, cells), cells, ends);
+        append(open(offsets, cells), cells, ends, progress.part(0.4, 0.5));
         for (std::uint64_t c = 0; c < cells; ++c)
             if (ends[c] < (c == 0 ? 0 : ends[c - 1]) || ends[c] > 8 * max_count)
                 fail(offsets, format("expected offsets that ascend, found %lld at cell %llu",
                                      static_cast<long long>(ends[c]), llu(c)));
         const pugi::xml_node kinds = cell_array(node, "types");
-        append(open(kinds, cells), cells, types);
+        append(open(kinds, cells), cells, types, progress.part(0.5, 0.6));
         const pugi::xml_node list = cell_array(node, "connectivity");
-        append(open(list, ends.back()), ends.back(), connectivity);
+        append(open(list, ends.back()), ends.back(), connectivity, progress.part(0.6, 1));
         take_vtk_cells(ends, connectivity, types, first_vertex, points, data_, skipped_,
                        [&](std::size_t cell, const std::string& text) {
                            fail(list, format("cell %zu: %s", cell, text.c_str()));

@@ -4,7 +4,7 @@
 
 #include "io/mesh_data.hpp"
 #include "io/solids/lattice.hpp"
-#include "io/solids/progress.hpp"
+#include "io/progress.hpp"
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/solids/lattice.hpp"
-#include "io/solids/progress.hpp"
+#include "io/progress.hpp"
 
 #include <vox/vox_io.h>
 

@@ -940,6 +940,7 @@ dtypes["vox_cost_minimum"] = dtype({
     "itemsize": 1064})
 
 
+vox_io_load_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)
 class vox_io_load_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -947,6 +948,8 @@ class vox_io_load_desc(Structure):
         ("mesh_index", c_uint32),
         ("reserved", c_uint32),
         ("allocator", vox_allocator),
+        ("progress", vox_io_load_desc_progress),
+        ("progress_user", c_void_p),
     ]
 
 

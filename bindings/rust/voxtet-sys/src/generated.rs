@@ -1243,6 +1243,11 @@ pub struct vox_io_load_desc {
     /// Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
     /// reading needs besides is taken from that heap and released at the end of the call.
     pub allocator: vox_allocator,
+    #[rustfmt::skip]
+    /// Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about
+    /// half of it is reading, the rest the report. A result other than 0 cancels. May be null.
+    pub progress: Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>,
+    pub progress_user: *mut c_void,
 }
 
 /// One file in memory. `name` supplies the extension and appears in error texts; may be null.
@@ -2355,7 +2360,7 @@ extern "C" {
     /// .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory;
     /// one that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is
     /// read and must not be shortened meanwhile. Errors: FILE, FORMAT (the text names the file, the line or byte, and
-    /// what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT.
+    /// what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT, INVALID_STATE (cancelled).
     pub fn vox_io_load(
         path: *const c_char,
         desc: *const vox_io_load_desc,
@@ -3081,13 +3086,15 @@ const _: () = {
     assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
     assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
     assert!(offset_of!(vox_cost_minimum, curve) == 40);
-    assert!(size_of::<vox_io_load_desc>() == 40);
+    assert!(size_of::<vox_io_load_desc>() == 56);
     assert!(align_of::<vox_io_load_desc>() == 8);
     assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
     assert!(offset_of!(vox_io_load_desc, format) == 4);
     assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
     assert!(offset_of!(vox_io_load_desc, reserved) == 12);
     assert!(offset_of!(vox_io_load_desc, allocator) == 16);
+    assert!(offset_of!(vox_io_load_desc, progress) == 40);
+    assert!(offset_of!(vox_io_load_desc, progress_user) == 48);
     assert!(size_of::<vox_io_source>() == 24);
     assert!(align_of::<vox_io_source>() == 8);
     assert!(offset_of!(vox_io_source, name) == 0);
@@ -3747,13 +3754,15 @@ const _: () = {
     assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
     assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
     assert!(offset_of!(vox_cost_minimum, curve) == 40);
-    assert!(size_of::<vox_io_load_desc>() == 28);
+    assert!(size_of::<vox_io_load_desc>() == 36);
     assert!(align_of::<vox_io_load_desc>() == 4);
     assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
     assert!(offset_of!(vox_io_load_desc, format) == 4);
     assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
     assert!(offset_of!(vox_io_load_desc, reserved) == 12);
     assert!(offset_of!(vox_io_load_desc, allocator) == 16);
+    assert!(offset_of!(vox_io_load_desc, progress) == 28);
+    assert!(offset_of!(vox_io_load_desc, progress_user) == 32);
     assert!(size_of::<vox_io_source>() == 12);
     assert!(align_of::<vox_io_source>() == 4);
     assert!(offset_of!(vox_io_source, name) == 0);

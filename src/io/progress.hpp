@@ -5,6 +5,7 @@
 #include "base/float_environment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace vox::io {
@@ -35,7 +36,7 @@ private:
         const CallersFloats floats;
         return receive_(fraction, user_) != 0;
     }
-    double at(double fraction) const { return from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0); }
+    double at(double fraction) const { return std::lerp(from_, to_, std::clamp(fraction, 0.0, 1.0)); }
 
     std::int32_t (*receive_)(double, void*) = nullptr;
     void* user_ = nullptr;
