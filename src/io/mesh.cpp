@@ -6,24 +6,24 @@ namespace vox::io {
 
 namespace {
 
-// Moves an array to another memory.
+// Moves an array to another memory. `= {}` would empty it, but keep its room.
 template <class Number>
 std::pmr::vector<Number> moved(std::vector<Number>& from, std::pmr::memory_resource* memory) {
     std::pmr::vector<Number> to(from.begin(), from.end(), memory);
-    from = {};
+    from = std::vector<Number>();
     return to;
 }
 
 } // namespace
 
 vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator, const Progress& progress) {
-    check_allocator(allocator, "desc.allocator");
     CallerMemory memory(allocator);
     MeshHandle mesh(std::pmr::polymorphic_allocator<>(&memory).new_object<vox_io_mesh>(memory));
     mesh->report = diagnose(data, progress);
     mesh->warnings = warnings_of(data, mesh->report);
     mesh->data = std::move(data);
     MeshData& own = mesh->data;
+    own.notes = std::vector<std::string>(); // the warnings hold them
     mesh->arrays = arrays_of(own);
     if (allocator.allocate) {
         mesh->positions = moved(own.positions, &mesh->memory);

@@ -38,7 +38,7 @@ inline vox_io_mesh_view view_of(const MeshArrays& arrays) {
 
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices
 // are below the number of vertices. This is the only way to make a vox_io_mesh. Its arrays are those of
-// `data`, or copies in the memory of an allocator that has functions.
+// `data`, or copies in the memory of an allocator that has functions, which has been checked.
 vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator = {}, const Progress& progress = {});
 
 } // namespace vox::io

@@ -101,12 +101,35 @@ START_TEST(each_allocation_of_a_fill) {
 }
 END_TEST
 
+void* allocate(std::size_t size, std::size_t, void*) { return std::malloc(size); }
+void release(void* memory, std::size_t, std::size_t, void*) { std::free(memory); }
+
+// A mesh in the memory of the caller leaves nothing of its arrays, or of the reader's notes, on the C++ heap.
+START_TEST(nothing_besides_memory_of_the_caller) {
+    vox_io_load_desc desc;
+    ck_ok(vox_io_load_desc_init(&desc, sizeof desc));
+    desc.allocator = {allocate, release, nullptr};
+    for (const char* name : {"box.mesh", "box.veg", "cube.off"}) {
+        const std::string path = std::string(VOX_TEST_DATA "/") + name;
+        vox_io_mesh* mesh = nullptr;
+        ck_ok(vox_io_load(path.c_str(), &desc, &mesh)); // what is made once a process
+        vox_io_mesh_destroy(mesh);
+        const std::int64_t before = heap::held;
+        ck_ok(vox_io_load(path.c_str(), &desc, &mesh));
+        const bool has_warnings = *vox_io_mesh_warnings(mesh) != '\0';
+        ck_assert_msg(heap::held <= before + has_warnings, "%s: %d blocks of the C++ heap", name,
+                      int(heap::held - before));
+        vox_io_mesh_destroy(mesh);
+    }
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("io heap");
     TCase* tests = add_case(suite, "heap");
     tcase_add_each(tests, each_allocation_of_a_load, each_allocation_of_bodies_and_writers,
-                   each_allocation_of_a_fill);
+                   each_allocation_of_a_fill, nothing_besides_memory_of_the_caller);
     return run_suite(suite);
 }
