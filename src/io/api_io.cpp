@@ -7,7 +7,6 @@
 #include "io/mesh.hpp"
 
 #include <cstddef>
-#include <memory>
 
 namespace vox::io {
 namespace {

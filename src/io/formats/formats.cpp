@@ -20,10 +20,6 @@ bool contains_early(std::string_view bytes, std::string_view text) {
     return bytes.substr(0, 4096).find(text) != std::string_view::npos;
 }
 
-} // namespace
-
-namespace {
-
 using SurfaceReader = MeshData (*)(const File&, const std::optional<std::string>&, std::uint32_t);
 
 template <MeshData (*read)(const File&, std::uint32_t)>
