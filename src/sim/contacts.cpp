@@ -62,27 +62,26 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
 void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint32_t tet,
                    const float weights[4]) {
     const std::size_t vertices = a.positions.size(), tets = b.tets.size() / 4;
+    const auto changed = [&](const std::string& what) {
+        throw Error(VOX_ERROR_INVALID_STATE, format("body %u or %u was changed through vox_sim_grid: %s",
+                                                    a.mesh, b.mesh, what.c_str()));
+    };
+    if (vertex >= vertices || tet >= tets)
+        changed(
+            format("a contact names vertex %u (of %zu) and tet %u (of %zu)", vertex, vertices, tet, tets));
     double size = 0, miss = 0;
-    if (vertex < vertices && tet < tets) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            double sum = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-                const double side =
-                    static_cast<double>(b.grid_positions[3 * b.tets[4 * std::size_t{tet} + k] + axis]) -
-                    static_cast<double>(a.grid_positions[3 * std::size_t{vertex} + axis]);
-                sum += static_cast<double>(weights[k]) * side;
-                size = std::max(size, std::abs(side));
-            }
-            miss = std::max(miss, std::abs(sum));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double side =
+                static_cast<double>(b.grid_positions[3 * b.tets[4 * std::size_t{tet} + k] + axis]) -
+                static_cast<double>(a.grid_positions[3 * std::size_t{vertex} + axis]);
+            sum += static_cast<double>(weights[k]) * side;
+            size = std::max(size, std::abs(side));
         }
-        if (miss <= size / 1000) return;
+        miss = std::max(miss, std::abs(sum));
     }
-    throw Error(
-        VOX_ERROR_INVALID_STATE,
-        format(
-            "body %u or %u was changed through vox_sim_grid: vertex %u (of %zu) is %g off its place in tet "
-            "%u (of %zu)",
-            a.mesh, b.mesh, vertex, vertices, miss, tet, tets));
+    if (!(miss <= size / 1000)) changed(format("vertex %u is %g off its place in tet %u", vertex, miss, tet));
 }
 
 } // namespace
