@@ -358,7 +358,7 @@ START_TEST(files_beside) {
                 {GLTF_TRIANGLE("\\u0061 b\\u002ebin", GLTF_FACE), VOX_OK, ""},
                 {GLTF_TRIANGLE("./below/c.bin", GLTF_FACE), VOX_OK, ""},
                 {GLTF_TRIANGLE("below/../a b.bin", GLTF_FACE), VOX_OK, ""},
-                {GLTF_TRIANGLE("missing.bin", GLTF_FACE), VOX_ERROR_FILE, "missing.bin"},
+                {GLTF_TRIANGLE("missing.bin", GLTF_FACE), VOX_ERROR_FILE, "scene.gltf: No such file"},
                 {GLTF_TRIANGLE("below", GLTF_FACE), VOX_ERROR_FILE, "not a regular file"},
                 {GLTF_TRIANGLE("pipe", GLTF_FACE), VOX_ERROR_FILE, "not a regular file"},
                 {GLTF_TRIANGLE("/etc/passwd", GLTF_FACE), VOX_ERROR_UNSUPPORTED,

@@ -292,7 +292,8 @@ std::string_view Document::bytes_beside(const std::string& uri) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) // opening a pipe would wait
         throw Error(VOX_ERROR_FILE,
-                    format("%s, named in %s, is not a regular file", path.c_str(), file_.name.c_str()));
+                    format("%s, named in %s: %s", path.c_str(), file_.name.c_str(),
+                           error ? error.message().c_str() : "is not a regular file"));
     return files_.emplace_back(path).file().bytes;
 }
 
