@@ -3,22 +3,12 @@
 namespace vox::io {
 namespace {
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-// The UTF-16 unit of four hexadecimal digits, or -1.
-int utf16_unit(std::string_view digits) {
-    if (digits.size() < 4) return -1;
-    int unit = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (hex_digit(digits[i]) < 0) return -1;
-        unit = unit << 4 | hex_digit(digits[i]);
-    }
-    return unit;
+// The UTF-16 unit of the four hexadecimal digits that `text` begins with, or -1.
+int utf16_unit(std::string_view text) {
+    const std::string_view digits = text.substr(0, 4);
+    std::uint16_t unit = 0;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), unit, 16);
+    return error == std::errc{} && stop == digits.data() + 4 ? unit : -1;
 }
 
 void append_utf8(std::string& out, std::uint32_t code) {
@@ -76,11 +66,15 @@ bool JsonReader::another(char close) {
     return more;
 }
 
-std::string JsonReader::name() {
-    std::string name = string("a name");
+void JsonReader::pass_colon() {
     if (next() != ':') expected("a colon");
     ++at_;
     skip_blanks();
+}
+
+std::string JsonReader::name() {
+    std::string name = string("a name");
+    pass_colon();
     return name;
 }
 
@@ -190,9 +184,7 @@ void JsonReader::skip() {
     const auto skip_name = [&] {
         if (next() != '"') expected("a name");
         skip_string();
-        if (next() != ':') expected("a colon");
-        ++at_;
-        skip_blanks();
+        pass_colon();
     };
     do {
         const char c = next();

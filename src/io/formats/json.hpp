@@ -52,6 +52,7 @@ public:
     [[noreturn]] void fail(const std::string& text, vox_result result = VOX_ERROR_FORMAT) const;
 
 private:
+    void pass_colon();
     std::string name();
     char next() const noexcept { return at_ < file_.bytes.size() ? file_.bytes[at_] : '\0'; }
     void skip_blanks() noexcept;
