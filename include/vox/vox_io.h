@@ -71,8 +71,8 @@ typedef struct vox_io_mesh vox_io_mesh;
 
 /* Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must files that a
  * .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory; one
- * that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is read
- * and must not be shortened meanwhile.
+ * that stands for more triangles or vertices than that fails with LIMIT. A regular file is mapped into memory while
+ * it is read and must not be shortened meanwhile.
  * Errors: FILE, FORMAT (the text names the file, the line or byte, and what was expected there),
  * UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT, INVALID_STATE (cancelled). */
 VOX_API vox_result vox_io_load(const char* path, VOX_OPTIONAL const vox_io_load_desc* desc,

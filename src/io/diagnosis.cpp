@@ -60,28 +60,27 @@ void count_duplicate_tets(const MeshData& data, vox_io_report& report) {
 }
 
 void count_edges(const MeshData& data, vox_io_report& report) {
-    // An item is the higher vertex, with the direction in the lowest bit.
+    // An item is the higher vertex, which is below 2^31, with the direction in the lowest bit.
     const auto each = [&](const auto& put) {
         for (std::size_t t = 0; t < data.triangles.size(); t += 3) {
             const Index* v = &data.triangles[t];
             if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
             for (int i = 0; i < 3; ++i) {
                 const Index a = v[i], b = v[(i + 1) % 3];
-                put(std::min(a, b), static_cast<std::uint64_t>(std::max(a, b)) << 1 | (a < b));
+                put(std::min(a, b), std::max(a, b) << 1 | (a < b));
             }
         }
     };
-    sort_in_buckets<std::uint64_t>(
-        report.vertices, each, [&](Index, const std::uint64_t* first, const std::uint64_t* last) {
-            while (first != last) {
-                const std::uint64_t* run = first;
-                while (run != last && *run >> 1 == *first >> 1) ++run;
-                report.open_edges += run - first == 1;
-                report.non_manifold_facets += run - first > 2;
-                report.misoriented_edges += run - first == 2 && first[0] == first[1];
-                first = run;
-            }
-        });
+    sort_in_buckets<Index>(report.vertices, each, [&](Index, const Index* first, const Index* last) {
+        while (first != last) {
+            const Index* run = first;
+            while (run != last && *run >> 1 == *first >> 1) ++run;
+            report.open_edges += run - first == 1;
+            report.non_manifold_facets += run - first > 2;
+            report.misoriented_edges += run - first == 2 && first[0] == first[1];
+            first = run;
+        }
+    });
 }
 
 void count_duplicate_vertices(const MeshData& data, vox_io_report& report) {

@@ -5,7 +5,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <set>
+#include <iterator>
+#include <map>
 #include <vector>
 
 namespace vox::io {
@@ -17,23 +18,41 @@ class PositionTable {
 public:
     // The positions are borrowed, and may grow between calls.
     explicit PositionTable(const std::vector<double>& positions)
-        : positions_(positions), others_(Less{&positions}) {}
+        : positions_(positions), blocks_(Less{&positions}) {}
 
-    // Makes room for that many vertices at once.
+    // Makes room for that many vertices: 8 bytes for each, and at most 10 for each in the tree.
     void reserve(std::size_t vertices) {
-        if (2 * vertices > table_.size()) rebuild(2 * vertices);
+        if (2 * vertices <= slots_) return;
+        slots_ = 2 * vertices;
+        std::vector<std::uint32_t> entries(slots_ + most_probes, empty);
+        entries.swap(table_);
+        Blocks blocks(blocks_.key_comp());
+        blocks.swap(blocks_);
+        for (const std::uint32_t vertex : entries)
+            if (vertex != empty) enter(vertex);
+        while (!blocks.empty()) {
+            for (const std::uint32_t vertex : blocks.begin()->second) enter(vertex);
+            blocks.erase(blocks.begin());
+        }
     }
 
-    // Returns the vertex that was entered with the position of `vertex`. If there is none, enters `vertex`
-    // and returns it. Zeros of either sign are the same.
+    // Returns the vertex that was entered with the position of `vertex`. If there is none, enters `vertex`,
+    // for which there must be room, and returns it. Zeros of either sign are the same.
     std::uint32_t enter(std::uint32_t vertex) {
-        if (2 * (entered_ + 1) > table_.size()) rebuild(std::max<std::size_t>(2 * table_.size(), 1024));
-        return place(vertex);
+        const double* const p = &positions_[3 * std::size_t{vertex}];
+        std::uint32_t* const first = &table_[(hash_of(p) >> 32) * slots_ >> 32];
+        for (std::uint32_t* slot = first; slot != first + most_probes; ++slot) {
+            if (*slot == empty) return *slot = vertex;
+            if (std::equal(p, p + 3, &positions_[3 * std::size_t{*slot}])) return *slot;
+        }
+        // Slots never become empty again, so an equal position that was entered here is in the tree as well.
+        return enter_in_tree(vertex);
     }
 
 private:
     static constexpr std::uint32_t empty = 0xffffffffu;
-    static constexpr int most_probes = 32; // a cluster of a half-full table is rarely longer
+    static constexpr std::size_t most_probes = 32; // a cluster of a half-full table is rarely longer
+    static constexpr std::ptrdiff_t half_block = 64;
 
     struct Less {
         const std::vector<double>* positions;
@@ -42,6 +61,9 @@ private:
             return std::lexicographical_compare(p, p + 3, q, q + 3);
         }
     };
+    // Vertices in the order of their positions. All blocks but the first have their first vertex as key, and
+    // all are at least half full if there are several.
+    using Blocks = std::map<std::uint32_t, std::vector<std::uint32_t>, Less>;
 
     static std::uint64_t hash_of(const double* p) {
         std::uint64_t hash = 0;
@@ -52,39 +74,29 @@ private:
         return hash;
     }
 
-    std::uint32_t place(std::uint32_t vertex) {
-        const double* const p = &positions_[3 * std::size_t{vertex}];
-        const std::uint64_t mask = table_.size() - 1;
-        std::uint64_t slot = hash_of(p) & mask;
-        for (int probe = 0; probe < most_probes; ++probe, slot = (slot + 1) & mask) {
-            if (table_[slot] == empty) {
-                table_[slot] = vertex;
-                ++entered_;
-                return vertex;
-            }
-            if (std::equal(p, p + 3, &positions_[3 * std::size_t{table_[slot]}])) return table_[slot];
+    std::uint32_t enter_in_tree(std::uint32_t vertex) {
+        const Less less = blocks_.key_comp();
+        auto found = blocks_.upper_bound(vertex);
+        if (found != blocks_.begin())
+            --found;
+        else if (blocks_.empty())
+            found = blocks_.emplace(vertex, std::vector<std::uint32_t>()).first;
+        std::vector<std::uint32_t>& block = found->second;
+        const auto place = std::lower_bound(block.begin(), block.end(), vertex, less);
+        if (place != block.end() && !less(vertex, *place)) return *place;
+        block.insert(place, vertex);
+        if (std::ssize(block) == 2 * half_block) {
+            const auto middle = block.begin() + half_block;
+            blocks_.emplace(*middle, std::vector<std::uint32_t>(middle, block.end()));
+            block.erase(middle, block.end());
         }
-        // Slots never become empty again, so an equal position that was entered here is in the tree as well.
-        const auto [found, is_new] = others_.insert(vertex);
-        entered_ += is_new;
-        return *found;
-    }
-
-    void rebuild(std::size_t slots) {
-        std::vector<std::uint32_t> entries(std::bit_ceil(slots), empty);
-        entries.swap(table_);
-        std::set<std::uint32_t, Less> others(Less{&positions_});
-        others.swap(others_);
-        entered_ = 0;
-        for (const std::uint32_t vertex : entries)
-            if (vertex != empty) place(vertex);
-        for (const std::uint32_t vertex : others) place(vertex);
+        return vertex;
     }
 
     const std::vector<double>& positions_;
-    std::vector<std::uint32_t> table_; // a power of two, at most half full
-    std::set<std::uint32_t, Less> others_;
-    std::size_t entered_ = 0;
+    std::size_t slots_ = 0;            // where a search begins; at most half of them are in use
+    std::vector<std::uint32_t> table_; // the slots, and as many more as the last search passes
+    Blocks blocks_;
 };
 
 } // namespace vox::io

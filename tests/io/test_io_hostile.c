@@ -400,10 +400,19 @@ START_TEST(points) {
     expect("nothing.ply", VOX_ERROR_FORMAT, "line 3: element nothing: expected properties");
     say("ply\nformat ascii 1.0\n");
     repeat("element a 0\n", 200000);
-    expect("elements.ply", VOX_ERROR_FORMAT, "end_header");
+    expect("elements.ply", VOX_ERROR_LIMIT, "line 4099: more than 4096 elements and properties");
     say("ply\nformat ascii 1.0\nelement a 0\n");
     repeat("property char a\n", 200000);
-    expect("properties.ply", VOX_ERROR_FORMAT, "end_header");
+    expect("properties.ply", VOX_ERROR_LIMIT, "line 4099: more than 4096 elements and properties");
+    repeat("v 0 0 0\n", 700000);
+    expect("many_points.obj", VOX_ERROR_LIMIT, "more vertices than the limit of 691072");
+    say("OFF 700000 1 0\n");
+    repeat("0 0 0\n", 700000);
+    say("3 0 1 2\n");
+    expect("many_points.off", VOX_ERROR_LIMIT, "more vertices than the limit of 5510");
+    say("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000");
+    repeat(" 0", 4000000);
+    expect("polygon.off", VOX_ERROR_LIMIT, "more triangles than the limit of 14644");
 }
 END_TEST
 
@@ -505,6 +514,103 @@ START_TEST(scenes) {
 }
 END_TEST
 
+/* A .glb with one primitive of `count` distinct positions, three bytes each and without indices, which
+ * `nodes` nodes show, at `places` places in turn, and with `empty` primitives that nothing shows. */
+static void say_glb(uint32_t mode, uint32_t count, uint32_t nodes, uint32_t places, size_t empty) {
+    char words[512];
+    const uint32_t size = 3 * count, padded = (size + 3) / 4 * 4;
+    put("glTF\2\0\0\0........JSON", 20); /* the lengths follow below */
+    snprintf(
+        words, sizeof words,
+        "{\"asset\":{\"version\":\"2.0\"},\"accessors\":[{\"bufferView\":0,\"componentType\":5121,"
+        "\"count\":%u,\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%u}],"
+        "\"buffers\":[{\"byteLength\":%u}],"
+        "\"meshes\":[{\"primitives\":[{\"mode\":%u,\"attributes\":{\"POSITION\":0}}]},{\"primitives\":[{}",
+        count, size, padded, mode);
+    say(words);
+    repeat(",{}", empty);
+    say("]}],\"scenes\":[{\"nodes\":[0");
+    for (uint32_t i = 1; i < nodes; ++i) {
+        snprintf(words, sizeof words, ",%u", i);
+        say(words);
+    }
+    say("]}],\"nodes\":[{\"mesh\":0}");
+    for (uint32_t i = 1; i < nodes; ++i) {
+        snprintf(words, sizeof words, ",{\"mesh\":0,\"translation\":[0,0,%u]}", 256 * (i % places));
+        say(words);
+    }
+    say("]}");
+    while (text.size % 4) say(" ");
+    const uint32_t json = (uint32_t)text.size - 20;
+    put(&padded, 4);
+    put("BIN", 4);
+    for (uint32_t i = 0; i < padded / 3 + 1; ++i) {
+        const unsigned char position[3] = {(unsigned char)i, (unsigned char)(i >> 8),
+                                           (unsigned char)(i >> 16)};
+        put(position, padded - 3 * i < 3 ? padded - 3 * i : 3);
+    }
+    const uint32_t all = (uint32_t)text.size;
+    memcpy(text.data + 8, &all, 4);
+    memcpy(text.data + 12, &json, 4);
+}
+
+/* Vertices that are all distinct: more than the limit where triangles are fewer, and nearly as many of both
+ * as the limits allow. */
+START_TEST(distinct_vertices) {
+    say_glb(4, 900, 440, 440, 0);
+    expect("elsewhere.glb", VOX_ERROR_LIMIT, "more vertices than the limit of 133");
+    say_glb(4, 4194306, 1, 1, 0);
+    expect("small_positions.glb", VOX_ERROR_LIMIT, "more vertices than the limit of 13894");
+    say_glb(5, 900, 146, 146, 0);
+    expect("strips.glb", VOX_OK, "");
+    say_glb(5, 187000, 1, 1, 0);
+    expect("long_strip.glb", VOX_OK, "");
+    say_glb(5, 900, 730, 498, 1 << 20);
+    expect("empty_primitives.glb", VOX_OK, "");
+}
+END_TEST
+
+/* The hash of PositionTable. */
+static uint64_t hash_of(const double* p) {
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; ++k) {
+        uint64_t bits;
+        memcpy(&bits, p + k, 8);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+/* As many points, vertices, triangles and corners of one polygon as there may be, each of as few bytes as can
+ * be; and of all positions in bytes those that want the same slots, a 32nd of the table. */
+START_TEST(chosen_positions) {
+    const uint32_t points = 518000, strip = points, polygon = 260000;
+    char words[512];
+    snprintf(words, sizeof words,
+             "ply\nformat binary_little_endian 1.0\nelement vertex %u\nproperty uchar x\nproperty uchar y\n"
+             "property uchar z\nelement tristrips 1\nproperty list int int vertex_index\n"
+             "element face 1\nproperty list int uchar vertex_index\nend_header\n",
+             points);
+    say(words);
+    uint32_t chosen = 0;
+    for (uint32_t i = 0; i < 1u << 24 && chosen < points; ++i) {
+        const unsigned char bytes_of[3] = {(unsigned char)i, (unsigned char)(i >> 8),
+                                           (unsigned char)(i >> 16)};
+        const double p[3] = {bytes_of[0], bytes_of[1], bytes_of[2]};
+        if (hash_of(p) >> 59) continue;
+        put(bytes_of, 3);
+        ++chosen;
+    }
+    ck_assert_uint_eq(chosen, points);
+    put(&strip, 4);
+    for (uint32_t i = 0; i < points; ++i) put(&i, 4);
+    put(&polygon, 4);
+    for (uint32_t i = 0; i < polygon; ++i) put("", 1);
+    expect("chosen_positions.ply", VOX_OK, "");
+}
+END_TEST
+
 int main(void) {
     Suite* suite = suite_create("io_hostile");
     TCase* tests = add_case(suite, "hostile");
@@ -513,6 +619,7 @@ int main(void) {
     tcase_add_loop_test(tests, mutations, 0, sample_count);
     tcase_add_loop_test(tests, lying_numbers, 0, sample_count);
     tcase_add_loop_test(tests, lying_words, 0, sample_count);
-    tcase_add_each(tests, declared_sizes_are_checked_first, polygons, points, positions_of_one_hash, scenes);
+    tcase_add_each(tests, declared_sizes_are_checked_first, polygons, points, positions_of_one_hash, scenes,
+                   distinct_vertices, chosen_positions);
     return run_suite(suite);
 }

@@ -42,7 +42,8 @@ private:
 class SceneReader {
 public:
     SceneReader(const aiScene& scene, const std::string& name, std::uint32_t mesh_index)
-        : scene_(scene), name_(name), mesh_index_(mesh_index), surface_(name, max_count, VOX_IO_ALL_MESHES) {}
+        : scene_(scene), name_(name), mesh_index_(mesh_index),
+          surface_(name, {max_count, max_count}, VOX_IO_ALL_MESHES) {}
 
     MeshData read() {
         if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= scene_.mNumMeshes)

@@ -58,8 +58,8 @@ class GltfReader {
 public:
     GltfReader(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index)
         : document_(file, folder), mesh_index_(mesh_index),
-          primitives_left_(most_triangles(document_.bytes())),
-          surface_(file.name, primitives_left_, VOX_IO_ALL_MESHES) {
+          surface_(file.name, surface_limits(document_.bytes()), VOX_IO_ALL_MESHES),
+          primitives_left_(surface_.limits().triangles) {
         const std::size_t meshes = document_.primitives().size();
         if (mesh_index != VOX_IO_ALL_MESHES && mesh_index >= meshes)
             refuse(format("%s: mesh %u was asked for, but the file holds %zu", file.name.c_str(), mesh_index,
@@ -276,9 +276,9 @@ private:
 
     gltf::Document document_;
     std::uint32_t mesh_index_;
-    std::uint64_t primitives_left_; // as many as triangles: empty ones, shown many times, take time too
     SurfaceBuilder surface_;
-    std::vector<bool> visited_; // nodes
+    std::uint64_t primitives_left_; // as many as triangles: empty ones, shown many times, take time too
+    std::vector<bool> visited_;     // nodes
     std::vector<Level> levels_;
     std::vector<std::uint32_t> vertices_; // of the positions of a primitive
 };

@@ -7,7 +7,7 @@
 namespace vox::io::gltf {
 namespace {
 
-constexpr std::size_t glb_head = 12, glb_chunk_head = 8, most_files = 64;
+constexpr std::size_t glb_head = 12, glb_chunk_head = 8, most_files = 64, longest_name = 4096;
 
 std::string without_percent(std::string_view uri) {
     std::string out;
@@ -141,7 +141,7 @@ void Document::check_extension() {
                 VOX_ERROR_UNSUPPORTED);
 }
 
-void Document::note_place(std::vector<std::size_t>& places) {
+void Document::note_place(std::deque<std::size_t>& places) {
     places.push_back(json_->offset());
     json_->skip();
 }
@@ -275,6 +275,11 @@ std::string_view Document::bytes_beside(const std::string& uri) {
         json_->fail(format("a buffer is in another file, %s: load this one by its path",
                            printable(uri, 200).c_str()));
     const std::string name = without_percent(uri);
+    if (name.size() > longest_name)
+        json_->fail(
+            format("a buffer is in another file, whose name has %zu bytes, more than the limit of %zu",
+                   name.size(), longest_name),
+            VOX_ERROR_LIMIT);
     bool inside = !name.empty() && name.find_first_of(":\\") == std::string::npos &&
                   name.find('\0') == std::string::npos;
     const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
@@ -291,9 +296,8 @@ std::string_view Document::bytes_beside(const std::string& uri) {
         json_->fail(format("more than %zu other files", most_files), VOX_ERROR_LIMIT);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) // opening a pipe would wait
-        throw Error(VOX_ERROR_FILE,
-                    format("%s, named in %s: %s", path.c_str(), file_.name.c_str(),
-                           error ? error.message().c_str() : "is not a regular file"));
+        throw Error(VOX_ERROR_FILE, format("%s, named in %s: %s", path.c_str(), file_.name.c_str(),
+                                           error ? error.message().c_str() : "is not a regular file"));
     return files_.emplace_back(path).file().bytes;
 }
 

@@ -50,8 +50,9 @@ struct Values {
 
 std::uint64_t size_of(std::uint32_t component_type);
 
-// Only what follows is kept of a document, in less memory than its text takes; all else is skipped. Objects
-// of scenes and nodes are read when they are visited.
+// Only what follows is kept of a document; all else is skipped. That takes less memory than usual text, and
+// at most 4.3 times the text, for empty primitives: 12 bytes for each "{},", in pieces of 512. Objects of
+// scenes and nodes are read when they are visited.
 class Document {
 public:
     // Files that the document names are looked for in `folder`; without one it must be complete.
@@ -59,13 +60,13 @@ public:
 
     JsonReader& json() noexcept { return *json_; }
     std::size_t scene_at() const noexcept { return scene_at_; } // place of the scene's object in the JSON
-    const std::vector<std::size_t>& nodes() const noexcept { return nodes_; } // the same for each node
+    const std::deque<std::size_t>& nodes() const noexcept { return nodes_; } // the same for each node
     std::size_t mesh_count() const noexcept { return first_primitive_.size(); }
     // Those of mesh m begin with first_primitive(m), and end where those of the next one begin.
     std::size_t first_primitive(std::size_t mesh) const noexcept {
         return mesh < first_primitive_.size() ? first_primitive_[mesh] : primitives_.size();
     }
-    const std::vector<Primitive>& primitives() const noexcept { return primitives_; }
+    const std::deque<Primitive>& primitives() const noexcept { return primitives_; }
     const std::vector<Accessor>& accessors() const noexcept { return accessors_; }
 
     // The values of an accessor, checked against the bytes that there are.
@@ -82,7 +83,7 @@ private:
     void read_document();
     void read_version();
     void check_extension();
-    void note_place(std::vector<std::size_t>& places);
+    void note_place(std::deque<std::size_t>& places);
     void read_mesh();
     void read_primitive();
     void read_accessor();
@@ -99,9 +100,9 @@ private:
     File json_text_;          // the file up to the end of the JSON
     std::string_view binary_; // the binary chunk of a .glb
     std::optional<JsonReader> json_;
-    std::vector<std::size_t> scenes_, nodes_;
+    std::deque<std::size_t> scenes_, nodes_;
     std::vector<std::uint32_t> first_primitive_; // of each mesh
-    std::vector<Primitive> primitives_;
+    std::deque<Primitive> primitives_;
     std::vector<Accessor> accessors_;
     std::vector<BufferView> views_;
     std::vector<Buffer> buffers_;

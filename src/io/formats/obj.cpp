@@ -10,7 +10,8 @@ namespace {
 class ObjReader {
 public:
     ObjReader(const File& file, std::uint32_t mesh_index)
-        : in_(file, '#'), surface_(file.name, most_triangles(file.bytes.size()), mesh_index) {}
+        : in_(file, '#'), surface_(file.name, surface_limits(file.bytes.size()), mesh_index),
+          points_(surface_) {}
 
     MeshData read() {
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
@@ -38,26 +39,31 @@ private:
         in_.expected("a keyword");
     }
 
-    // A backslash at the end of a line continues it.
-    bool continues() {
-        if (in_.peek() != "\\") return false;
-        in_.skip_line();
+    // Whether the line ends here. A backslash at its end continues it.
+    bool at_end() {
+        while (!in_.at_line_end()) {
+            if (!in_.rest().starts_with('\\') || in_.peek() != "\\") return false;
+            in_.skip_line();
+        }
         return true;
     }
     void skip_line() {
-        while (!in_.at_line_end())
-            if (!continues()) in_.word("a word");
+        while (!at_end()) in_.word("a word");
         in_.skip_line();
+    }
+    double real(const char* what) {
+        if (at_end()) in_.expected(what);
+        return in_.real(what);
     }
 
     void read_vertex() {
         double p[3];
-        for (double& x : p) x = in_.real("a coordinate");
+        for (double& x : p) x = real("a coordinate");
         // A fourth number alone is a weight, by which the position is divided; three more are a colour.
-        if (!in_.at_line_end()) {
+        if (!at_end()) {
             const std::size_t at = in_.offset();
             const double weight = in_.real("a weight or the end of the line");
-            if (weight != 1 && in_.at_line_end())
+            if (weight != 1 && at_end())
                 for (double& x : p) {
                     x /= weight;
                     if (!std::isfinite(x)) {
@@ -66,19 +72,16 @@ private:
                     }
                 }
         }
-        if (points_.size() >= max_count) in_.fail("too many vertices", VOX_ERROR_LIMIT);
         points_.add(p);
     }
 
     void read_face() {
         const bool wanted = surface_.begin_element();
-        corners_.clear();
-        while (!in_.at_line_end()) {
-            if (continues()) continue;
+        while (!at_end()) {
             const std::uint32_t point = read_corner();
-            if (wanted) corners_.push_back(points_.vertex(point, surface_));
+            if (wanted) surface_.corner(points_.vertex(point));
         }
-        if (wanted) surface_.polygon(corners_);
+        if (wanted) surface_.end_polygon();
     }
 
     // A vertex number, and numbers of other things behind slashes. Negative numbers count from the last
@@ -114,7 +117,6 @@ private:
     Scanner in_;
     SurfaceBuilder surface_;
     IndexedPoints points_;
-    std::vector<std::uint32_t> corners_;
     std::string_view object_, group_, material_; // the names in force
 };
 

@@ -20,8 +20,8 @@ std::string_view base_keyword(std::string_view word) {
 } // namespace
 
 MeshData read_off(const File& file, std::uint32_t mesh_index) {
-    SurfaceBuilder surface(file.name, most_triangles(file.bytes.size()), mesh_index);
-    IndexedPoints points;
+    SurfaceBuilder surface(file.name, surface_limits(file.bytes.size()), mesh_index);
+    IndexedPoints points(surface);
     Scanner in(file, '#');
     in.skip_space();
     if (!in.peek().ends_with("OFF")) in.expected("OFF");
@@ -49,20 +49,18 @@ MeshData read_off(const File& file, std::uint32_t mesh_index) {
         points.add(p);
     }
     const bool wanted = surface.begin_element();
-    std::vector<std::uint32_t> polygon;
     for (std::uint64_t f = 0; f < faces; ++f) {
         in.skip_space();
         const auto corners = in.count("number of corners", 2, max_count);
-        polygon.clear();
         for (std::uint64_t i = 0; i < corners; ++i) {
             in.skip_space();
             const auto vertex = in.integer<std::uint64_t>("a vertex number");
             if (vertex >= vertices)
                 in.fail(format("expected a vertex number from 0 to %llu, found %llu",
                                llu(std::max<std::uint64_t>(vertices, 1) - 1), llu(vertex)));
-            if (wanted) polygon.push_back(points.vertex(static_cast<std::uint32_t>(vertex), surface));
+            if (wanted) surface.corner(points.vertex(static_cast<std::uint32_t>(vertex)));
         }
-        if (wanted) surface.polygon(polygon);
+        if (wanted) surface.end_polygon();
         in.skip_line(); // colour
     }
     in.skip_space();

@@ -42,9 +42,11 @@ struct Element {
 };
 
 class PlyReader {
+    static constexpr std::size_t most_lines = 4096; // about elements and properties
+
 public:
     PlyReader(const File& file, std::uint32_t mesh_index)
-        : in_(file), surface_(file.name, most_triangles(file.bytes.size()), mesh_index) {}
+        : in_(file), surface_(file.name, surface_limits(file.bytes.size()), mesh_index), points_(surface_) {}
 
     MeshData read() {
         read_header();
@@ -88,10 +90,12 @@ private:
                      VOX_ERROR_UNSUPPORTED);
         if (in_.peek() != "1.0") in_.expected("version 1.0");
         in_.word("version 1.0");
+        std::size_t lines = 0;
         for (next_line(); !in_.accept("end_header"); next_line()) {
-            if (in_.accept("comment") || in_.accept("obj_info"))
-                continue;
-            else if (in_.accept("element"))
+            if (in_.accept("comment") || in_.accept("obj_info")) continue;
+            if (++lines > most_lines)
+                in_.fail(format("more than %zu elements and properties", most_lines), VOX_ERROR_LIMIT);
+            if (in_.accept("element"))
                 read_element();
             else if (in_.accept("property") && !elements_.empty())
                 read_property();
@@ -242,7 +246,10 @@ private:
             if (axis_of[k] < 0)
                 throw Error(VOX_ERROR_FORMAT, format("%s: vertices: expected a property %c, found none",
                                                      in_.place(element.counted_at).c_str(), "xyz"[k]));
-        points_.reserve(points_.size() + element.count);
+        if (points_.size() > 0)
+            throw Error(VOX_ERROR_FORMAT, format("%s: expected one element vertex, found another",
+                                                 in_.place(element.counted_at).c_str()));
+        points_.reserve(element.count);
         for (std::uint64_t v = 0; v < element.count; ++v) {
             double p[3];
             begin_item();
@@ -260,7 +267,7 @@ private:
             end_item();
             points_.add(p);
         }
-        surface_.reserve(std::min<std::uint64_t>(points_.size(), in_.remaining()));
+        surface_.reserve(std::min(points_.size(), in_.remaining()));
     }
 
     // Calls visit(point) for each value of the list in `element` that numbers vertices; -1, where strips end,
@@ -302,15 +309,13 @@ private:
 
     void read_faces(const Element& element) {
         const bool wanted = surface_.begin_element();
-        std::vector<std::uint32_t> corners;
         read_lists(
             element, false,
             [&](std::int64_t point) {
-                if (wanted) corners.push_back(points_.vertex(static_cast<std::uint32_t>(point), surface_));
+                if (wanted) surface_.corner(points_.vertex(static_cast<std::uint32_t>(point)));
             },
             [&] {
-                if (wanted) surface_.polygon(corners);
-                corners.clear();
+                if (wanted) surface_.end_polygon();
             });
     }
 
@@ -327,7 +332,7 @@ private:
                     length = 0;
                     return;
                 }
-                const std::uint32_t vertex = points_.vertex(static_cast<std::uint32_t>(point), surface_);
+                const std::uint32_t vertex = points_.vertex(static_cast<std::uint32_t>(point));
                 if (length >= 2) surface_.triangle(last[0], last[1], vertex);
                 last[length % 2] = vertex;
                 ++length;

@@ -18,7 +18,7 @@ bool same_word(std::string_view word, std::string_view lower_case) {
 class StlText {
 public:
     StlText(const File& file, std::uint32_t mesh_index)
-        : in_(file), surface_(file.name, most_triangles(file.bytes.size()), mesh_index) {}
+        : in_(file), surface_(file.name, surface_limits(file.bytes.size()), mesh_index) {}
 
     MeshData read() {
         for (in_.skip_space(); !in_.done(); in_.skip_space()) {
@@ -71,7 +71,7 @@ MeshData read_stl_binary(const File& file, std::uint32_t mesh_index) {
     if (in.remaining() != facets * stl_facet)
         in.fail(format("expected the end of the file after %llu triangles, found %llu bytes more",
                        llu(facets), llu(in.remaining() - facets * stl_facet)));
-    SurfaceBuilder surface(file.name, most_triangles(file.bytes.size()), mesh_index);
+    SurfaceBuilder surface(file.name, surface_limits(file.bytes.size()), mesh_index);
     for (std::uint64_t f = 0; f < facets; ++f) {
         const char* const bytes = in.take(stl_facet, "a triangle");
         std::uint32_t corners[3];
@@ -102,11 +102,16 @@ bool is_binary_stl(std::string_view bytes) {
                    std::uint64_t{load<std::uint32_t>(bytes.data() + stl_head - 4, host_is_big_endian)};
 }
 
-MeshData read_stl(const File& file, std::uint32_t mesh_index) {
-    // Many binary files begin with "solid" too, so their size decides first.
+bool is_text_stl(std::string_view bytes) {
+    const File file{"", bytes};
     Scanner in(file);
     in.skip_space();
-    if (!is_binary_stl(file.bytes) && same_word(in.peek(), "solid")) return StlText(file, mesh_index).read();
+    return same_word(in.peek(), "solid");
+}
+
+MeshData read_stl(const File& file, std::uint32_t mesh_index) {
+    // Many binary files begin with "solid" too, so their size decides first.
+    if (!is_binary_stl(file.bytes) && is_text_stl(file.bytes)) return StlText(file, mesh_index).read();
     return read_stl_binary(file, mesh_index);
 }
 
