@@ -32,6 +32,7 @@ vox_io_format format_of(const File& file, vox_io_format wanted) {
     if (wanted != VOX_IO_FORMAT_AUTO) return wanted;
     const vox_io_format by_content = format_of_content(file.bytes);
     if (by_content != VOX_IO_FORMAT_AUTO) return by_content;
+    if (is_ogre_mesh(file.bytes)) return VOX_IO_FORMAT_AUTO; // a .mesh, but not Medit's
     return format_of_extension(extension_of(file.name));
 }
 
@@ -40,7 +41,8 @@ File without_byte_order_mark(File file) {
     return file;
 }
 
-// Reads any format except TetGen, which needs two files. Scenes may name other files in `folder`.
+// Reads any format except TetGen, which needs two files. Scenes may name other files in `folder`, that of the
+// file if it was given by its path.
 MeshData read_one(const File& given, const std::optional<std::string>& folder, vox_io_format which,
                   std::uint32_t mesh_index) {
     const File file = without_byte_order_mark(given);
@@ -57,6 +59,9 @@ MeshData read_one(const File& given, const std::optional<std::string>& folder, v
         return read_vtu(file);
     case VOX_IO_FORMAT_SURFACE:
         return read_surface(file, folder, mesh_index);
+    case VOX_IO_FORMAT_ASSIMP:
+        return folder ? read_by_assimp_at(given.name, mesh_index)
+                      : read_by_assimp(given, extension_of(given.name), mesh_index);
     default:
         throw Error(VOX_ERROR_UNSUPPORTED,
                     format("%s: expected a mesh, found neither known content nor a known extension (.msh "
@@ -86,8 +91,6 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progr
     file.progress = progress;
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
-    if (which == VOX_IO_FORMAT_ASSIMP && desc.format == which)
-        return read_by_assimp_at(path, desc.mesh_index);
     if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh_index);
 
     const std::string extension = extension_of(path);
@@ -119,8 +122,6 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
         const vox_io_format which = format_of(first, desc.format);
         if (which == VOX_IO_FORMAT_TETGEN)
             refuse(format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
-        if (desc.format == VOX_IO_FORMAT_ASSIMP)
-            return read_by_assimp(first, extension_of(first.name), desc.mesh_index);
         return read_one(first, std::nullopt, which, desc.mesh_index);
     }
     if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)

@@ -142,6 +142,18 @@ START_TEST(obj) {
     ck_assert_double_eq(report.bounds_max[0], 1); /* 2 by its weight 2 */
     vox_io_mesh_destroy(mesh);
 
+    /* Lines that are continued, also before each number of a vertex. */
+    mesh = read_text("a.obj", THREE "f 1 2 3\n");
+    vox_io_mesh* again =
+        read_text("a.obj", "v 0 0 \\\n0\nv \\\r\n 2 0 0 \\\n 2 \\\n\nv 0 \\\n\\\n1 0 1 0 \\\n 0\n"
+                           "vn 0 \\\n 0 1\nf \\\n 1 \\\n 2 3 \\\n\n");
+    check_same(mesh, again);
+    vox_io_mesh_destroy(mesh);
+    vox_io_mesh_destroy(again);
+    refused("a.obj", "v 0 0 \\\n\n", VOX_ERROR_FORMAT,
+            "line 2: expected a coordinate, found the end of the line");
+    refused("a.obj", "v 0 0 \\ 1\n", VOX_ERROR_FORMAT, "line 2: expected a coordinate");
+
     static const char parts[] =
         THREE "v 0 0 1\no a\nf 1 2 3\nusemtl m\nf 1 2 4\nusemtl m\nf 2 3 4\ng x y\nf 1 3 4\n";
     ck_assert_uint_eq(triangles_of("a.obj", parts, 0), 1);
@@ -172,6 +184,9 @@ START_TEST(stl) {
     ck_assert_uint_eq(triangles_of("a.stl", two, 0), 2);
     ck_assert_uint_eq(triangles_of("a.stl", two, 1), 1);
     ck_assert_uint_eq(triangles_of("a.stl", two, VOX_IO_ALL_MESHES), 3);
+    ck_assert_uint_eq(triangles_of(NULL, two, VOX_IO_ALL_MESHES), 3);
+    ck_assert_uint_eq(triangles_of(NULL, "SOLID A\n" FACET "ENDSOLID A\n", VOX_IO_ALL_MESHES), 1);
+    ck_assert_uint_eq(triangles_of(NULL, "\n Solid\r\n" FACET "endsolid", VOX_IO_ALL_MESHES), 1);
     refused("a.stl", "solid a\n" FACET, VOX_ERROR_FORMAT,
             "line 9: expected facet or endsolid, found the end of the file");
     refused("a.stl", "solid a\n" FACET "endsolid\nrest\n", VOX_ERROR_FORMAT,
@@ -186,8 +201,19 @@ START_TEST(stl) {
     memcpy(file.data, "solid cube", 10);
     vox_io_mesh* mesh = read_bytes("a.stl", file.data, file.size, VOX_IO_ALL_MESHES);
     ck_assert_uint_eq(report_of(mesh).triangles, 12);
+    vox_io_mesh* same = NULL;
+    static const char* const headers[] = {"ply",         "glTF",           "{",     "STOFF",
+                                          "$MeshFormat", "# vtk DataFile", "SOLID", "MeshVersionFormatted",
+                                          "*VERTICES",   "<VTKFile"};
+    for (size_t i = 0; i < 2 * sizeof headers / sizeof *headers; ++i) {
+        memset(file.data, ' ', 80);
+        memcpy(file.data, headers[i / 2], strlen(headers[i / 2]));
+        same = read_bytes(i % 2 ? NULL : "a.stl", file.data, file.size, VOX_IO_ALL_MESHES);
+        check_same(mesh, same);
+        vox_io_mesh_destroy(same);
+    }
     vox_io_mesh_destroy(mesh);
-    memset(file.data, ' ', 10);
+    memset(file.data, ' ', 80);
     const vox_io_source cut = {"a.stl", file.data, file.size - 1};
     ck_fails(vox_io_read(&cut, 1, NULL, &mesh), VOX_ERROR_FORMAT,
              "byte 80: number of triangles: 12 are declared");
@@ -235,6 +261,9 @@ START_TEST(ply) {
                 "expected element, property, comment or end_header, found the end of the file"}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i)
         refused("a.ply", bad[i].text, VOX_ERROR_FORMAT, bad[i].words);
+#define VERTEX "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+    refused("a.ply", "ply\nformat ascii 1.0\n" VERTEX VERTEX "end_header\n0 0 0\n1 1 1\n", VOX_ERROR_FORMAT,
+            "line 7: expected one element vertex, found another");
     refused("a.ply", "ply\nformat binary 1.0\n", VOX_ERROR_UNSUPPORTED, "line 2: format binary");
     ck_assert_uint_eq(triangles_of("a", PLY("3", "2") "0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2", 0), 1);
 }
@@ -386,6 +415,14 @@ START_TEST(files_beside) {
             ck_fails(vox_io_load(in_folder("scene.gltf"), NULL, &mesh), rows[i].result, rows[i].words);
         }
     }
+    /* A path of millions of parts would take far more memory than its text. */
+    static char parts[2][2000001];
+    for (size_t i = 0; i < 2000000; i += 2) memcpy(parts[0] + i, "a/", 2);
+    const int length = snprintf(parts[1], sizeof parts[1], GLTF_TRIANGLE("%.1990000s", GLTF_FACE), parts[0]);
+    write_file("scene.gltf", parts[1], (size_t)length);
+    vox_io_mesh* mesh = NULL;
+    ck_fails(vox_io_load(in_folder("scene.gltf"), NULL, &mesh), VOX_ERROR_LIMIT,
+             "whose name has 1990000 bytes, more than the limit of 4096");
     static const char* const made[] = {"scene.gltf", "a b.bin", "below/c.bin", "pipe"};
     for (size_t i = 0; i < sizeof made / sizeof *made; ++i) unlink(in_folder(made[i]));
     rmdir(in_folder("below"));

@@ -29,12 +29,13 @@ MeshData alone(const File& file, const std::optional<std::string>&, std::uint32_
 
 // The reader for the surface that the first characters of `bytes` indicate; null for none.
 SurfaceReader surface_of_content(std::string_view bytes) {
+    if (is_binary_stl(bytes)) return alone<read_stl>; // first: its header may hold any words
     const File file{"", first_text(bytes, '#')};
     const std::string_view text = file.bytes, word = Scanner(file, '#').peek();
     if (word.ends_with("OFF") && word.size() <= 7) return alone<read_off>;
     if (word == "ply") return alone<read_ply>;
     if (text.starts_with("glTF") || text.starts_with('{')) return read_gltf;
-    if (word == "solid" || is_binary_stl(bytes)) return alone<read_stl>;
+    if (is_text_stl(text)) return alone<read_stl>;
     return nullptr;
 }
 
@@ -62,6 +63,7 @@ MeshData read_surface(const File& file, const std::optional<std::string>& folder
 }
 
 vox_io_format format_of_content(std::string_view bytes) {
+    if (is_binary_stl(bytes)) return VOX_IO_FORMAT_SURFACE; // first: its header may hold any words
     const std::string_view text = first_text(bytes, 0);
     if (text.starts_with("# vtk DataFile")) return VOX_IO_FORMAT_VTK;
     if (text.starts_with('$') && text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[1])))
@@ -72,9 +74,10 @@ vox_io_format format_of_content(std::string_view bytes) {
     for (const char* keyword : {"*VERTICES", "*ELEMENTS", "*MATERIAL", "*INCLUDE"})
         if (behind_comments.starts_with(keyword)) return VOX_IO_FORMAT_VEGA;
     if (surface_of_content(bytes)) return VOX_IO_FORMAT_SURFACE;
-    if (contains_early(bytes, "[MeshSerializer")) return VOX_IO_FORMAT_ASSIMP; // Ogre's .mesh
     return VOX_IO_FORMAT_AUTO;
 }
+
+bool is_ogre_mesh(std::string_view bytes) { return contains_early(bytes, "[MeshSerializer"); }
 
 vox_io_format format_of_extension(const std::string& extension) {
     if (extension == "msh") return VOX_IO_FORMAT_GMSH;

@@ -26,6 +26,7 @@ MeshData read_off(const File& file, std::uint32_t mesh_index);
 MeshData read_ply(const File& file, std::uint32_t mesh_index);
 MeshData read_stl(const File& file, std::uint32_t mesh_index);
 bool is_binary_stl(std::string_view bytes); // by the size that its number of triangles gives
+bool is_text_stl(std::string_view bytes);   // by its first word
 
 // Surfaces of many more formats, by a library that is not made for damaged files: only where a caller asks
 // for it. From memory, with an extension without its dot, or from a path, beside which other files may be
@@ -35,6 +36,8 @@ MeshData read_by_assimp_at(const std::string& path, std::uint32_t mesh_index);
 
 // The format that the first characters of `bytes` indicate, or AUTO.
 vox_io_format format_of_content(std::string_view bytes);
+// Whether it is a mesh of Ogre, whose extension is .mesh too.
+bool is_ogre_mesh(std::string_view bytes);
 // The format that the extension indicates, or AUTO.
 vox_io_format format_of_extension(const std::string& extension);
 // The part of a name after its last dot, in lower case.
