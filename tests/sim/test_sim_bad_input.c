@@ -476,7 +476,7 @@ static const struct {
     void (*change)(vox_grid* grid, vox_mesh body);
     const char* error; /* null: the simulation goes on without the body's contacts */
 } changes[] = {{other_topology, "changed through vox_sim_grid"},
-               {more_vertices, "changed through vox_sim_grid: a contact names vertex"},
+               {more_vertices, "changed through vox_sim_grid"},
                {more_tets, "changed through vox_sim_grid"},
                {other_tets, "changed through vox_sim_grid"},
                {other_positions, "off its place in tet"},
