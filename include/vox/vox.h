@@ -293,8 +293,8 @@ VOX_API void vox_grid_destroy(VOX_OPTIONAL vox_grid* grid);
 VOX_API vox_result vox_grid_clear(vox_grid* grid);
 
 /* Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in advance;
- * never releases any. A contact takes 85 bytes, with VOX_GRID_PENETRATIONS 76 more and with VOX_GRID_CONTACT_EVENTS 56
- * more; its penetration takes up to 160 more in the step that finds it. Contacts stay, but views of them end. Errors:
+ * never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with VOX_GRID_CONTACT_EVENTS 56
+ * more; the closest points that a step searches (docs/depth.md) take up to 24 each. Contacts stay, views end. Errors:
  * LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count);
 

@@ -10,6 +10,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -36,14 +37,13 @@ public:
     }
 
     // Returns false, and writes nothing, when the mean is of no use.
-    bool write(Point& point) const {
+    bool write(Depth& out) const {
         const double mean = length(direction_);
         if (!(mean >= least_mean * weights_) || weights_ == 0) return false;
         const Vec3d direction = (1 / mean) * direction_;
         const double depth = (depth_ + dot(way_, direction) / 2) / weights_;
         if (!(depth > 0)) return false;
-        point.depth = depth;
-        point.direction = direction;
+        out.set(depth, direction);
         return true;
     }
 
@@ -63,19 +63,16 @@ public:
         direction_ = direction;
     }
 
-    // Makes the point CROSSING. Without neighbours, depth and direction stay what they are.
-    void write(Point& point) const {
-        point.state = VOX_PENETRATION_CROSSING;
-        if (squared_ == infinity) return;
-        point.depth = depth_ + dot(way_, direction_);
-        point.direction = direction_;
-        if (point.depth > 0) return;
+    // Returns the state of the point. Without neighbours, depth and direction stay what they are.
+    vox_penetration_state write(Depth& out) const {
+        if (squared_ == infinity) return VOX_PENETRATION_CROSSING;
+        out.set(depth_ + dot(way_, direction_), direction_);
+        if (out.depth > 0) return VOX_PENETRATION_CROSSING;
         const Vec3d straight = way_ + depth_ * direction_; // to the surface
-        point.depth = length(straight);
-        if (point.depth > 0)
-            point.direction = (1 / point.depth) * straight;
-        else
-            point.state = VOX_PENETRATION_COINCIDENT; // at the place of a neighbour on the surface
+        out.depth = length(straight);
+        if (!(out.depth > 0)) return VOX_PENETRATION_COINCIDENT; // at a neighbour that is on the surface
+        out.set(out.depth, (1 / out.depth) * straight);
+        return VOX_PENETRATION_CROSSING;
     }
 
 private:
@@ -88,16 +85,16 @@ constexpr std::size_t walks_at_once = 64;
 
 class Stages {
 public:
-    Stages(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), points_(points), waves_(scratch.waves), queue_(scratch.queue),
+    Stages(const BodyPair& pair, std::span<const vox_contact> contacts, Penetrations& penetrations,
+           std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts)
+        : pair_(pair), contacts_(contacts), penetrations_(penetrations), waves_(scratch.waves), queue_(queue),
           normals_(scratch.normals), counts_(counts) {
-        if (queue_.size() < points_.size()) queue_.resize(points_.size());
         normals_.begin(pair_.b);
         waves_.reserve(pair_.vertex_count_a);
-        for (std::uint32_t i = 0; i < points_.size(); ++i) waves_.add(points_[i].vertex, unreached, i);
+        for (const std::uint32_t place : pair_.places) waves_.add(vertex_at(place), unreached, place);
     }
     ~Stages() {
-        for (const Point& point : points_) waves_.remove(point.vertex);
+        for (const std::uint32_t place : pair_.places) waves_.remove(vertex_at(place));
     }
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
@@ -111,26 +108,33 @@ public:
 
 private:
     Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
-    LinkRange neighbours(const Point& point) const { return pair_.topology_a->neighbours_of(point.vertex); }
-    std::uint32_t wave_of(std::uint32_t place) const { return waves_[points_[place].vertex].wave; }
-    void set_wave(std::uint32_t place, std::uint32_t wave) { waves_.set_wave(points_[place].vertex, wave); }
-    void push(std::uint32_t place, std::uint32_t wave) {
-        set_wave(place, wave);
-        queue_[queued_++] = place;
+    LinkRange neighbours(std::uint32_t vertex) const { return pair_.topology_a->neighbours_of(vertex); }
+    std::uint32_t vertex_at(std::uint32_t place) const { return penetrations_.of(place).vertex; }
+    vox_penetration_state& state(std::uint32_t vertex) {
+        return penetrations_.of(waves_[vertex].place).state;
     }
-    // Calls visit(place) for each neighbour of a point that collides and has a wave in [first, last). They
-    // are gathered first, without branches, since no processor predicts which ones they are.
+    Depth& depth(std::uint32_t vertex) { return penetrations_.depth_of(waves_[vertex].place); }
+    std::uint32_t wave_of(std::uint32_t vertex) const { return waves_[vertex].wave; }
+    void push(std::uint32_t vertex, std::uint32_t wave) {
+        waves_.set_wave(vertex, wave);
+        queue_[queued_++] = vertex;
+    }
+    // Calls visit(vertex, place) for each neighbour of a vertex that collides and has a wave in [first,
+    // last). They are gathered first, without branches, since no processor predicts which ones they are.
     template <class Visit>
-    void for_colliding(const Point& point, std::uint32_t first, std::uint32_t last, Visit&& visit) const {
-        std::array<std::uint32_t, 32> gathered;
+    void for_colliding(std::uint32_t vertex, std::uint32_t first, std::uint32_t last, Visit&& visit) const {
+        struct Colliding {
+            std::uint32_t vertex, place;
+        };
+        std::array<Colliding, 32> gathered;
         std::uint32_t count = 0;
         const auto flush = [&] {
-            for (std::uint32_t i = 0; i < count; ++i) visit(gathered[i]);
+            for (std::uint32_t i = 0; i < count; ++i) visit(gathered[i].vertex, gathered[i].place);
             count = 0;
         };
-        for (const std::uint32_t neighbour : neighbours(point)) {
+        for (const std::uint32_t neighbour : neighbours(vertex)) {
             const auto [wave, place] = waves_[neighbour];
-            gathered[count] = place;
+            gathered[count] = {neighbour, place};
             count += wave - first < last - first;
             if (count == gathered.size()) flush();
         }
@@ -140,35 +144,40 @@ private:
     void prefetch_links(std::size_t next) const;
     void prefetch_queued(std::size_t next) const;
     void find_border();
-    bool is_coincident(Point& point);
-    Vec3d inside(const Point& point) const;
-    void follow(std::uint32_t place, const Vec3d& from, std::uint32_t neighbour);
+    bool is_certainly_interior(const vox_contact& contact) const;
+    bool is_coincident(std::uint32_t place, std::uint32_t tet, bool& interior);
+    Vec3d inside(const Vec3d& p, std::uint32_t tet) const;
+    void follow(std::uint32_t vertex, std::uint32_t tet, const Vec3d& from, std::uint32_t neighbour);
     void take_walks();
-    void take_edge(Point& point, const Walk& walk);
+    void take_edge(const Walk& walk);
     void finish_border_point();
     std::uint32_t propagate(std::uint32_t wave, bool is_crossing);
     void propagate_crossing(std::uint32_t wave);
-    void take_mean(std::uint32_t place, bool is_crossing) const;
+    void take_mean(std::uint32_t vertex, bool is_crossing);
     void mark_unreached();
 
     const BodyPair& pair_;
-    std::span<Point> points_;
+    std::span<const vox_contact> contacts_;
+    Penetrations& penetrations_;
     static constexpr std::uint32_t unreached = 0, unusable = WaveTable::absent - 1;
 
-    WaveTable& waves_; // of body a's vertices; places are those in points_
-    std::pmr::vector<std::uint32_t>& queue_;
+    WaveTable& waves_;               // of body a's vertices
+    std::span<std::uint32_t> queue_; // of vertices
     std::size_t queued_ = 0;
     std::size_t lost_ = 0; // border points without any edge that leads out
     Normals& normals_;
     Counts& counts_;
 
-    // Edges that wait to be followed, and their points.
+    // Edges that wait to be followed, and where they begin.
     std::array<Walk, walks_at_once> walks_;
-    std::array<std::uint32_t, walks_at_once> places_of_walks_;
+    std::array<std::uint32_t, walks_at_once> vertices_of_walks_;
     std::size_t waiting_ = 0;
     // The border point whose edges are being taken.
+    static constexpr std::uint32_t no_vertex = ~0u;
     struct Border {
-        Point* point = nullptr;
+        std::uint32_t vertex = no_vertex;
+        vox_penetration_state* state = nullptr;
+        Depth* depth = nullptr;
         Vec3d position{};
         NeighbourMean mean{};
         NearestNeighbour nearest{};
@@ -181,50 +190,67 @@ void Stages::prefetch_links(std::size_t next) const {
     constexpr std::size_t places_ahead = 16, records_ahead = 8;
     const VertexLinks& links = pair_.topology_a->links;
     if (links.empty()) return;
-    if (next + places_ahead < points_.size())
-        hwy::Prefetch(links.place_of(points_[next + places_ahead].vertex));
-    if (next + records_ahead < points_.size())
-        hwy::Prefetch(links.record_of(points_[next + records_ahead].vertex));
+    const std::span<const std::uint32_t> places = pair_.places;
+    if (next + places_ahead < places.size())
+        hwy::Prefetch(links.place_of(vertex_at(places[next + places_ahead])));
+    if (next + records_ahead < places.size())
+        hwy::Prefetch(links.record_of(vertex_at(places[next + records_ahead])));
 }
 
 // The same for points in the queue.
 void Stages::prefetch_queued(std::size_t next) const {
     constexpr std::size_t points_ahead = 12, places_ahead = 8, records_ahead = 4;
     const VertexLinks& links = pair_.topology_a->links;
-    const auto vertex = [&](std::size_t ahead) { return points_[queue_[next + ahead]].vertex; };
-    if (next + points_ahead < queued_) hwy::Prefetch(&points_[queue_[next + points_ahead]]);
-    if (next + places_ahead < queued_) hwy::Prefetch(links.place_of(vertex(places_ahead)));
-    if (next + records_ahead < queued_) hwy::Prefetch(links.record_of(vertex(records_ahead)));
+    if (next + points_ahead < queued_) {
+        const std::uint32_t place = waves_[queue_[next + points_ahead]].place;
+        hwy::Prefetch(&penetrations_.of(place));
+        hwy::Prefetch(&penetrations_.depth_of(place));
+    }
+    if (next + places_ahead < queued_) hwy::Prefetch(links.place_of(queue_[next + places_ahead]));
+    if (next + records_ahead < queued_) hwy::Prefetch(links.record_of(queue_[next + records_ahead]));
 }
 
 // The first wave is made of the points with an edge that leads out.
 void Stages::find_border() {
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    for (std::size_t i = 0; i < pair_.places.size(); ++i) {
         prefetch_links(i);
-        Point& point = points_[i];
-        const bool coincident = !point.interior && is_coincident(point);
+        const std::uint32_t place = pair_.places[i], vertex = vertex_at(place);
+        const vox_contact& contact = contacts_[penetrations_.of(place).contact];
+        bool interior = is_certainly_interior(contact);
+        const bool coincident = !interior && is_coincident(place, contact.tet, interior);
         bool border = false;
         Vec3d from;
-        for (const std::uint32_t q : neighbours(point)) {
-            if (waves_[q].wave != WaveTable::absent) continue;
-            if (!border && !coincident) from = inside(point);
+        for (const std::uint32_t q : neighbours(vertex)) {
+            if (wave_of(q) != WaveTable::absent) continue;
+            if (!border && !coincident) {
+                from = position(vertex);
+                if (!interior) from = inside(from, contact.tet);
+            }
             border = true;
             if (coincident) break;
-            follow(i, from, q);
+            follow(vertex, contact.tet, from, q);
         }
         if (!border || !coincident) continue;
-        push(i, 1);
+        push(vertex, 1);
     }
     take_walks();
     finish_border_point();
 }
 
+// If not, the vertex may be on the boundary of its tetrahedron.
+bool Stages::is_certainly_interior(const vox_contact& contact) const {
+    const float* weight = contact.barycentric; // within 2^-20 of the true ones
+    return *std::min_element(weight, weight + 4) > 0x1p-19f;
+}
+
 // Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
 // whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
-bool Stages::is_coincident(Point& point) {
+// Tells whether it is in the interior of the tetrahedron.
+bool Stages::is_coincident(std::uint32_t place, std::uint32_t number, bool& interior) {
     const Solid& b = pair_.b;
-    const Tet& tet = b.tets[point.tet];
-    const Vec3d p = position(point.vertex);
+    const Tet& tet = b.tets[number];
+    const std::uint32_t vertex = vertex_at(place);
+    const Vec3d p = position(vertex);
     std::uint32_t support[4], count = 0;
     int on = 0; // a facet on which the point is
     std::uint64_t exact_tests = 0;
@@ -235,43 +261,42 @@ bool Stages::is_coincident(Point& point) {
         else
             on = i;
     }
-    point.interior = count == 4;
+    interior = count == 4;
     if (count == 0 || count == 4) return false;
     bool on_surface = false;
+    Vec3d direction{0, 0, 0};
     for (const std::uint32_t t : b.topology->ring_of(support[0])) {
         const Triangle& triangle = b.topology->triangles[t];
-        if (pair_.self && has_corner(triangle, point.vertex)) continue;
+        if (pair_.self && has_corner(triangle, vertex)) continue;
         if (count > 1 && !has_corner(triangle, support[1])) continue;
         if (count > 2 && !has_corner(triangle, support[2])) continue;
         on_surface = true;
         const Closest closest = closest_point(b, t, p);
-        point.direction = normals_.at(closest.at, closest.at.point - b.at(triangle.apex));
-        if (length(point.direction) > 0) break;
+        direction = normals_.at(closest.at, closest.at.point - b.at(triangle.apex));
+        if (length(direction) > 0) break;
     }
     if (!on_surface) return false;
-    if (!(length(point.direction) > 0))
-        point.direction = facet_normal(b, point.tet, on); // all triangles are without area
-    point.state = VOX_PENETRATION_COINCIDENT;
+    if (!(length(direction) > 0)) direction = facet_normal(b, number, on); // all triangles are without area
+    penetrations_.depth_of(place).set(0, direction);
+    penetrations_.of(place).state = VOX_PENETRATION_COINCIDENT;
     return true;
 }
 
-// Where walks from a point begin: at the point, or where no facet or edge of its tetrahedron can be missed.
-Vec3d Stages::inside(const Point& point) const {
-    const Vec3d p = position(point.vertex);
-    if (point.interior) return p;
+// Where walks from a point on the boundary of a tetrahedron begin, so that no facet or edge can be missed.
+Vec3d Stages::inside(const Vec3d& p, std::uint32_t tet) const {
     const Solid& b = pair_.b;
-    const std::uint32_t* v = b.tets[point.tet].v;
+    const std::uint32_t* v = b.tets[tet].v;
     const Vec3d middle = 0.25 * ((b.at(v[0]) + b.at(v[1])) + (b.at(v[2]) + b.at(v[3])));
     return p + 0x1p-20 * (middle - p);
 }
 
-void Stages::follow(std::uint32_t place, const Vec3d& from, std::uint32_t neighbour) {
+void Stages::follow(std::uint32_t vertex, std::uint32_t tet, const Vec3d& from, std::uint32_t neighbour) {
     if (waiting_ == walks_.size()) take_walks();
     Walk& walk = walks_[waiting_];
     walk.p = from;
     walk.q = position(neighbour);
-    walk.tet = points_[place].tet;
-    places_of_walks_[waiting_++] = place;
+    walk.tet = tet;
+    vertices_of_walks_[waiting_++] = vertex;
 }
 
 // Follows the edges that wait. Those of a point may come in several parts.
@@ -285,22 +310,24 @@ void Stages::take_walks() {
         if (walk.leaves) triangles[count++] = walk.exit.triangle;
     normals_.prepare(std::span(triangles).first(count));
     for (std::size_t i = 0; i < walks.size(); ++i) {
-        Point& point = points_[places_of_walks_[i]];
-        if (&point != border_.point) {
+        if (const std::uint32_t vertex = vertices_of_walks_[i]; vertex != border_.vertex) {
             finish_border_point();
-            border_ = {.point = &point, .position = position(point.vertex)};
+            border_ = {.vertex = vertex,
+                       .state = &state(vertex),
+                       .depth = &depth(vertex),
+                       .position = position(vertex)};
         }
-        if (point.state != VOX_PENETRATION_COINCIDENT) take_edge(point, walks[i]);
+        if (*border_.state != VOX_PENETRATION_COINCIDENT) take_edge(walks[i]);
     }
 }
 
-void Stages::take_edge(Point& point, const Walk& walk) {
+void Stages::take_edge(const Walk& walk) {
     ++counts_.leaving_edges;
     counts_.edge_tests += walk.visited;
     const Vec3d& p = border_.position;
     Vec3d normal{0, 0, 0};
     if (walk.leaves &&
-        !(pair_.self && has_corner(pair_.b.topology->triangles[walk.exit.triangle], point.vertex)))
+        !(pair_.self && has_corner(pair_.b.topology->triangles[walk.exit.triangle], border_.vertex)))
         normal = normals_.at(walk.exit, walk.q - p);
     if (!(dot(normal, normal) > 0)) {
         border_.lost = true;
@@ -312,68 +339,68 @@ void Stages::take_edge(Point& point, const Walk& walk) {
         border_.mean.add(1 / squared, way, 0, normal);
         border_.nearest.add(squared, way, 0, normal);
     } else {
-        point.state = VOX_PENETRATION_COINCIDENT;
-        point.direction = normal;
+        *border_.state = VOX_PENETRATION_COINCIDENT;
+        border_.depth->set(0, normal);
     }
 }
 
 void Stages::finish_border_point() {
-    if (!border_.point) return;
-    Point& point = *border_.point;
-    if (point.state != VOX_PENETRATION_COINCIDENT) {
-        point.state = VOX_PENETRATION_SURFACE;
-        if (border_.lost || !border_.mean.write(point)) border_.nearest.write(point);
-    }
-    const bool is_crossing = point.state == VOX_PENETRATION_CROSSING;
-    lost_ += is_crossing && !has_answer(point);
-    push(static_cast<std::uint32_t>(&point - points_.data()), is_crossing ? unusable : 1);
+    if (border_.vertex == no_vertex) return;
+    if (*border_.state != VOX_PENETRATION_COINCIDENT)
+        *border_.state = !border_.lost && border_.mean.write(*border_.depth)
+                             ? VOX_PENETRATION_SURFACE
+                             : border_.nearest.write(*border_.depth);
+    const bool is_crossing = *border_.state == VOX_PENETRATION_CROSSING;
+    lost_ += is_crossing && !has_answer(*border_.depth);
+    push(border_.vertex, is_crossing ? unusable : 1);
 }
 
 // Sends waves from the points in the queue, of which the first has the number `wave`. Each takes its means
 // over all points of the waves before it. Returns the number of the first wave without points.
 std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
-    for (std::size_t first = 0; first < queued_ && queued_ < points_.size(); ++wave) {
+    for (std::size_t first = 0; first < queued_ && queued_ < queue_.size(); ++wave) {
         const std::size_t last = queued_;
         for (; first < last; ++first) {
             prefetch_queued(first);
             const std::uint32_t from = queue_[first];
             if (wave_of(from) == unusable) continue;
-            for_colliding(points_[from], unreached, unreached + 1, [&](std::uint32_t to) { push(to, wave); });
+            for_colliding(from, unreached, unreached + 1,
+                          [&](std::uint32_t to, std::uint32_t) { push(to, wave); });
         }
         for (std::size_t i = last; i < queued_; ++i) {
             prefetch_queued(i);
-            if (points_[queue_[i]].state != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i], is_crossing);
+            if (state(queue_[i]) != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i], is_crossing);
         }
         if (is_crossing) continue;
         // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
-            if (points_[queue_[i]].state == VOX_PENETRATION_CROSSING) set_wave(queue_[i], unusable);
+            if (state(queue_[i]) == VOX_PENETRATION_CROSSING) waves_.set_wave(queue_[i], unusable);
     }
     return wave;
 }
 
 // Now CROSSING points send waves, too, to those that no other wave reached. These are CROSSING as well.
 void Stages::propagate_crossing(std::uint32_t wave) {
-    if (queued_ == points_.size() && lost_ == 0) return; // all have an answer
+    if (queued_ == queue_.size() && lost_ == 0) return; // all have an answer
     queued_ = 0;
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-        if (wave_of(i) == unusable) set_wave(i, has_answer(points_[i]) ? wave : unreached);
-        if (wave_of(i) != unreached) queue_[queued_++] = i;
+    for (const std::uint32_t place : pair_.places) {
+        const std::uint32_t vertex = vertex_at(place);
+        if (wave_of(vertex) == unusable)
+            waves_.set_wave(vertex, has_answer(penetrations_.depth_of(place)) ? wave : unreached);
+        if (wave_of(vertex) != unreached) queue_[queued_++] = vertex;
     }
     propagate(wave + 1, true);
 }
 
-void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
-    Point& point = points_[place];
-    const Vec3d p = position(point.vertex);
+void Stages::take_mean(std::uint32_t vertex, bool is_crossing) {
+    const Vec3d p = position(vertex);
     const auto for_known = [&](auto&& visit) {
-        for_colliding(point, unreached + 1, wave_of(place), [&](std::uint32_t known) {
-            const Point& from = points_[known];
-            const Vec3d way = position(from.vertex) - p;
-            visit(dot(way, way), way, from.depth, from.direction);
+        for_colliding(vertex, unreached + 1, wave_of(vertex), [&](std::uint32_t known, std::uint32_t place) {
+            const Depth& from = penetrations_.depth_of(place);
+            const Vec3d way = position(known) - p;
+            visit(dot(way, way), way, from.depth, from.way_out());
         });
     };
-    point.state = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
     NeighbourMean mean;
     bool at_one = false; // a neighbour is at the same place: what is known there counts alone
     for_known([&](double squared, const Vec3d& way, double depth, const Vec3d& direction) {
@@ -382,33 +409,40 @@ void Stages::take_mean(std::uint32_t place, bool is_crossing) const {
         if (at_one) mean = NeighbourMean();
         mean.add(at_one ? 1 : 1 / squared, way, depth, direction);
     });
-    if (mean.write(point)) return;
+    if (mean.write(depth(vertex))) {
+        state(vertex) = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
+        return;
+    }
     NearestNeighbour nearest;
     for_known([&](double squared, const Vec3d& way, double depth, const Vec3d& direction) {
         nearest.add(squared, way, depth, direction);
     });
-    nearest.write(point);
+    state(vertex) = nearest.write(depth(vertex));
 }
 
 // Points without an answer become CROSSING when they are connected to a border point, and stay ENCLOSED
 // otherwise.
 void Stages::mark_unreached() {
-    if (queued_ == points_.size()) return; // all were reached
+    if (queued_ == queue_.size()) return; // all were reached
     queued_ = 0;
-    for (std::uint32_t i = 0; i < points_.size(); ++i)
-        if (wave_of(i) == unreached && points_[i].state == VOX_PENETRATION_CROSSING) push(i, unusable);
+    for (const std::uint32_t place : pair_.places)
+        if (wave_of(vertex_at(place)) == unreached &&
+            penetrations_.of(place).state == VOX_PENETRATION_CROSSING)
+            push(vertex_at(place), unusable);
     for (std::size_t first = 0; first < queued_; ++first)
-        for_colliding(points_[queue_[first]], unreached, unreached + 1, [&](std::uint32_t to) {
-            if (points_[to].state != VOX_PENETRATION_COINCIDENT) points_[to].state = VOX_PENETRATION_CROSSING;
+        for_colliding(queue_[first], unreached, unreached + 1, [&](std::uint32_t to, std::uint32_t place) {
+            vox_penetration_state& state = penetrations_.of(place).state;
+            if (state != VOX_PENETRATION_COINCIDENT) state = VOX_PENETRATION_CROSSING;
             push(to, unusable);
         });
 }
 
 } // namespace
 
-void find_consistent_depths(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch,
-                            Counts& counts) {
-    Stages(pair, points, scratch, counts).run();
+void find_consistent_depths(const BodyPair& pair, std::span<const vox_contact> contacts,
+                            Penetrations& penetrations, std::span<std::uint32_t> queue,
+                            ConsistentScratch& scratch, Counts& counts) {
+    Stages(pair, contacts, penetrations, queue, scratch, counts).run();
 }
 
 } // namespace vox::depth

@@ -13,8 +13,8 @@
 
 namespace vox::depth {
 
-// The colliding vertices of a body: for each its place in a list, and the wave in which depth and direction
-// were found, by the number of the vertex.
+// The colliding vertices of a body: for each the place of its penetration, and the wave in which depth and
+// direction were found, by the number of the vertex.
 class WaveTable {
 public:
     explicit WaveTable(std::pmr::memory_resource* memory) : entries_(memory) {}
@@ -42,20 +42,19 @@ private:
 
 // What find_consistent_depths() keeps from call to call.
 struct ConsistentScratch {
-    explicit ConsistentScratch(std::pmr::memory_resource* memory)
-        : waves(memory), queue(memory), normals(memory) {}
+    explicit ConsistentScratch(std::pmr::memory_resource* memory) : waves(memory), normals(memory) {}
 
-    WaveTable waves;                       // empty between calls
-    std::pmr::vector<std::uint32_t> queue; // of points
+    WaveTable waves; // empty between calls
     Normals normals;
 
-    auto buffers() { return std::tuple_cat(std::tie(waves.buffer(), queue), normals.buffers()); }
+    auto buffers() { return std::tuple_cat(std::tie(waves.buffer()), normals.buffers()); }
 };
 
-// Sets the states of `points`, which are in the order of their vertices, and depth and direction of all but
-// those that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps (has_answer() of
-// points.hpp). Throws what the memory throws.
-void find_consistent_depths(const BodyPair& pair, std::span<Point> points, ConsistentScratch& scratch,
-                            Counts& counts);
+// Sets the states of the pair's penetrations, which begin() made, and depth and direction of all but those
+// that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps (has_answer() of
+// points.hpp). `queue` is as long as pair.places, and is written to. Throws what the memory throws.
+void find_consistent_depths(const BodyPair& pair, std::span<const vox_contact> contacts,
+                            Penetrations& penetrations, std::span<std::uint32_t> queue,
+                            ConsistentScratch& scratch, Counts& counts);
 
 } // namespace vox::depth

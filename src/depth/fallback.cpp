@@ -16,21 +16,22 @@ namespace {
 
 constexpr std::size_t chunk_size = 64;
 
-bool needs_search(const Point& point) {
-    return (point.state == VOX_PENETRATION_ENCLOSED || point.state == VOX_PENETRATION_CROSSING) &&
-           !has_answer(point);
-}
-
 } // namespace
+
+const Hit& Fallback::Scene::hit(std::uint32_t place) const { return hits[penetrations.of(place).contact]; }
+
+bool Fallback::Scene::needs_search(std::uint32_t place) const {
+    const vox_penetration_state state = penetrations.of(place).state;
+    return (state == VOX_PENETRATION_ENCLOSED || state == VOX_PENETRATION_CROSSING) &&
+           !has_answer(penetrations.depth_of(place));
+}
 
 Fallback::Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees)
     : trees_(trees), tree_of_body_(memory), used_(memory), items_(memory), places_(memory), chunks_(memory),
       workers_(memory) {}
 
-Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-                                  std::span<const Hit> hits, std::uint64_t budget, Workers* workers,
-                                  std::span<Point> points, Counts& counts) {
-    const Scene scene{bodies, topologies, hits, points};
+Fallback::Searched Fallback::find(const Scene& scene, std::uint64_t budget, Workers* workers,
+                                  Counts& counts) {
     items_.clear();
     const std::uint64_t unknown = spend(scene, budget);
     if (items_.empty()) return {0, unknown};
@@ -41,7 +42,7 @@ Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const 
     sort_items(scene);
     list_chunks();
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
-        for (std::size_t i = begin; i < end; ++i) search(scene, chunks_[i], workers_[worker]);
+        for (std::size_t i = begin; i < end; ++i) search(scene, i, workers_[worker]);
     };
     constexpr std::size_t least = 8; // chunks that are worth a task
     if (workers)
@@ -55,31 +56,28 @@ Fallback::Searched Fallback::find(std::span<const Body> bodies, std::span<const 
 
 // Lists the points that are searched, and returns how many others become UNKNOWN.
 std::uint64_t Fallback::spend(const Scene& scene, std::uint64_t budget) {
-    const std::span<Point> points = scene.points;
     std::uint64_t wanted = 0;
-    for (const Point& point : points) wanted += needs_search(point);
-    std::size_t end = ~std::size_t{0}; // the first place for which nothing is left
-    reserve_growing(items_, wanted);   // there are never more, nor more chunks
+    for (const std::uint32_t place : scene.places) wanted += scene.needs_search(place);
+    std::uint64_t end = ~std::uint64_t{0}; // the first place for which nothing is left
+    reserve_growing(items_, wanted);       // there are never more, nor more chunks
     reserve_growing(chunks_, wanted);
     if (budget > 0) reserve_growing(places_, wanted);
     if (budget > 0 && wanted > budget) {
         places_.clear();
-        for (const Point& point : points)
-            if (needs_search(point)) places_.push_back(point.place);
+        for (const std::uint32_t place : scene.places)
+            if (scene.needs_search(place)) places_.push_back(place);
         const auto first_out = places_.begin() + static_cast<std::ptrdiff_t>(budget);
         std::nth_element(places_.begin(), first_out, places_.end());
         end = *first_out;
     }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        Point& point = points[i];
-        if (!needs_search(point)) continue;
-        const Hit& hit = scene.hits[point.hit];
-        if (point.place < end) {
-            items_.push_back({hit.body_b, SurfaceTree::all_parts, 0, hit.body_a == hit.body_b, i});
+    for (const std::uint32_t place : scene.places) {
+        if (!scene.needs_search(place)) continue;
+        const Hit& hit = scene.hit(place);
+        if (place < end) {
+            items_.push_back({hit.body_b, SurfaceTree::all_parts, 0, place});
         } else {
-            point.state = VOX_PENETRATION_UNKNOWN;
-            point.depth = 0;
-            point.direction = facet_normal(scene.solid(hit.body_b), point.tet, 0);
+            scene.penetrations.of(place).state = VOX_PENETRATION_UNKNOWN;
+            scene.penetrations.depth_of(place).set(0, facet_normal(scene.solid(hit.body_b), hit.tet, 0));
         }
     }
     return wanted - items_.size();
@@ -92,7 +90,7 @@ void Fallback::update_trees(const Scene& scene, Workers* workers) {
         if (scene.topologies[item.body_b]->triangles.empty()) continue;
         BodyTree& tree = tree_of_body_[item.body_b];
         tree.is_wanted = true;
-        tree.folds |= item.self;
+        tree.folds |= scene.hit(item.place).body_a == item.body_b;
     }
     used_.clear();
     used_.reserve(scene.bodies.size());
@@ -130,56 +128,59 @@ void Fallback::sort_items(const Scene& scene) {
     for (Item& item : items_) {
         const SurfaceTree* tree = tree_of_body_[item.body_b].tree;
         if (!tree) continue;
-        const Point& point = scene.points[item.point];
-        if (item.self) item.part = tree->part_of(point.tet);
-        item.code = tree->place_on_curve(scene.position(point));
+        const Hit& hit = scene.hit(item.place);
+        if (hit.body_a == hit.body_b) item.part = tree->part_of(hit.tet);
+        item.code = tree->place_on_curve(scene.position(hit));
     }
     std::sort(items_.begin(), items_.end(), [](const Item& x, const Item& y) {
-        return std::tie(x.body_b, x.part, x.code, x.point) < std::tie(y.body_b, y.part, y.code, y.point);
+        return std::tie(x.body_b, x.part, x.code, x.place) < std::tie(y.body_b, y.part, y.code, y.place);
     });
 }
 
 void Fallback::list_chunks() {
     chunks_.clear();
     for (std::size_t i = 0; i < items_.size(); ++i) {
-        const bool fits = i > 0 && i - chunks_.back().first < chunk_size &&
+        const bool fits = i > 0 && i - chunks_.back() < chunk_size &&
                           items_[i].body_b == items_[i - 1].body_b && items_[i].part == items_[i - 1].part;
-        if (!fits) chunks_.push_back({i, i});
-        chunks_.back().last = i + 1;
+        if (!fits) chunks_.push_back(static_cast<std::uint32_t>(i));
     }
 }
 
-void Fallback::search(const Scene& scene, const Chunk& chunk, Worker& worker) const {
-    const SurfaceTree* tree = tree_of_body_[items_[chunk.first].body_b].tree;
+void Fallback::search(const Scene& scene, std::size_t chunk, Worker& worker) const {
+    const std::size_t first = chunks_[chunk],
+                      last = chunk + 1 < chunks_.size() ? chunks_[chunk + 1] : items_.size();
+    const SurfaceTree* tree = tree_of_body_[items_[first].body_b].tree;
     SearchState state;
-    for (std::size_t i = chunk.first; i < chunk.last; ++i) search_one(scene, items_[i], tree, state, worker);
+    for (std::size_t i = first; i < last; ++i) search_one(scene, items_[i], tree, state, worker);
     worker.counts.closest_tests += state.visited;
 }
 
 void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTree* tree, SearchState& state,
                           Worker& worker) const {
-    Point& point = scene.points[item.point];
-    const Vec3d p = scene.position(point);
+    const Hit& hit = scene.hit(item.place);
+    const bool self = hit.body_a == hit.body_b;
+    const std::uint32_t tet = hit.tet;
+    vox_penetration_state& point_state = scene.penetrations.of(item.place).state;
+    Depth& out = scene.penetrations.depth_of(item.place);
+    const Vec3d p = scene.position(hit);
     const Solid solid = scene.solid(item.body_b);
     Closest closest;
-    const bool is_crossing = point.state == VOX_PENETRATION_CROSSING;
-    const bool found =
-        tree && (!item.self    ? tree->find(p, SurfaceTree::no_vertex, state, closest)
-                 : is_crossing ? tree->find_in_part(p, point.vertex, point.tet, state, closest)
-                               : tree->find_in_fold(p, point.vertex, point.tet, state, closest));
+    const bool is_crossing = point_state == VOX_PENETRATION_CROSSING;
+    const bool found = tree && (!self         ? tree->find(p, SurfaceTree::no_vertex, state, closest)
+                                : is_crossing ? tree->find_in_part(p, hit.vertex, tet, state, closest)
+                                              : tree->find_in_fold(p, hit.vertex, tet, state, closest));
     // A reading of a vertex in its own mesh wants the point of the fold, which this one need not be.
-    if (found && !(item.self && is_crossing)) point.closest = closest.at.triangle;
-    point.depth = found ? length(closest.way) : 0;
-    point.direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
-    if (length(point.direction) > 0) return;
-    point.depth = 0;
+    if (found && !(self && is_crossing)) scene.penetrations.closest_of(item.place) = closest.at.triangle;
+    Vec3d direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
+    if (length(direction) > 0) return out.set(length(closest.way), direction);
     if (found) { // on the surface of a part of b that overlaps the part with the hit
-        point.state = VOX_PENETRATION_COINCIDENT;
+        point_state = VOX_PENETRATION_COINCIDENT;
         worker.normals.begin(solid);
         const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
-        point.direction = worker.normals.at(closest.at, p - apex);
+        direction = worker.normals.at(closest.at, p - apex);
     }
-    if (!(length(point.direction) > 0)) point.direction = facet_normal(solid, point.tet, 0);
+    if (!(length(direction) > 0)) direction = facet_normal(solid, tet, 0);
+    out.set(0, direction);
 }
 
 } // namespace vox::depth

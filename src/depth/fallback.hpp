@@ -24,6 +24,21 @@ class Fallback {
 public:
     Fallback(std::pmr::memory_resource* memory, SurfaceTrees& trees);
 
+    struct Scene { // of a step
+        std::span<const Body> bodies;
+        std::span<const Topology* const> topologies;
+        std::span<const Hit> hits;
+        std::span<const std::uint32_t> places; // of the penetrations that are found in this step
+        Penetrations& penetrations;
+
+        const Hit& hit(std::uint32_t place) const;
+        Solid solid(std::uint32_t body) const {
+            return {topologies[body], bodies[body].tets, bodies[body].positions};
+        }
+        Vec3d position(const Hit& hit) const { return bodies[hit.body_a].positions.exact(hit.vertex); }
+        bool needs_search(std::uint32_t place) const;
+    };
+
     // Depth and direction of all points that are ENCLOSED, or CROSSING without an answer, or, where there are
     // more than `budget`, of the first ones by their place; the others become UNKNOWN. A budget of 0 is no
     // limit.
@@ -32,9 +47,7 @@ public:
     struct Searched {
         std::uint64_t searches, unknown;
     };
-    Searched find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-                  std::span<const Hit> hits, std::uint64_t budget, Workers* workers, std::span<Point> points,
-                  Counts& counts);
+    Searched find(const Scene& scene, std::uint64_t budget, Workers* workers, Counts& counts);
 
 private:
     struct BodyTree { // of a body that is searched
@@ -42,12 +55,7 @@ private:
         bool is_wanted = false, folds = false;
     };
     struct Item { // a point that is searched
-        std::uint32_t body_b, part, code;
-        bool self;
-        std::size_t point;
-    };
-    struct Chunk { // items next to each other, with one body_b and part
-        std::size_t first, last;
+        std::uint32_t body_b, part, code, place;
     };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory) : normals(memory) {}
@@ -57,25 +65,12 @@ private:
 
         auto buffers() { return normals.buffers(); }
     };
-    struct Scene {
-        std::span<const Body> bodies;
-        std::span<const Topology* const> topologies;
-        std::span<const Hit> hits;
-        std::span<Point> points;
-
-        Solid solid(std::uint32_t body) const {
-            return {topologies[body], bodies[body].tets, bodies[body].positions};
-        }
-        Vec3d position(const Point& point) const {
-            return bodies[hits[point.hit].body_a].positions.exact(point.vertex);
-        }
-    };
 
     std::uint64_t spend(const Scene& scene, std::uint64_t budget);
     void update_trees(const Scene& scene, Workers* workers);
     void sort_items(const Scene& scene);
     void list_chunks();
-    void search(const Scene& scene, const Chunk& chunk, Worker& worker) const;
+    void search(const Scene& scene, std::size_t chunk, Worker& worker) const;
     void search_one(const Scene& scene, const Item& item, const SurfaceTree* tree, SearchState& state,
                     Worker& worker) const;
 
@@ -83,8 +78,9 @@ private:
     std::pmr::vector<BodyTree> tree_of_body_;
     std::pmr::vector<std::uint32_t> used_; // bodies with a tree in this step
     std::pmr::vector<Item> items_;
-    std::pmr::vector<std::size_t> places_; // for the budget
-    std::pmr::vector<Chunk> chunks_;
+    std::pmr::vector<std::uint32_t> places_; // for the budget
+    // The first of those items next to each other that are searched in one go, with one body_b and part.
+    std::pmr::vector<std::uint32_t> chunks_;
     PerWorker<Worker> workers_;
 };
 

@@ -21,42 +21,52 @@ void Penetrations::reserve(std::uint64_t count) {
     reserve_exactly(closest_, count);
 }
 
-void Penetrations::carry(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t count) {
-    reserve(count);
-    carried_ = 0;
-    if (std::ranges::any_of(bodies, &Body::carried)) keep_carried(bodies, hits);
+void Penetrations::begin(std::span<const Body> bodies, std::span<const Hit> hits) {
+    reserve(hits.size()); // never more
+    const std::size_t count = keep_carried(bodies, hits);
     all_.resize(count);
     depths_.resize(count);
     closest_.resize(count);
-    if (carried_ > 0) spread_carried(bodies, hits);
+    spread_carried(bodies, hits);
 }
 
-// Both lists are sorted, and every vertex that is carried is in the old one.
-void Penetrations::keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
+// Moves those that are carried to the front, and returns how many there are with the others. Both lists are
+// sorted, and every vertex that is carried is in the old one.
+std::size_t Penetrations::keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
     const auto key = [](const vox_penetration& p) { return std::tuple(p.mesh_a, p.vertex, p.mesh_b); };
-    std::size_t old = 0;
+    std::size_t old = 0, count = 0;
+    carried_ = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (!is_first_of_vertex(hits, i)) continue;
         const Body &a = bodies[hits[i].body_a], &b = bodies[hits[i].body_b];
-        if (penetration_source(a, b) != PenetrationSource::carried) continue;
+        const PenetrationSource source = penetration_source(a, b);
+        count += source != PenetrationSource::none;
+        if (source != PenetrationSource::carried) continue;
         while (key(all_[old]) != std::tuple(a.mesh_id, hits[i].vertex, b.mesh_id)) ++old;
         all_[carried_] = all_[old];
         depths_[carried_] = depths_[old];
         closest_[carried_] = closest_[old];
         ++carried_;
     }
+    return count;
 }
 
-// From the last to the first, as none moves to a place before its own.
+// To their places, and makes the others. From the last to the first, as none moves to a place before its own.
 void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
     std::size_t place = all_.size(), left = carried_;
-    for (std::size_t i = hits.size(); left > 0; --i) {
+    for (std::size_t i = hits.size(); place > 0; --i) {
         if (!is_first_of_vertex(hits, i - 1)) continue;
         const Hit& hit = hits[i - 1];
-        const PenetrationSource source = penetration_source(bodies[hit.body_a], bodies[hit.body_b]);
+        const Body &a = bodies[hit.body_a], &b = bodies[hit.body_b];
+        const PenetrationSource source = penetration_source(a, b);
         if (source == PenetrationSource::none) continue;
         --place;
-        if (source != PenetrationSource::carried) continue;
+        if (source == PenetrationSource::found) {
+            all_[place] = {a.mesh_id, hit.vertex, b.mesh_id, VOX_PENETRATION_ENCLOSED, i - 1, 0, {}};
+            depths_[place].set(0, {0, 0, 0});
+            closest_[place] = no_triangle;
+            continue;
+        }
         --left;
         all_[place] = all_[left];
         all_[place].contact = i - 1;
@@ -65,15 +75,11 @@ void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const 
     }
 }
 
-void Penetrations::set(std::size_t place, const vox_penetration& penetration, double depth,
-                       const Vec3d& direction, std::uint32_t closest) noexcept {
-    all_[place] = penetration;
-    all_[place].depth = static_cast<float>(std::min<double>(depth, std::numeric_limits<float>::max()));
-    all_[place].direction[0] = static_cast<float>(direction.x);
-    all_[place].direction[1] = static_cast<float>(direction.y);
-    all_[place].direction[2] = static_cast<float>(direction.z);
-    depths_[place] = {depth, {direction.x, direction.y, direction.z}};
-    closest_[place] = closest;
+void Penetrations::round(std::uint32_t place) noexcept {
+    const Depth& from = depths_[place];
+    vox_penetration& to = all_[place];
+    to.depth = static_cast<float>(std::min<double>(from.depth, std::numeric_limits<float>::max()));
+    for (int axis = 0; axis < 3; ++axis) to.direction[axis] = static_cast<float>(from.direction[axis]);
 }
 
 } // namespace vox

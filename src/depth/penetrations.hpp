@@ -15,6 +15,20 @@
 
 namespace vox {
 
+// In half a cache line, since those of neighbours are looked at.
+struct alignas(32) Depth : vox_depth {
+    Vec3d way_out() const noexcept { return {direction[0], direction[1], direction[2]}; }
+    void set(double new_depth, const Vec3d& new_direction) noexcept {
+        depth = new_depth;
+        direction[0] = new_direction.x;
+        direction[1] = new_direction.y;
+        direction[2] = new_direction.z;
+    }
+};
+static_assert(sizeof(Depth) == sizeof(vox_depth));
+
+constexpr std::uint32_t no_triangle = 0xffffffffu;
+
 // Where the penetrations of a pair of bodies come from.
 enum class PenetrationSource { none, carried, found };
 
@@ -38,26 +52,34 @@ public:
     // Never gives room back. Throws what the memory throws.
     void reserve(std::uint64_t count);
 
-    // Keeps those of the last step that are carried over, and moves them to their places among the
-    // penetrations of `hits`, of which there are `count`. The rest is to be set.
-    void carry(std::span<const Body> bodies, std::span<const Hit> hits, std::size_t count);
-    void set(std::size_t place, const vox_penetration& penetration, double depth, const Vec3d& direction,
-             std::uint32_t closest) noexcept;
+    // Makes those of `hits`. Those of the last step that are carried over are kept; the others are ENCLOSED,
+    // with nothing known. Throws what the memory throws.
+    void begin(std::span<const Body> bodies, std::span<const Hit> hits);
+
+    // What the stage finds, in place: state, depth and direction in double, and the closest triangle.
+    vox_penetration& of(std::uint32_t place) noexcept { return all_[place]; }
+    Depth& depth_of(std::uint32_t place) noexcept { return depths_[place]; }
+    std::uint32_t& closest_of(std::uint32_t place) noexcept { return closest_[place]; }
+    // Sets depth and direction of the vox_penetration, too.
+    void round(std::uint32_t place) noexcept;
 
     std::span<const vox_penetration> all() const noexcept { return all_; }
-    std::span<const vox_depth> depths() const noexcept { return depths_; } // of each
-    // For each the triangle of mesh_b's surface that is closest, where that was searched (depth/points.hpp).
+    std::span<const vox_depth> depths() const noexcept { // of each
+        const vox_depth* first = depths_.data();
+        return {first, depths_.size()};
+    }
+    // For each the triangle of mesh_b's surface that is closest, where that was searched, or no_triangle.
     std::span<const std::uint32_t> closest() const noexcept { return closest_; }
 
-    // How many carry() kept.
+    // How many begin() kept.
     std::size_t carried() const noexcept { return carried_; }
 
 private:
-    void keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
+    std::size_t keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
     void spread_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
 
     std::pmr::vector<vox_penetration> all_;
-    std::pmr::vector<vox_depth> depths_;
+    std::pmr::vector<Depth> depths_;
     std::pmr::vector<std::uint32_t> closest_;
     std::size_t carried_ = 0;
 };

@@ -1,33 +1,19 @@
-// The colliding vertices of a pair of bodies, which the parts of the depth stage hand on.
+// The colliding vertices of a pair of bodies, which the parts of the depth stage hand on. A point is such a
+// vertex, and what is known of it is its penetration, at the same place from the beginning.
 #pragma once
 
+#include "depth/penetrations.hpp"
 #include "depth/walk.hpp"
 
 #include <vox/vox.h>
 
-#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace vox::depth {
 
-constexpr std::uint32_t no_triangle = 0xffffffffu;
-
-// A colliding vertex of one body, and what is found for it: a cache line, since neighbours look at it.
-struct alignas(64) Point {
-    double depth = 0;
-    Vec3d direction{0, 0, 0};
-    std::uint32_t vertex;
-    std::uint32_t tet;                   // of the hit
-    std::uint32_t hit;                   // the first hit of the pair with this vertex
-    std::uint32_t place;                 // index of its penetration
-    std::uint32_t closest = no_triangle; // the triangle of b's surface that was found to be closest
-    vox_penetration_state state = VOX_PENETRATION_ENCLOSED;
-    bool interior; // certainly in the interior of `tet`; else it may be on its boundary
-};
-static_assert(sizeof(Point) == 64);
-
 // Whether depth and direction of an ENCLOSED or CROSSING point are known.
-inline bool has_answer(const Point& point) noexcept { return point.depth > 0; }
+inline bool has_answer(const Depth& depth) noexcept { return depth.depth > 0; }
 
 // Vertices of body a in tetrahedra of body b.
 struct BodyPair {
@@ -36,6 +22,7 @@ struct BodyPair {
     std::uint32_t vertex_count_a;
     Solid b;
     bool self;
+    std::span<const std::uint32_t> places; // of their penetrations, in the order of vertices
 };
 
 struct Counts {

@@ -40,14 +40,10 @@ public:
               std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
               Workers* workers, Penetrations& penetrations, vox_counters& counters);
 
+    // Room for so many contacts, but for closest points that are searched. Throws what the memory throws.
+    void reserve(std::uint64_t contacts);
+
 private:
-    struct Range {
-        std::size_t first, last;
-    };
-    struct Start { // the first hit of a vertex in a body
-        std::size_t hit;
-        std::size_t place; // index of its penetration
-    };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory) : consistent(memory) {}
 
@@ -60,18 +56,19 @@ private:
         std::span<const Body> bodies;
         std::span<const Topology* const> topologies;
         std::span<const Hit> hits;
+        std::span<const vox_contact> contacts;
+        Penetrations& penetrations;
 
         depth::Solid solid(std::uint32_t body) const;
     };
 
-    void make_room(std::size_t contacts, std::size_t bodies, std::size_t worker_count);
-    // Returns the number of all penetrations, with those that are carried over.
-    std::size_t list_points(const Scene& scene, std::span<const vox_contact> contacts);
-    void find_consistent(const Scene& scene, const Range& range, Worker& worker);
+    void list_places(const Scene& scene);
+    void find_consistent(const Scene& scene, std::size_t pair, Worker& worker);
 
-    std::pmr::vector<Start> starts_;
-    std::pmr::vector<depth::Point> points_; // pair after pair, each in the order of vertices
-    std::pmr::vector<Range> pairs_;         // in points_
+    // Of the penetrations that are found, pair after pair, each in the order of vertices; and in these lists
+    // the first of each pair.
+    std::pmr::vector<std::uint32_t> places_, pairs_;
+    std::pmr::vector<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;
     depth::Fallback fallback_;
 };

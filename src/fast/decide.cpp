@@ -1,6 +1,7 @@
 #include "fast/decide.hpp"
 
 #include "base/clock.hpp"
+#include "base/room.hpp"
 #include "mesh/filter.hpp"
 
 namespace vox::fast {
@@ -49,9 +50,7 @@ Containment ExactDecisions::decide(const Finding& f) {
 void ExactDecisions::append(std::span<const Hit> hits) {
     if (hits.empty()) return;
     const std::lock_guard lock(out_.mutex);
-    // A quarter more at a time: there may be many, and twice as much room would stay allocated.
-    const std::size_t count = out_.hits.size() + hits.size();
-    if (out_.hits.capacity() < count) out_.hits.reserve(count + count / 4);
+    reserve_sparingly(out_.hits, out_.hits.size() + hits.size());
     out_.hits.insert(out_.hits.end(), hits.begin(), hits.end());
 }
 

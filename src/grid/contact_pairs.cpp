@@ -1,5 +1,5 @@
 // Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2) of the pairs by either mesh, and of
-// runs of contacts by pair.
+// runs of contacts by pair: those that follow each other with the same mesh_a and mesh_b.
 #include "grid/contact_pairs.hpp"
 
 #include "base/error.hpp"
@@ -23,24 +23,30 @@ void sort_by_slot(const std::pmr::vector<TouchingBuffers::Directed>& directed, M
     for (const std::uint32_t i : from) to[place[slot_of(mesh(directed[i]))]++] = i;
 }
 
-} // namespace
-
-void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
-                   Touching& out) {
-    if (contacts.size() > VOX_MAX_CONTACTS)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("the step has %zu contacts, the limit is %u", contacts.size(), VOX_MAX_CONTACTS));
-    using Run = TouchingBuffers::Run;
-    using Directed = TouchingBuffers::Directed;
-    std::pmr::vector<Run>& runs = buffers.runs;
-    std::pmr::vector<Directed>& directed = buffers.directed;
-    runs.clear();
-    directed.clear();
-    if (buffers.last_of_slot.size() < slots) buffers.last_of_slot.resize(slots, 0);
+// Calls visit(first, end) for each run of contacts.
+template <class Visit>
+void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
     const auto count = static_cast<std::uint32_t>(contacts.size());
     for (std::uint32_t first = 0, end; first < count; first = end) {
         const vox_mesh a = contacts[first].mesh_a, b = contacts[first].mesh_b;
         for (end = first + 1; end < count && contacts[end].mesh_a == a && contacts[end].mesh_b == b;) ++end;
+        visit(first, end);
+    }
+}
+
+} // namespace
+
+void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
+                   std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair) {
+    if (contacts.size() > VOX_MAX_CONTACTS)
+        throw Error(VOX_ERROR_LIMIT,
+                    format("the step has %zu contacts, the limit is %u", contacts.size(), VOX_MAX_CONTACTS));
+    using Directed = TouchingBuffers::Directed;
+    std::pmr::vector<Directed>& directed = buffers.directed;
+    directed.clear();
+    if (buffers.last_of_slot.size() < slots) buffers.last_of_slot.resize(slots, 0);
+    for_runs(contacts, [&](std::uint32_t first, std::uint32_t end) {
+        const vox_mesh a = contacts[first].mesh_a, b = contacts[first].mesh_b;
         // An earlier mesh_a or step may have left the index of another pair here, or one past the end.
         std::uint32_t& index = buffers.last_of_slot[slot_of(b)];
         if (index >= directed.size() || directed[index].mesh_a != a || directed[index].mesh_b != b) {
@@ -48,8 +54,7 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
             directed.push_back({a, b, 0, 0});
         }
         directed[index].count += end - first;
-        runs.push_back({index, first, end - first});
-    }
+    });
 
     // The two directions of a pair become neighbours: mesh_a ascends in `directed`, and sorting is stable.
     buffers.order.resize(directed.size());
@@ -60,23 +65,28 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
     sort_by_slot(directed, high, slots, buffers.scratch, buffers.order, buffers.place);
     buffers.scratch.swap(buffers.order);
     sort_by_slot(directed, low, slots, buffers.scratch, buffers.order, buffers.place);
-    out.pairs.clear();
+    pairs.clear();
     std::uint32_t placed = 0;
     for (const std::uint32_t i : buffers.order) {
         Directed& d = directed[i];
         d.next = placed;
         const vox_mesh a = low(d), b = high(d);
-        if (out.pairs.empty() || out.pairs.back().mesh_a != a || out.pairs.back().mesh_b != b)
-            out.pairs.push_back({a, b, 0, 0, placed, 0, 0});
-        (d.mesh_a == a ? out.pairs.back().a_in_b : out.pairs.back().b_in_a) = d.count;
+        if (pairs.empty() || pairs.back().mesh_a != a || pairs.back().mesh_b != b)
+            pairs.push_back({a, b, 0, 0, placed, 0, 0});
+        (d.mesh_a == a ? pairs.back().a_in_b : pairs.back().b_in_a) = d.count;
         placed += d.count;
     }
-    out.contacts.resize(contacts.size());
-    for (const Run& run : runs) {
-        std::uint32_t& next = directed[run.directed].next;
-        std::iota(out.contacts.begin() + next, out.contacts.begin() + next + run.count, run.first);
-        next += run.count;
-    }
+    // Which of `directed` a run belongs to is found again, as keeping it would take memory for each contact:
+    // those with one mesh_a follow each other.
+    by_pair.resize(contacts.size());
+    std::uint32_t entered = 0;
+    for_runs(contacts, [&](std::uint32_t first, std::uint32_t end) {
+        for (; entered < directed.size() && directed[entered].mesh_a == contacts[first].mesh_a; ++entered)
+            buffers.last_of_slot[slot_of(directed[entered].mesh_b)] = entered;
+        std::uint32_t& next = directed[buffers.last_of_slot[slot_of(contacts[first].mesh_b)]].next;
+        std::iota(by_pair.begin() + next, by_pair.begin() + next + (end - first), first);
+        next += end - first;
+    });
 }
 
 } // namespace vox

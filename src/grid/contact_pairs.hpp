@@ -13,36 +13,24 @@ namespace vox {
 // Buffers kept from step to step.
 struct TouchingBuffers {
     explicit TouchingBuffers(std::pmr::memory_resource* memory)
-        : runs(memory), directed(memory), order(memory), scratch(memory), place(memory),
-          last_of_slot(memory) {}
+        : directed(memory), order(memory), scratch(memory), place(memory), last_of_slot(memory) {}
 
-    // Contacts that follow each other with the same mesh_a and mesh_b.
-    struct Run {
-        std::uint32_t directed, first, count;
-    };
     // All contacts with that mesh_a and mesh_b.
     struct Directed {
         vox_mesh mesh_a, mesh_b;
         std::uint32_t count;
-        std::uint32_t next; // where its next contact goes in Touching::contacts
+        std::uint32_t next; // where its next contact goes in the list by pairs
     };
-    std::pmr::vector<Run> runs;
     std::pmr::vector<Directed> directed;
     std::pmr::vector<std::uint32_t> order, scratch; // of `directed`, sorted by pair
     std::pmr::vector<std::uint32_t> place;
-    std::pmr::vector<std::uint32_t> last_of_slot; // the last of `directed` with mesh_b in that slot
+    std::pmr::vector<std::uint32_t> last_of_slot; // one of `directed` with mesh_b in that slot
 };
 
-struct Touching {
-    explicit Touching(std::pmr::memory_resource* memory) : pairs(memory), contacts(memory) {}
-
-    std::pmr::vector<vox_pair> pairs; // without user data, which the caller fills in
-    std::pmr::vector<std::uint32_t> contacts;
-};
-
-// Makes the pairs of vox_pair_view from `contacts` in canonical order; `slots` is above the slot of every
-// mesh. Throws Error(LIMIT) beyond VOX_MAX_CONTACTS.
+// Makes what vox_pair_view has of `contacts` in canonical order: the pairs, without user data, and the
+// indices of the contacts, pair by pair; `slots` is above the slot of every mesh. Throws Error(LIMIT) beyond
+// VOX_MAX_CONTACTS.
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
-                   Touching& out);
+                   std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair);
 
 } // namespace vox

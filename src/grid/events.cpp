@@ -39,9 +39,9 @@ void for_each_of_kind(vox_touch kind, const Set& was, const Set& is, Before befo
 } // namespace
 
 Events::Events(std::pmr::memory_resource* memory, bool of_contacts)
-    : buffers_(memory), touching_{Touching(memory), Touching(memory)},
-      inside_{std::pmr::vector<Inside>(memory), std::pmr::vector<Inside>(memory)}, of_contacts_(of_contacts),
-      touch_events_(memory), contact_events_(memory) {}
+    : buffers_(memory), touching_{std::pmr::vector<vox_pair>(memory), std::pmr::vector<vox_pair>(memory)},
+      by_pair_(memory), inside_{std::pmr::vector<Inside>(memory), std::pmr::vector<Inside>(memory)},
+      of_contacts_(of_contacts), touch_events_(memory), contact_events_(memory) {}
 
 void Events::hide_events() noexcept {
     touch_events_.clear();
@@ -61,16 +61,13 @@ void Events::set_of_contacts(bool of_contacts) noexcept {
 void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
     const std::size_t pairs = std::min(8 * mesh_count, contact_count);
     reserve_growing(buffers_.last_of_slot, mesh_count);
-    reserve_growing(buffers_.runs, contact_count);
     reserve_growing(buffers_.directed, 2 * pairs);
     reserve_growing(buffers_.order, 2 * pairs);
     reserve_growing(buffers_.scratch, 2 * pairs);
     reserve_growing(buffers_.place, mesh_count);
     reserve_growing(touch_events_, 2 * pairs);
-    for (Touching& touching : touching_) {
-        reserve_growing(touching.pairs, pairs);
-        reserve_growing(touching.contacts, contact_count);
-    }
+    reserve_growing(by_pair_, contact_count);
+    for (std::pmr::vector<vox_pair>& touching : touching_) reserve_growing(touching, pairs);
     if (!of_contacts_) return;
     reserve_growing(contact_events_, 2 * contact_count);
     for (std::pmr::vector<Inside>& inside : inside_) reserve_growing(inside, contact_count);
@@ -79,12 +76,10 @@ void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
 void Events::compare(std::span<const vox_contact> contacts) {
     // Both halves get room for what one of them has, and the events for all of it to end while as much
     // begins. So a later step that finds no more than this one allocates nothing.
-    const Touching& is = next();
-    Touching& was = touching_[current_];
-    reserve_growing(was.pairs, is.pairs.size());
-    reserve_growing(was.contacts, is.contacts.size());
-    reserve_growing(touch_events_, 2 * std::max(was.pairs.size(), is.pairs.size()));
-    reserve_growing(buffers_.runs, contacts.size());
+    const std::pmr::vector<vox_pair>& is = next();
+    std::pmr::vector<vox_pair>& was = touching_[current_];
+    reserve_growing(was, is.size());
+    reserve_growing(touch_events_, 2 * std::max(was.size(), is.size()));
     try {
         compare_pairs();
         if (of_contacts_) compare_contacts(contacts);
@@ -102,11 +97,10 @@ void Events::compare(std::span<const vox_contact> contacts) {
 
 void Events::repeat() {
     // All that can fail comes first: room for this step, and for one that finds as much, all of it new.
-    touch_events_.reserve(touching_[current_].pairs.size());
-    next().pairs.reserve(touching_[current_].pairs.size());
-    next().contacts.reserve(touching_[current_].contacts.size());
+    touch_events_.reserve(touching_[current_].size());
+    next().reserve(touching_[current_].size());
     inside_[1 - current_].reserve(inside_[current_].size());
-    for (const vox_pair& pair : touching_[current_].pairs) {
+    for (const vox_pair& pair : touching_[current_]) {
         const auto index = static_cast<std::uint32_t>(touch_events_.size());
         touch_events_.push_back(
             {pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b, VOX_TOUCH_PERSISTED, index});
@@ -116,7 +110,7 @@ void Events::repeat() {
 }
 
 void Events::compare_pairs() {
-    const std::pmr::vector<vox_pair>&was = touching_[current_].pairs, &is = next().pairs;
+    const std::pmr::vector<vox_pair>&was = touching_[current_], &is = next();
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_PERSISTED, VOX_TOUCH_ENDED})
         for_each_of_kind(kind, was, is, pair_before, [&](const vox_pair& pair) {
             const auto index =
@@ -147,8 +141,7 @@ void Events::compare_contacts(std::span<const vox_contact> contacts) {
 }
 
 std::span<const vox_pair> Events::pairs() const noexcept {
-    return pairs_are_shown_ ? std::span<const vox_pair>(touching_[current_].pairs)
-                            : std::span<const vox_pair>();
+    return pairs_are_shown_ ? std::span<const vox_pair>(touching_[current_]) : std::span<const vox_pair>();
 }
 
 std::span<const vox_pair> Events::pairs_of(std::span<const vox_mesh> meshes) const noexcept {

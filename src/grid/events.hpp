@@ -30,8 +30,8 @@ public:
     // for every mesh that touches another.
     template <class UserData>
     void update(std::span<const vox_contact> contacts, std::size_t slots, UserData&& user_data) {
-        find_touching(contacts, slots, buffers_, next());
-        for (vox_pair& pair : next().pairs) {
+        find_touching(contacts, slots, buffers_, next(), by_pair_);
+        for (vox_pair& pair : next()) {
             pair.user_data_a = user_data(pair.mesh_a);
             pair.user_data_b = user_data(pair.mesh_b);
         }
@@ -46,7 +46,7 @@ public:
 
     std::span<const vox_pair> pairs() const noexcept;
     // Their contacts, as vox_pair_view.contacts.
-    const std::uint32_t* pair_contacts() const noexcept { return touching_[current_].contacts.data(); }
+    const std::uint32_t* pair_contacts() const noexcept { return by_pair_.data(); }
     std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
         return {pair_contacts() + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
     }
@@ -88,13 +88,14 @@ private:
     // The pair of two meshes, in either order, if they touch; all pairs where less are given.
     std::span<const vox_pair> pairs_of(std::span<const vox_mesh> meshes) const noexcept;
 
-    Touching& next() noexcept { return touching_[1 - current_]; }
+    std::pmr::vector<vox_pair>& next() noexcept { return touching_[1 - current_]; }
     void compare(std::span<const vox_contact> contacts);
     void compare_pairs();
     void compare_contacts(std::span<const vox_contact> contacts);
 
     TouchingBuffers buffers_;
-    std::array<Touching, 2> touching_; // this step's and the last one's
+    std::array<std::pmr::vector<vox_pair>, 2> touching_; // this step's and the last one's
+    std::pmr::vector<std::uint32_t> by_pair_;            // contacts, of this step's
     std::array<std::pmr::vector<Inside>, 2> inside_;
     std::size_t current_ = 0; // of the two
     bool pairs_are_shown_ = false;

@@ -264,7 +264,10 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     reserve_exactly(hits_, contact_count);
     reserve_exactly(contacts_, contact_count);
     reserve_exactly(interiors_, contact_count);
-    if (finds_penetrations()) penetrations_.reserve(contact_count);
+    if (finds_penetrations()) {
+        penetrations_.reserve(contact_count);
+        depth_->reserve(contact_count);
+    }
     events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
@@ -542,6 +545,7 @@ std::uint64_t vox_grid::carry_contacts() {
         hit.tet = contact.tet & 0x7fffffffu;
         hit.interior = interiors_[static_cast<std::size_t>(&contact - contacts_.data())] != 0;
         std::copy(contact.barycentric, contact.barycentric + 4, hit.weights.of);
+        reserve_sparingly(hits_, hits_.size() + 1);
         hits_.push_back(hit);
     }
     return hits_.size() - found;

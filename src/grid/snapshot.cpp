@@ -155,7 +155,7 @@ void Snapshot::load_exceptions(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_events(const vox_grid& grid, SnapshotWriter& out) {
     const Events& events = grid.events_;
-    const std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_].pairs;
+    const std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_];
     const std::pmr::vector<Events::Inside>& inside = events.inside_[events.current_];
     out.begin_chunk("EVNT");
     out.u64(pairs.size());
@@ -186,7 +186,7 @@ vox_mesh Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
 
 void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
     Events& events = to.grid.events_;
-    std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_].pairs;
+    std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_];
     std::pmr::vector<Events::Inside>& inside = events.inside_[events.current_];
     const std::uint64_t pair_count = in.u64(), inside_count = in.u64();
     in.expect(pair_count, 24, "pairs");

@@ -7,6 +7,7 @@
 #include "base/boxes.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/check.hpp"
 #include "mesh/filter.hpp"
@@ -335,6 +336,7 @@ void ReferenceEngine::narrow_phase(Step& step, std::uint32_t body) {
             ++step.counters.filtered;
             continue;
         }
+        reserve_sparingly(step.hits, step.hits.size() + 1);
         step.hits.push_back({body_a, candidate.particle - first_[body_a], body, candidate.tet & 0x7fffffffu,
                              found == Containment::interior});
     }

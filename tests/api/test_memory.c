@@ -213,9 +213,66 @@ START_TEST(reserved_contacts) {
         const uint64_t before = counters_of(grid).bytes;
         ck_ok(vox_grid_reserve(grid, 0, contacts));
         const uint64_t each =
-            85 + (flags & VOX_GRID_PENETRATIONS ? 76 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
+            69 + (flags & VOX_GRID_PENETRATIONS ? 88 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
         ck_assert_uint_eq(counters_of(grid).bytes - before, each * contacts);
         vox_grid_destroy(grid);
+    }
+}
+END_TEST
+
+static void move_x(body* b, float distance) {
+    for (uint32_t v = 0; v < b->vertex_count; ++v) b->positions[3 * v] += distance;
+}
+
+/* Steps over a fine box in many coarse ones, which hold half of it or the whole: many contacts of few
+ * vertices, so that what the vertices take hardly counts. `reserved` contacts have room before. Returns the
+ * bytes that are held for contacts. */
+static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest_budget,
+                                  vox_counters* counters) {
+    enum { coarse = 16 };
+    ledger l = {0, 0, 0, 0};
+    vox_grid_desc desc = counted_desc(&l);
+    desc.worker_count = 1;
+    desc.closest_budget = closest_budget;
+    vox_grid* grid = grid_of(&desc);
+    body bodies[coarse + 1];
+    bodies[0] = make_box(12, 1 / 12.0f, 1000, 0.017f, 0.019f); /* far from the others */
+    for (int b = 1; b <= coarse; ++b) {
+        const float shift = 0.003f * (float)b;
+        bodies[b] = make_box(1, 4, whole ? -1.5f - shift : 0.41f + shift, -1.5f - shift, -1.4f - shift);
+    }
+    for (int b = 0; b <= coarse; ++b) {
+        const vox_mesh_desc mesh = body_desc(&bodies[b]);
+        (void)insert_mesh(grid, &mesh);
+    }
+    ck_ok(vox_grid_step(grid));
+    const uint64_t apart = l.bytes;
+    ck_ok(vox_grid_reserve(grid, 0, reserved));
+    move_x(&bodies[0], -1000);
+    ck_ok(vox_grid_step(grid));
+    *counters = counters_of(grid);
+    const uint64_t held = l.bytes - apart;
+    vox_grid_destroy(grid);
+    for (int b = 0; b <= coarse; ++b) free_body(&bodies[b]);
+    return held;
+}
+
+/* At most 200 bytes each in a default grid, and with vox_grid_reserve only what vox.h says of closest points. */
+START_TEST(contacts_in_a_step) {
+    enum { each_reserved = 69 + 88, each_searched = 20, with_a_budget = 4, for_vertices = 12 };
+    for (int whole = 0; whole < 2; ++whole) {
+        vox_counters counters;
+        const uint64_t held = bytes_of_contacts(whole, 0, 0, &counters), count = counters.contacts;
+        ck_assert_uint_ge(count, 19000);
+        ck_assert_uint_eq(counters.penetrations, count);
+        ck_assert_uint_ge(counters.closest_searches, whole ? 35000 : 0);
+        ck_assert_uint_le(held, 200 * count);
+        for (int has_budget = 0; has_budget < 2; ++has_budget) {
+            const uint64_t more = bytes_of_contacts(whole, count, has_budget ? 1u << 30 : 0, &counters);
+            ck_assert_uint_le(more, (each_reserved + for_vertices) * count +
+                                        (each_searched + (has_budget ? with_a_budget : 0)) *
+                                            counters.closest_searches);
+        }
     }
 }
 END_TEST
@@ -274,7 +331,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
-                   budget_is_kept, reserved_contacts, reserved_room, many_meshes);
+                   budget_is_kept, reserved_contacts, contacts_in_a_step, reserved_room, many_meshes);
 }
 
 int main(void) {

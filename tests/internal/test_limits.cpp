@@ -49,11 +49,12 @@ END_TEST
 START_TEST(contacts_of_a_step) {
     std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
     TouchingBuffers buffers(memory);
-    Touching touching(memory);
+    std::pmr::vector<vox_pair> pairs(memory);
+    std::pmr::vector<std::uint32_t> by_pair(memory);
     const vox_contact contact{};
     std::string text;
     const std::span<const vox_contact> many(&contact, std::size_t{VOX_MAX_CONTACTS} + 1);
-    const vox_result result = thrown_by([&] { find_touching(many, 1, buffers, touching); }, text);
+    const vox_result result = thrown_by([&] { find_touching(many, 1, buffers, pairs, by_pair); }, text);
     ck_assert_int_eq(result, VOX_ERROR_LIMIT);
     ck_assert(contains(text, "4294967296 contacts, the limit is 4294967295"));
 }
