@@ -34,7 +34,8 @@ public:
     Vec3d at(const SurfacePoint& point, const Vec3d& outward);
 
     auto buffers() {
-        return std::tie(face_places_, ring_places_, asked_places_, faces_, rings_, ring_faces_, asked_);
+        return std::tie(face_places_, face_places_.tree(), ring_places_, ring_places_.tree(), asked_places_,
+                        asked_places_.tree(), faces_, rings_, ring_faces_, asked_);
     }
 
 private:

@@ -261,6 +261,40 @@ START_TEST(places_of_numbers) {
 }
 END_TEST
 
+// Numbers that find others in their slots, as somebody could choose who numbers a mesh: more and more of the
+// candidates do. Without a tree beside the slots, a number takes thousands of probes.
+START_TEST(numbers_chosen_to_collide) {
+    constexpr std::uint32_t most = 8192;
+    Random random{std::uint64_t(_i) + 1};
+    PlaceMap map(memory());
+    map.reserve(2 * most);
+    std::vector<std::uint32_t> numbers{random.below(1000)};
+    ck_assert_uint_eq(map.add(numbers[0]), 0);
+    const std::uint32_t step = _i == 0 ? 1 : 1u << (4 * _i); // with some of the lowest bits in common, too
+    for (std::uint32_t n = numbers[0] + step; numbers.size() < most; n += step)
+        if (map[n] == PlaceMap::none && map.probes(n) > 1) {
+            ck_assert_uint_eq(map.add(n), numbers.size());
+            numbers.push_back(n);
+        }
+    std::uint64_t probes = 0;
+    std::uint32_t worst = 0;
+    for (std::uint32_t i = 0; i < most; ++i) {
+        ck_assert_uint_eq(map[numbers[i]], i);
+        probes += map.probes(numbers[i]);
+        worst = std::max(worst, map.probes(numbers[i]));
+    }
+    ck_assert_uint_ge(worst, PlaceMap::most_slots + 8); // so the candidates did what they should
+    ck_assert_uint_le(worst, PlaceMap::most_slots + PlaceMap::most_nodes);
+    ck_assert_uint_le(probes, 40 * most);
+    map.add(1); // makes the table larger
+    map.reserve(8 * most);
+    for (std::uint32_t i = 0; i < most; ++i) ck_assert_uint_eq(map[numbers[i]], i);
+    map.clear();
+    ck_assert_uint_eq(map[numbers[most - 1]], PlaceMap::none);
+    ck_assert_uint_eq(map.add(numbers[most - 1]), 0);
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -272,5 +306,6 @@ int main() {
     tcase_add_test(tests, records_that_change_keep_their_room);
     tcase_add_loop_test(tests, what_lies_across, 0, 6);
     tcase_add_loop_test(tests, places_of_numbers, 0, 4);
+    tcase_add_loop_test(tests, numbers_chosen_to_collide, 0, 4);
     return run_suite(suite);
 }
