@@ -239,6 +239,47 @@ START_TEST(non_finite_is_the_same_vertex) {
 }
 END_TEST
 
+/* A step that finds a bad mesh begins again without it: what it enqueued until then counts, too. */
+START_TEST(a_bad_mesh_costs_few_tasks) {
+    scheduler s;
+    vox_counters counters;
+    vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
+    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    make_bodies();
+    vox_grid* grid = new_scene(&desc);
+    const float zero = 0;
+    (void)stepped_hash(grid, &counters);
+    for (int bad = 0; bad < small_bodies; bad += 7) {
+        float* x = bad == 0 ? &large[1].positions[3 * 2000] : &small[bad].positions[4];
+        const vox_mesh mesh = meshes[bad == 0 ? 1 : 2 + bad];
+        const float good = *x;
+        ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+        mark_all(grid);
+        s.enqueued = 0;
+        const uint64_t expected = stepped_hash(grid, &counters);
+        const uint32_t without = s.enqueued;
+        ck_assert_uint_gt(counters.contacts, 1000);
+        ck_ok(vox_mesh_set_enabled(grid, mesh, 1));
+        *x = 1 / zero;
+        for (int step = 0; step < 2; ++step) { /* the second one knows of the bad mesh before */
+            mark_all(grid);
+            s.enqueued = 0;
+            ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
+            ck_assert_uint_eq(counters.skipped_meshes, 1);
+            ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
+            if (suite_engine == VOX_ENGINE_FAST) {
+                ck_assert_uint_ge(without, 5);
+                ck_assert_uint_eq(s.enqueued, without + (step == 0)); /* the stream, a second time */
+            }
+        }
+        *x = good;
+        ck_ok(vox_grid_step(grid));
+    }
+    vox_grid_destroy(grid);
+    free_bodies();
+}
+END_TEST
+
 START_TEST(large_bodies_are_shared) {
     /* One body large enough that the workers share the making of its window, and one that is not. */
     scheduler s;
@@ -462,8 +503,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
-                   steady_state_allocates_nothing, budget_that_ends_in_a_task, large_bodies_are_shared,
-                   trees_of_many_bodies_are_few_tasks, defective_task_systems, a_defect_in_any_one_task, bad_arguments);
+                   steady_state_allocates_nothing, budget_that_ends_in_a_task, a_bad_mesh_costs_few_tasks,
+                   large_bodies_are_shared, trees_of_many_bodies_are_few_tasks, defective_task_systems, a_defect_in_any_one_task, bad_arguments);
 }
 
 int main(void) {
