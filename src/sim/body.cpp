@@ -242,6 +242,10 @@ BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* m
     return made;
 }
 
+std::string name_of(const Body& body) {
+    return format("body %u (slot %u, user data %llu)", body.mesh, body.slot, llu(body.user_data));
+}
+
 void set_state(Body& body, const double* positions, const double* velocities) {
     const std::size_t count = body.positions.size();
     if (positions) check_vectors(positions, count, "positions");

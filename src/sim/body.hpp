@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <string>
 #include <vector>
 
 namespace vox::sim {
@@ -38,6 +39,8 @@ struct Body {
           grid_positions(memory), tets(memory), edges(memory), volumes(memory) {}
 
     vox_mesh mesh = VOX_NULL_MESH;
+    std::uint32_t slot = 0;
+    std::uint64_t user_data = 0;
     bool fixed = false;
 
     // particles
@@ -70,6 +73,9 @@ using BodyHandle = std::unique_ptr<Body, DestroyBody>; // in the memory of its a
 
 // Checks the caller's arrays and numbers (throws) and computes masses and constraints from them.
 BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory);
+
+// For messages, as vox.h names a mesh.
+std::string name_of(const Body& body);
 
 // Replaces positions and velocities (3 a particle; null: keeps them). Changes nothing if it throws.
 void set_state(Body& body, const double* positions, const double* velocities);

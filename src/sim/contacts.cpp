@@ -63,8 +63,8 @@ void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint
                    const float weights[4]) {
     const std::size_t vertices = a.positions.size(), tets = b.tets.size() / 4;
     const auto changed = [&](const std::string& what) {
-        throw Error(VOX_ERROR_INVALID_STATE, format("body %u or %u was changed through vox_sim_grid: %s",
-                                                    a.mesh, b.mesh, what.c_str()));
+        throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_grid: %s",
+                                                    name_of(a).c_str(), name_of(b).c_str(), what.c_str()));
     };
     if (vertex >= vertices || tet >= tets)
         changed(

@@ -100,10 +100,10 @@ void vox_sim::set_substeps(double h) {
         if (body->softened == 0 || softening_logged_) continue;
         softening_logged_ = true;
         write_log(VOX_LOG_WARNING,
-                  format("body %u: %llu of %zu constraints are too stiff for substeps of %g and were "
-                         "softened; further "
-                         "warnings suppressed",
-                         body->mesh, llu(body->softened), body->edges.size() + body->volumes.size(), h));
+                  format("%s: %llu of %zu constraints are too stiff for substeps of %g and were softened; "
+                         "further warnings suppressed",
+                         name_of(*body).c_str(), llu(body->softened),
+                         body->edges.size() + body->volumes.size(), h));
     }
 }
 
@@ -149,6 +149,11 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
     mesh.tet_count = desc.tet_count;
     mesh.user_data = desc.user_data;
     check(vox_mesh_insert(grid_.get(), &mesh, &body->mesh));
+    vox_mesh_info info{};
+    info.struct_size = sizeof info;
+    check(vox_mesh_get_info(grid_.get(), body->mesh, &info)); // cannot fail for a mesh that is there
+    body->slot = info.slot;
+    body->user_data = info.user_data;
 
     const Body& inserted = *body;
     // The grid may reuse a slot, so the new body's id need not be the greatest.
@@ -156,12 +161,12 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
                                         [](vox_mesh id, const auto& other) { return id < other->mesh; });
     bodies_.insert(place, std::move(body));
     if (inserted.flat_tets + inserted.inverted_tets + inserted.raised_masses > 0)
-        write_log(
-            VOX_LOG_WARNING,
-            format("body %u: %llu of %llu tets have no rest volume and thus no volume constraint, %llu are "
-                   "inverted; %llu of %zu vertices were made heavier",
-                   inserted.mesh, llu(inserted.flat_tets), llu(desc.tet_count), llu(inserted.inverted_tets),
-                   llu(inserted.raised_masses), inserted.positions.size()));
+        write_log(VOX_LOG_WARNING,
+                  format("%s: %llu of %llu tets have no rest volume and thus no volume constraint, %llu are "
+                         "inverted; %llu of %zu vertices were made heavier",
+                         name_of(inserted).c_str(), llu(inserted.flat_tets), llu(desc.tet_count),
+                         llu(inserted.inverted_tets), llu(inserted.raised_masses),
+                         inserted.positions.size()));
     return inserted.mesh;
 }
 

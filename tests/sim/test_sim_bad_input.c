@@ -126,7 +126,8 @@ START_TEST(flat_and_inverted_tets_are_counted) {
     settings.log.write = write_log;
     settings.log.user = &book;
     vox_sim* sim = open_sim(&settings);
-    const vox_sim_body_desc desc = odd_body();
+    vox_sim_body_desc desc = odd_body();
+    desc.user_data = 77;
     vox_mesh body;
     ck_ok(vox_sim_body_insert(sim, &desc, &body));
     const vox_sim_counts c = counts(sim);
@@ -137,7 +138,7 @@ START_TEST(flat_and_inverted_tets_are_counted) {
     ck_assert_uint_eq(c.edges, 12);
     ck_assert_uint_eq(c.raised_masses, 2); /* of the flat tet's own corner, and of the loose vertex */
     ck_assert_int_eq(book.lines, 1);
-    ck_assert_ptr_nonnull(strstr(book.text, "1 of 3 tets have no rest volume"));
+    ck_assert_ptr_nonnull(strstr(book.text, "body 1 (slot 0, user data 77): 1 of 3 tets have no rest volume"));
     ck_assert_double_eq_tol(energies(sim, body).mass, 1000.0 / 3, 100);
     steps(sim, 120);
     ck_finite(sim, body);
@@ -194,6 +195,7 @@ START_TEST(absurd_stiffness_is_cut_down) {
     const vox_sim_counts c = counts(sim);
     ck_assert_uint_eq(c.softened, c.edges + c.volumes);
     ck_assert_int_eq(book.lines, 1);
+    ck_assert_ptr_nonnull(strstr(book.text, "body 1 (slot 0, user data 0): "));
     ck_assert_ptr_nonnull(strstr(book.text, "are too stiff for substeps of 0.00166667"));
     vox_io_mesh_destroy(mesh);
     vox_sim_destroy(sim);
@@ -502,6 +504,7 @@ START_TEST(changes_in_its_grid) {
         desc.vertex_count = 8;
         desc.tets = cube;
         desc.tet_count = 5;
+        desc.user_data = 50 + (uint64_t)b;
         ck_ok(vox_sim_body_insert(sim, &desc, &bodies[b]));
     }
     ck_ok(vox_sim_step(sim, 1e-4));
@@ -511,6 +514,8 @@ START_TEST(changes_in_its_grid) {
     if (changes[_i].error) {
         const double before = view_of(sim, bodies[1]).positions[5];
         ck_fails(vox_sim_step(sim, 1e-4), VOX_ERROR_INVALID_STATE, changes[_i].error);
+        if (changes[_i].change != no_penetrations)
+            ck_assert_ptr_nonnull(strstr(vox_last_error(), "body 4097 (slot 1, user data 51)"));
         ck_assert(view_of(sim, bodies[1]).positions[5] == before);
     } else {
         ck_ok(vox_sim_step(sim, 1e-4));
