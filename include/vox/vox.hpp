@@ -1,0 +1,1572 @@
+// vox.hpp: vox.h for C++17 and later, header only; docs/cpp.md shows how it is used.
+//
+// Every function here stands for the one of vox.h that its comment names, and vox.h says what that does: units, errors,
+// threads, what ends a view. A const member reads, any other changes, as a const vox_grid does. Structs and enumerators
+// are those of vox.h. What is added:
+//   Errors     A call that fails throws vox::error. With -fno-exceptions, or VOX_HPP_NO_EXCEPTIONS defined, it returns a
+//              vox::expected instead: returns<T> below is T or expected<T>. std::vector throws std::bad_alloc as always.
+//   Lifetime   Grids and query views are released by their destructors. Temporaries are not borrowed: such calls do
+//              not compile.
+//   Views      A view has ended once its epoch is no longer that of its grid. Without NDEBUG, or with VOX_HPP_CHECKED
+//              defined as 1, reading such a view throws std::logic_error (without exceptions it prints and aborts, and
+//              view::check() gives an error); with VOX_HPP_CHECKED 0 a view is what it is in C.
+//   Callables  What a callable throws passes through to the caller, but for a log's exceptions, which are dropped.
+#ifndef VOX_VOX_HPP
+#define VOX_VOX_HPP
+
+#include <vox/vox.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+#if __has_include(<memory_resource>)
+#include <memory_resource>
+#endif
+#if __cplusplus >= 202002L || (defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#include <ranges>
+#include <span>
+#endif
+
+// Eigen maps of views: where Eigen was included before this header, or VOX_HPP_EIGEN asks for it.
+#if defined(VOX_HPP_EIGEN) && __has_include(<Eigen/Core>)
+#include <Eigen/Core>
+#endif
+
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+#define VOX_HPP_CATCHES 1
+#else
+#define VOX_HPP_CATCHES 0
+#endif
+#if VOX_HPP_CATCHES && !defined(VOX_HPP_NO_EXCEPTIONS)
+#define VOX_HPP_THROWS 1
+#else
+#define VOX_HPP_THROWS 0
+#endif
+#if !defined(VOX_HPP_CHECKED) && defined(NDEBUG)
+#define VOX_HPP_CHECKED 0
+#elif !defined(VOX_HPP_CHECKED)
+#define VOX_HPP_CHECKED 1
+#endif
+
+// Files compiled in different modes may be linked together: their names differ.
+#if VOX_HPP_THROWS && VOX_HPP_CHECKED
+#define VOX_HPP_MODE throwing_checked
+#elif VOX_HPP_THROWS
+#define VOX_HPP_MODE throwing
+#elif VOX_HPP_CHECKED
+#define VOX_HPP_MODE returning_checked
+#else
+#define VOX_HPP_MODE returning
+#endif
+
+namespace vox {
+inline namespace VOX_HPP_MODE {
+
+// ---- spans --------------------------------------------------------------------------------------
+
+#if defined(__cpp_lib_span)
+template <class T> using span = std::span<T>;
+#else
+// As much of std::span as is needed before C++20.
+template <class T> class span {
+public:
+    using element_type = T;
+    using value_type = std::remove_cv_t<T>;
+    constexpr span() noexcept = default;
+    constexpr span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
+    template <std::size_t N> constexpr span(T (&array)[N]) noexcept : data_(array), size_(N) {}
+    // Anything with data() and size(); a temporary only where the span cannot write, as for std::span.
+    template <class R,
+              class = std::enable_if_t<
+                  !std::is_array_v<std::remove_reference_t<R>> &&
+                  !std::is_same_v<std::remove_cv_t<std::remove_reference_t<R>>, span> &&
+                  (std::is_lvalue_reference_v<R> || std::is_const_v<T>) &&
+                  std::is_convertible_v<std::remove_pointer_t<decltype(std::data(std::declval<R&>()))> (*)[], T (*)[]>>>
+    constexpr span(R&& range) noexcept : data_(std::data(range)), size_(static_cast<std::size_t>(std::size(range))) {}
+    constexpr T* data() const noexcept { return data_; }
+    constexpr std::size_t size() const noexcept { return size_; }
+    constexpr bool empty() const noexcept { return size_ == 0; }
+    constexpr T* begin() const noexcept { return data_; }
+    constexpr T* end() const noexcept { return data_ + size_; }
+    constexpr T& operator[](std::size_t i) const { return data_[i]; }
+    constexpr span subspan(std::size_t first, std::size_t count) const { return {data_ + first, count}; }
+
+private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+#endif
+
+// ---- errors -------------------------------------------------------------------------------------
+
+// A failed call: its result and the text of vox_last_error().
+class error : public std::exception {
+public:
+    // The failure that this thread's vox_last_error() describes.
+    explicit error(vox_result result) noexcept : error(result, vox_last_error()) {}
+    error(vox_result result, const char* text) noexcept : result_(result), text_(copy_of(text)) {}
+    error(const error& other) noexcept : std::exception(other), result_(other.result_), text_(copy_of(other.text_.get())) {}
+    error& operator=(const error& other) noexcept {
+        result_ = other.result_;
+        text_ = copy_of(other.text_.get());
+        return *this;
+    }
+    ~error() override = default;
+    vox_result result() const noexcept { return result_; }
+    const char* what() const noexcept override { return text_ ? text_.get() : vox_result_string(result_); }
+
+private:
+    // Null without memory: then the result's name is the text.
+    static std::unique_ptr<char[]> copy_of(const char* text) noexcept {
+        const std::size_t size = text ? std::strlen(text) + 1 : 0;
+        std::unique_ptr<char[]> copy(size > 1 ? new (std::nothrow) char[size] : nullptr);
+        if (copy) std::memcpy(copy.get(), text, size);
+        return copy;
+    }
+    vox_result result_;
+    std::unique_ptr<char[]> text_;
+};
+
+// A value, or the error that there is instead of it; as much of std::expected as is needed. Reading the value of an
+// error prints its text and aborts.
+template <class T> class [[nodiscard]] expected {
+public:
+    expected(T value) : state_(std::in_place_index<1>, std::move(value)) {}
+    expected(vox::error error) : state_(std::in_place_index<0>, std::move(error)) {}
+    bool has_value() const noexcept { return state_.index() == 1; }
+    explicit operator bool() const noexcept { return has_value(); }
+    const vox::error& error() const noexcept { return *std::get_if<0>(&state_); }
+    T& value() & { return *found(state_); }
+    const T& value() const& { return *found(state_); }
+    T value() && { return std::move(*found(state_)); } // by value: `for (auto& c : *grid.contacts())` is sound
+    T& operator*() & { return *found(state_); }
+    const T& operator*() const& { return *found(state_); }
+    T operator*() && { return std::move(*found(state_)); }
+    T* operator->() { return found(state_); }
+    const T* operator->() const { return found(state_); }
+    T value_or(T other) && { return has_value() ? std::move(*found(state_)) : std::move(other); }
+
+private:
+    template <class S> static auto found(S& state) noexcept -> decltype(std::get_if<1>(&state)) {
+        if (const auto* error = std::get_if<0>(&state)) {
+            std::fprintf(stderr, "vox: %s\n", error->what());
+            std::abort();
+        }
+        return std::get_if<1>(&state);
+    }
+    std::variant<vox::error, T> state_;
+};
+template <> class [[nodiscard]] expected<void> {
+public:
+    expected() noexcept = default;
+    expected(vox::error error) : error_(std::in_place_index<1>, std::move(error)) {}
+    bool has_value() const noexcept { return error_.index() == 0; }
+    explicit operator bool() const noexcept { return has_value(); }
+    const vox::error& error() const noexcept { return *std::get_if<1>(&error_); }
+    void value() const noexcept {
+        if (has_value()) return;
+        std::fprintf(stderr, "vox: %s\n", error().what());
+        std::abort();
+    }
+
+private:
+    std::variant<std::monostate, vox::error> error_;
+};
+
+#if VOX_HPP_THROWS
+template <class T> using returns = T;
+#else
+template <class T> using returns = expected<T>;
+#endif
+
+namespace detail {
+
+#if VOX_HPP_THROWS
+[[noreturn]] inline void raise(vox_result result) { throw error(result); }
+#endif
+
+inline returns<void> give(vox_result result) {
+#if VOX_HPP_THROWS
+    if (result != VOX_OK) raise(result);
+#else
+    if (result != VOX_OK) return error(result);
+    return {};
+#endif
+}
+
+// `value` if the call that was to set it has done so.
+template <class T> returns<T> give(vox_result result, T value) {
+#if VOX_HPP_THROWS
+    if (result != VOX_OK) raise(result);
+#else
+    if (result != VOX_OK) return error(result);
+#endif
+    return value;
+}
+
+// A failure of this header's own, with its numbers.
+template <class... N> vox_result fail(vox_result result, const char* format, N... numbers) {
+    char text[256];
+    std::snprintf(text, sizeof text, format, static_cast<unsigned long long>(numbers)...);
+    return vox_fail(result, text);
+}
+
+// Keeps what a callable throws, since no exception may cross the library, until the call has returned.
+class catcher {
+public:
+    // False if `call` threw, now or before; then it is not run again.
+    template <class F> bool run(F&& call) noexcept {
+#if VOX_HPP_CATCHES
+        if (thrown_) return false;
+        try {
+            call();
+        } catch (...) {
+            thrown_ = std::current_exception();
+            return false;
+        }
+#else
+        call();
+#endif
+        return true;
+    }
+    void rethrow() {
+#if VOX_HPP_CATCHES
+        if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
+#endif
+    }
+
+private:
+#if VOX_HPP_CATCHES
+    std::exception_ptr thrown_;
+#endif
+};
+
+// A struct that a function fills.
+template <class T> T sized() noexcept {
+    T value{};
+    value.struct_size = static_cast<std::uint32_t>(sizeof value);
+    return value;
+}
+
+// Room for `guess` of what `call` copies, and more if there is more.
+template <class T, class F> returns<std::vector<T>> collect(std::size_t guess, F&& call) {
+    std::vector<T> found(guess);
+    std::uint64_t count = 0;
+    vox_result result = call(found.data(), std::uint64_t{found.size()}, &count);
+    if (result == VOX_OK && count > found.size()) {
+        found.resize(static_cast<std::size_t>(count));
+        result = call(found.data(), std::uint64_t{found.size()}, &count);
+    }
+    if (result == VOX_OK) found.resize(static_cast<std::size_t>(count));
+    return give(result, std::move(found));
+}
+
+} // namespace detail
+
+// ---- views --------------------------------------------------------------------------------------
+
+namespace detail {
+
+#if VOX_HPP_CHECKED
+// What the views of a grid look at. It outlives the grid.
+struct watch {
+    explicit watch(const vox_grid* watched) noexcept : grid(watched) {}
+    const vox_grid* grid; // null once it was destroyed
+    std::uint64_t prepared = 0; // readings, so many times
+    std::vector<std::pair<vox_mesh, std::uint64_t>> rebound; // meshes whose mapped positions ended, so many times
+    std::uint64_t rebound_of(vox_mesh mesh) const noexcept {
+        for (const auto& [id, times] : rebound)
+            if (id == mesh) return times;
+        return 0;
+    }
+    void rebind(vox_mesh mesh) {
+        for (auto& [id, times] : rebound)
+            if (id == mesh) {
+                ++times;
+                return;
+            }
+        rebound.emplace_back(mesh, 1);
+    }
+};
+using watched = std::shared_ptr<watch>;
+#else
+struct watched {};
+#endif
+
+// What ends a view.
+enum class lasts { step, readings, mapping };
+
+// Knows whether a view has ended. Empty, and nothing is asked, in an unchecked build.
+class guard {
+public:
+    guard() = default;
+#if VOX_HPP_CHECKED
+    guard(const watched& watch, std::uint64_t epoch, lasts until, vox_mesh mesh = VOX_NULL_MESH)
+        : watch_(watch), until_(until), mesh_(mesh), epoch_(epoch) {
+        if (watch && until == lasts::readings) mark_ = watch->prepared;
+        if (watch && until == lasts::mapping) mark_ = watch->rebound_of(mesh);
+    }
+    // Writes why the view has ended to `text`; false if it has not.
+    bool ended(char (&text)[160]) const noexcept {
+        if (!watch_) return false;
+        std::uint64_t now = 0;
+        if (!watch_->grid) {
+            std::snprintf(text, sizeof text, "a view is read whose grid was destroyed");
+        } else if (until_ == lasts::mapping) {
+            if (watch_->rebound_of(mesh_) == mark_ && vox_mesh_is_valid(watch_->grid, mesh_) == 1) return false;
+            std::snprintf(text, sizeof text, "mapped positions of mesh %u are used that a removal or new positions ended",
+                          static_cast<unsigned>(mesh_));
+        } else if (vox_grid_epoch(watch_->grid, &now) != VOX_OK || now != epoch_) {
+            std::snprintf(text, sizeof text,
+                          "a view of epoch %llu is read in epoch %llu: a step, clear, reserve or other flags ended it",
+                          static_cast<unsigned long long>(epoch_), static_cast<unsigned long long>(now));
+        } else if (until_ == lasts::readings && watch_->prepared != mark_) {
+            std::snprintf(text, sizeof text, "readings are read that were prepared again since: %llu times",
+                          static_cast<unsigned long long>(watch_->prepared - mark_));
+        } else {
+            return false;
+        }
+        return true;
+    }
+    void check() const {
+        char text[160];
+        if (ended(text)) stop(text);
+    }
+    static void check(std::size_t i, std::size_t count) {
+        if (i < count) return;
+        char text[160];
+        std::snprintf(text, sizeof text, "element %zu of a view of %zu is read", i, count);
+        stop(text);
+    }
+    [[noreturn]] static void stop(const char* text) {
+#if VOX_HPP_THROWS
+        throw std::logic_error(text);
+#else
+        std::fprintf(stderr, "vox: %s\n", text);
+        std::abort();
+#endif
+    }
+
+private:
+    watched watch_;
+    lasts until_ = lasts::step;
+    vox_mesh mesh_ = VOX_NULL_MESH;
+    std::uint64_t epoch_ = 0;
+    std::uint64_t mark_ = 0;
+#else
+    guard(const watched&, std::uint64_t, lasts, vox_mesh = VOX_NULL_MESH) noexcept {}
+    void check() const noexcept {}
+    static void check(std::size_t, std::size_t) noexcept {}
+#endif
+};
+
+template <class M> struct as_object { using type = M; };
+template <class M, std::size_t N> struct as_object<M[N]> { using type = std::array<M, N>; };
+
+} // namespace detail
+
+// Elements `byte_stride` apart, which belong to the grid, with the epoch of vox_X_view: a random-access range.
+template <class T> class view : private detail::guard {
+    using byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
+
+public:
+    using element_type = T;
+    using value_type = std::remove_cv_t<T>;
+    using size_type = std::size_t;
+    using difference_type = std::ptrdiff_t;
+    using reference = T&;
+    using pointer = T*;
+
+    class iterator : private detail::guard {
+    public:
+        using iterator_category = std::random_access_iterator_tag;
+        using value_type = std::remove_cv_t<T>;
+        using difference_type = std::ptrdiff_t;
+        using reference = T&;
+        using pointer = T*;
+        iterator() = default;
+        T& operator*() const { return check(), *at_; }
+        T* operator->() const { return check(), at_; }
+        T& operator[](difference_type n) const { return *(*this + n); }
+        iterator& operator+=(difference_type n) noexcept {
+            at_ = reinterpret_cast<T*>(reinterpret_cast<byte*>(at_) + n * stride_);
+            return *this;
+        }
+        iterator& operator-=(difference_type n) noexcept { return *this += -n; }
+        iterator& operator++() noexcept { return *this += 1; }
+        iterator& operator--() noexcept { return *this += -1; }
+        iterator operator++(int) noexcept { iterator old = *this; return ++*this, old; }
+        iterator operator--(int) noexcept { iterator old = *this; return --*this, old; }
+        friend iterator operator+(iterator i, difference_type n) noexcept { return i += n; }
+        friend iterator operator+(difference_type n, iterator i) noexcept { return i += n; }
+        friend iterator operator-(iterator i, difference_type n) noexcept { return i -= n; }
+        friend difference_type operator-(const iterator& a, const iterator& b) noexcept {
+            return a.at_ == b.at_ ? 0 : (reinterpret_cast<byte*>(a.at_) - reinterpret_cast<byte*>(b.at_)) / a.stride_;
+        }
+        friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.at_ == b.at_; }
+        friend bool operator!=(const iterator& a, const iterator& b) noexcept { return a.at_ != b.at_; }
+        friend bool operator<(const iterator& a, const iterator& b) noexcept { return a.at_ < b.at_; }
+        friend bool operator>(const iterator& a, const iterator& b) noexcept { return b < a; }
+        friend bool operator<=(const iterator& a, const iterator& b) noexcept { return !(b < a); }
+        friend bool operator>=(const iterator& a, const iterator& b) noexcept { return !(a < b); }
+
+    private:
+        friend class view;
+        iterator(T* at, std::size_t stride, const detail::guard& of)
+            : detail::guard(of), at_(at), stride_(static_cast<difference_type>(stride)) {}
+        T* at_ = nullptr;
+        difference_type stride_ = sizeof(T);
+    };
+    using const_iterator = iterator;
+
+    view() = default;
+    view(T* data, std::size_t byte_stride, std::size_t size, std::uint64_t epoch = 0, detail::guard of = {})
+        : detail::guard(std::move(of)), data_(data), stride_(byte_stride), size_(size), epoch_(epoch) {}
+
+    std::size_t size() const noexcept { return size_; }
+    bool empty() const noexcept { return size_ == 0; }
+    std::size_t byte_stride() const noexcept { return stride_; }
+    std::uint64_t epoch() const noexcept { return epoch_; }
+    // The first element; the next is byte_stride() further.
+    T* data() const { return detail::guard::check(), data_; }
+    T& operator[](std::size_t i) const { return detail::guard::check(), detail::guard::check(i, size_), *address(i); }
+    T& front() const { return (*this)[0]; }
+    T& back() const { return (*this)[size_ - 1]; }
+    iterator begin() const { return detail::guard::check(), iterator(data_, stride_, *this); }
+    iterator end() const { return iterator(address(size_), stride_, *this); }
+    // `count` elements from `first` on.
+    view subview(std::size_t first, std::size_t count) const {
+        return view(address(first), stride_, count, epoch_, *this);
+    }
+    // Copies that stay.
+    std::vector<value_type> to_vector() const { return std::vector<value_type>(begin(), end()); }
+    // One field of every element, e.g. field(&vox_reading::position), of std::array where the field is an array.
+    template <class M, class S> auto field(M S::*member) const {
+        static_assert(std::is_same_v<S, value_type>);
+        using object = typename detail::as_object<M>::type;
+        using result = std::conditional_t<std::is_const_v<T>, const object, object>;
+        static_assert(sizeof(object) == sizeof(M));
+        detail::guard::check();
+        result* first = size_ == 0 ? nullptr : reinterpret_cast<result*>(&(data_->*member));
+        return view<result>(first, stride_, size_, epoch_, *this);
+    }
+    // The same memory as elements of type V, of the same size: view<std::array<float, 3>> as<glm::vec3>().
+    template <class V> auto as() const {
+        using result = std::conditional_t<std::is_const_v<T>, const V, V>;
+        static_assert(sizeof(V) == sizeof(T) && alignof(V) <= alignof(T), "elements of another size or alignment");
+        return view<result>(reinterpret_cast<result*>(data()), stride_, size_, epoch_, *this);
+    }
+    // Fails with INVALID_STATE (throws std::logic_error) if the view has ended; in an unchecked build never.
+    returns<void> check() const {
+#if VOX_HPP_CHECKED && !VOX_HPP_THROWS
+        char text[160];
+        if (this->ended(text)) return error(VOX_ERROR_INVALID_STATE, text);
+#endif
+#if VOX_HPP_THROWS
+        detail::guard::check();
+#else
+        return {};
+#endif
+    }
+
+private:
+    T* address(std::size_t i) const noexcept { return reinterpret_cast<T*>(reinterpret_cast<byte*>(data_) + i * stride_); }
+    T* data_ = nullptr;
+    std::size_t stride_ = sizeof(T);
+    std::size_t size_ = 0;
+    std::uint64_t epoch_ = 0;
+};
+
+// vox_pair_view.
+class pair_view : public view<const vox_pair> {
+public:
+    pair_view() = default;
+    pair_view(const view<const vox_pair>& pairs, const std::uint32_t* contacts) : view(pairs), contacts_(contacts) {}
+    // Indices of the pair's contacts in grid::contacts(): first a in b, then b in a.
+    span<const std::uint32_t> contacts(const vox_pair& pair) const {
+        (void)data();
+        return {contacts_ + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
+    }
+
+private:
+    const std::uint32_t* contacts_ = nullptr;
+};
+
+// vox_touch_view and vox_contact_event_view.
+template <class T> class event_view : public view<const T> {
+public:
+    event_view() = default;
+    event_view(const view<const T>& events, std::uint64_t began, std::uint64_t persisted)
+        : view<const T>(events), began_(static_cast<std::size_t>(began)), persisted_(static_cast<std::size_t>(persisted)) {}
+    view<const T> began() const { return this->subview(0, began_); }
+    view<const T> persisted() const { return this->subview(began_, persisted_); } // none for single vertices
+    view<const T> ended() const { return this->subview(began_ + persisted_, this->size() - began_ - persisted_); }
+
+private:
+    std::size_t began_ = 0, persisted_ = 0;
+};
+
+// ---- what is passed in --------------------------------------------------------------------------
+
+// What an array's elements are made of: `count` numbers of a type, of which a position uses the first three. Specialise it
+// for a vector type of your own; numbers, arrays, std::array, and vectors like those of Eigen and glm are known.
+template <class E, class = void> struct element {};
+template <class E> struct element<E, std::enable_if_t<std::is_arithmetic_v<E>>> {
+    using number = E;
+    static constexpr std::size_t count = 1;
+};
+template <class E, std::size_t N> struct element<E[N]> {
+    using number = std::remove_cv_t<E>;
+    static constexpr std::size_t count = N;
+};
+template <class E, std::size_t N> struct element<std::array<E, N>> {
+    using number = E;
+    static constexpr std::size_t count = N;
+};
+template <class E> struct element<E, std::enable_if_t<(E::SizeAtCompileTime > 1)>> { // Eigen
+    using number = typename E::Scalar;
+    static constexpr std::size_t count = static_cast<std::size_t>(E::SizeAtCompileTime);
+};
+template <class E> struct element<E, std::enable_if_t<(E::length() > 1)>> { // glm
+    using number = typename E::value_type;
+    static constexpr std::size_t count = static_cast<std::size_t>(E::length());
+};
+
+namespace detail {
+
+template <class R> using element_of = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const R&>()))>>;
+template <class R> using number_of = typename element<element_of<R>>::number;
+
+// A matrix that lies in memory, like Eigen's.
+template <class R, class = void> struct matrix : std::false_type {};
+template <class R>
+struct matrix<R, std::void_t<typename R::Scalar, decltype(std::declval<const R&>().rowStride())>> : std::true_type {};
+
+template <class N> inline constexpr bool is_real = std::is_same_v<N, float> || std::is_same_v<N, double>;
+template <class N> inline constexpr bool is_index = std::is_integral_v<N> && sizeof(N) == sizeof(std::uint32_t);
+
+template <class R, class = void> struct positions : std::false_type {};
+template <class R>
+struct positions<R, std::enable_if_t<is_real<number_of<R>> && element<element_of<R>>::count != 2>>
+    : std::bool_constant<element<element_of<R>>::count <= 4> {};
+template <class R, class = void> struct corners : std::false_type {};
+template <class R>
+struct corners<R, std::enable_if_t<is_index<number_of<R>>>>
+    : std::bool_constant<element<element_of<R>>::count == 1 || element<element_of<R>>::count == 4> {};
+
+template <class R, class = void> struct has_stride : std::false_type {};
+template <class R> struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
+
+// Types that own nothing, so that a temporary may be borrowed.
+template <class R, class = void> struct owns_nothing : std::false_type {};
+#if defined(__cpp_lib_ranges)
+template <class R>
+struct owns_nothing<R, std::enable_if_t<std::ranges::enable_borrowed_range<R>>> : std::true_type {};
+#else
+template <class T> struct owns_nothing<span<T>> : std::true_type {};
+template <class T> struct owns_nothing<view<T>> : std::true_type {};
+#endif
+template <class R> // an Eigen::Map
+struct owns_nothing<R, std::enable_if_t<matrix<R>::value && !std::is_same_v<R, typename R::PlainObject>>> : std::true_type {};
+
+// Numbers that do not fit the shape, told when they are used.
+struct misfit {
+    const char* format = nullptr;
+    std::uint64_t a = 0, b = 0;
+    vox_result result() const { return format ? fail(VOX_ERROR_INVALID_ARGUMENT, format, a, b) : VOX_OK; }
+};
+
+} // namespace detail
+
+// Positions that a call reads: a contiguous range of numbers (x y z x y z ...), or of elements of three or four numbers, a
+// view, or a matrix of n x 3 or 3 x n (or, where neither is known to the compiler, with 3 columns before 3 rows).
+class points {
+public:
+    points() = default;
+    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0> points(const R& range) {
+        using number = detail::number_of<R>;
+        format = std::is_same_v<number, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        data = std::data(range);
+        const std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
+        if constexpr (detail::matrix<R>::value) {
+            if constexpr (!R::IsVectorAtCompileTime) {
+                const std::uint64_t rows = static_cast<std::uint64_t>(range.rows()),
+                                    columns = static_cast<std::uint64_t>(range.cols());
+                const std::uint64_t along = sizeof(number) * static_cast<std::uint64_t>(range.rowStride()),
+                                    across = sizeof(number) * static_cast<std::uint64_t>(range.colStride());
+                const bool in_rows = int(R::ColsAtCompileTime) == 3 || (int(R::RowsAtCompileTime) != 3 && columns == 3);
+                if (!in_rows && rows != 3)
+                    misfit = {"positions: a matrix of %llu x %llu has neither three rows nor three columns", rows, columns};
+                count = in_rows ? rows : columns;
+                byte_stride = in_rows ? along : across;
+                component_byte_stride = in_rows ? across : along;
+                return;
+            } else if (range.innerStride() != 1) {
+                misfit = {"positions: a vector whose numbers are %llu apart",
+                          static_cast<std::uint64_t>(range.innerStride()), 0};
+            }
+        }
+        using E = element<detail::element_of<R>>;
+        if constexpr (E::count == 1 || detail::matrix<R>::value) {
+            count = size / 3;
+            if (size % 3 != 0) misfit = {"positions: %llu numbers are not three for each vertex", size, 0};
+        } else {
+            static_assert(sizeof(detail::element_of<R>) >= 3 * sizeof(number));
+            count = size;
+            if constexpr (detail::has_stride<R>::value) byte_stride = range.byte_stride();
+            else byte_stride = sizeof(detail::element_of<R>);
+        }
+    }
+
+    const void* data = nullptr;
+    std::uint64_t count = 0;
+    vox_format format = VOX_FORMAT_FLOAT3;
+    std::uint64_t byte_stride = 0; // as vox_mesh_desc says
+    std::uint64_t component_byte_stride = 0;
+    detail::misfit misfit;
+};
+
+// Positions that a grid goes on reading after the call, so temporaries that own them are refused.
+class borrowed_points : public points {
+public:
+    borrowed_points() = default;
+    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
+    borrowed_points(const R& range) : points(range) {}
+    template <class R,
+              std::enable_if_t<detail::positions<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
+    borrowed_points(const R&& temporary) = delete;
+};
+
+// Corners of tetrahedra that a call reads: a contiguous range of 32-bit integers, or of elements of four, or a matrix in
+// which the four corners of each tetrahedron lie one after the other.
+class tets {
+public:
+    tets() = default;
+    tets(std::initializer_list<std::uint32_t> corners) : tets(span<const std::uint32_t>(corners.begin(), corners.size())) {}
+    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0> tets(const R& range) {
+        data = reinterpret_cast<const std::uint32_t*>(std::data(range));
+        std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
+        if constexpr (detail::matrix<R>::value) {
+            const bool one_each = range.innerStride() == 1 &&
+                                  (R::IsVectorAtCompileTime || (range.outerStride() == 4 && range.innerSize() == 4));
+            if (!one_each)
+                misfit = {"tets: in a matrix of %llu x %llu the corners of a tet do not lie one after the other",
+                          static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols())};
+        } else {
+            size *= element<detail::element_of<R>>::count;
+        }
+        count = size / 4;
+        if (size % 4 != 0) misfit = {"tets: %llu indices are not four for each tet", size, 0};
+    }
+
+    const std::uint32_t* data = nullptr;
+    std::uint64_t count = 0;
+    detail::misfit misfit;
+};
+
+// Tetrahedra that go on being read after the call.
+class borrowed_tets : public tets {
+public:
+    borrowed_tets() = default;
+    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0> borrowed_tets(const R& range) : tets(range) {}
+    template <class R,
+              std::enable_if_t<detail::corners<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
+    borrowed_tets(const R&& temporary) = delete;
+};
+
+// A point in space: three numbers, or anything with [0], [1] and [2].
+class point {
+public:
+    constexpr point(double x, double y, double z) noexcept : x_{x, y, z} {}
+    template <class V, class = decltype(static_cast<double>(std::declval<const V&>()[2]))>
+    point(const V& v) : x_{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])} {}
+    const double* data() const noexcept { return x_; }
+
+private:
+    double x_[3];
+};
+
+namespace detail {
+
+inline vox_result describe(const points& positions, const tets& tets, vox_mesh_desc& desc) {
+    desc = vox_default_mesh_desc();
+    desc.positions = positions.data;
+    desc.position_format = positions.format;
+    desc.position_byte_stride = positions.byte_stride;
+    desc.position_component_byte_stride = positions.component_byte_stride;
+    desc.vertex_count = positions.count;
+    desc.tets = tets.data;
+    desc.tet_count = tets.count;
+    const vox_result result = positions.misfit.result();
+    return result == VOX_OK ? tets.misfit.result() : result;
+}
+
+} // namespace detail
+
+// A vox_mesh_desc of arrays, which it borrows; its other fields have their defaults, see vox_default_mesh_desc.
+inline returns<vox_mesh_desc> describe(const borrowed_points& positions, const borrowed_tets& tets = {}) {
+    vox_mesh_desc desc;
+    const vox_result result = detail::describe(positions, tets, desc);
+    return detail::give(result, desc);
+}
+
+// ---- callables ----------------------------------------------------------------------------------
+
+// vox_log: receives a line. The grid keeps it; what it throws is dropped.
+using log_function = std::function<void(vox_log_level level, const char* text)>;
+
+// vox_task: runs the items [begin, end) on a worker.
+class task {
+public:
+    task(vox_task* run, void* context) noexcept : run_(run), context_(context) {}
+    void operator()(std::uint64_t begin, std::uint64_t end, std::uint32_t worker) const {
+        run_(begin, end, worker, context_);
+    }
+
+private:
+    vox_task* run_;
+    void* context_;
+};
+
+// vox_task_system in one call: runs `run` over ranges that cover [0, items), of at least min_range items where possible, on
+// any threads, and returns when all have. What it throws makes the call fail and passes through to its caller. The grid
+// keeps it. One that does not wait: vox_grid_desc.tasks.
+using parallel_for = std::function<void(std::uint64_t items, std::uint64_t min_range, const task& run)>;
+
+namespace detail {
+
+// The callables of a grid, at a fixed address.
+struct callbacks {
+    log_function log;
+    parallel_for tasks;
+    catcher caught;
+
+    static void write(vox_log_level level, const char* text, void* user) {
+        catcher dropped;
+        dropped.run([&] { static_cast<callbacks*>(user)->log(level, text); });
+    }
+    static void* enqueue(vox_task* run, std::uint64_t items, std::uint64_t min_range, void* context, void* user) {
+        callbacks& self = *static_cast<callbacks*>(user);
+        self.caught.run([&] { self.tasks(items, min_range, task(run, context)); });
+        return nullptr;
+    }
+    static void finish(void*, void*) {}
+    vox_task_system task_system() { return {enqueue, finish, this}; }
+};
+
+// A desc with the callables in it, and what keeps them alive.
+struct settings {
+    vox_grid_desc desc;
+    std::unique_ptr<callbacks> kept;
+    settings(const vox_grid_desc& given, log_function&& log, parallel_for&& tasks) : desc(given) {
+        if (!log && !tasks) return;
+        kept = std::make_unique<callbacks>();
+        kept->log = std::move(log);
+        kept->tasks = std::move(tasks);
+        if (kept->log) desc.log = {callbacks::write, kept.get()};
+        if (kept->tasks) desc.tasks = kept->task_system();
+    }
+};
+
+} // namespace detail
+
+#if defined(__cpp_lib_memory_resource)
+// vox_allocator over a memory resource, which must live as long as the allocator is used.
+inline vox_allocator allocator_of(std::pmr::memory_resource& memory) noexcept {
+    return {[](std::size_t size, std::size_t alignment, void* user) -> void* {
+                void* got = nullptr;
+                detail::catcher none;
+                none.run([&] { got = static_cast<std::pmr::memory_resource*>(user)->allocate(size, alignment); });
+                return got;
+            },
+            [](void* at, std::size_t size, std::size_t alignment, void* user) {
+                static_cast<std::pmr::memory_resource*>(user)->deallocate(at, size, alignment);
+            },
+            &memory};
+}
+#endif
+
+// ---- queries ------------------------------------------------------------------------------------
+
+inline constexpr std::uint64_t all_meshes = UINT64_MAX; // a mask
+
+namespace detail {
+
+struct of_grid {
+    template <class... A> static vox_result point(A... a) { return vox_grid_query_point(a...); }
+    template <class... A> static vox_result points(A... a) { return vox_grid_query_points(a...); }
+    template <class... A> static vox_result box(A... a) { return vox_grid_query_box(a...); }
+    template <class... A> static vox_result closest(A... a) { return vox_grid_query_closest(a...); }
+    template <class... A> static vox_result closest_points(A... a) { return vox_grid_query_closest_points(a...); }
+    template <class... A> static vox_result ray(A... a) { return vox_grid_query_ray(a...); }
+    template <class... A> static vox_result ray_hits(A... a) { return vox_grid_query_ray_hits(a...); }
+    template <class... A> static vox_result ray_any(A... a) { return vox_grid_query_ray_any(a...); }
+};
+struct of_query_view {
+    template <class... A> static vox_result point(A... a) { return vox_query_view_point(a...); }
+    template <class... A> static vox_result points(A... a) { return vox_query_view_points(a...); }
+    template <class... A> static vox_result box(A... a) { return vox_query_view_box(a...); }
+    template <class... A> static vox_result closest(A... a) { return vox_query_view_closest(a...); }
+    template <class... A> static vox_result closest_points(A... a) { return vox_query_view_closest_points(a...); }
+    template <class... A> static vox_result ray(A... a) { return vox_query_view_ray(a...); }
+    template <class... A> static vox_result ray_hits(A... a) { return vox_query_view_ray_hits(a...); }
+    template <class... A> static vox_result ray_any(A... a) { return vox_query_view_ray_any(a...); }
+};
+
+// vox_grid_query_X and vox_query_view_X. Those with several answers return them all, or write the first ones to `out`
+// and return how many there are.
+template <class Self, class Api> class queries {
+public:
+    returns<std::vector<vox_point_hit>> query_point(const point& p, std::uint64_t mask = all_meshes) const {
+        return collect<vox_point_hit>(8, [&](auto... out) { return Api::point(self(), p.data(), mask, out...); });
+    }
+    returns<std::uint64_t> query_point(const point& p, span<vox_point_hit> out, std::uint64_t mask = all_meshes) const {
+        return write([&](auto... to) { return Api::point(self(), p.data(), mask, to...); }, out);
+    }
+    returns<std::vector<vox_point_hit>> query_points(const points& p, std::uint64_t mask = all_meshes) const {
+        return collect<vox_point_hit>(static_cast<std::size_t>(p.count), [&](auto... out) { return ask(p, mask, out...); });
+    }
+    returns<std::uint64_t> query_points(const points& p, span<vox_point_hit> out, std::uint64_t mask = all_meshes) const {
+        return write([&](auto... to) { return ask(p, mask, to...); }, out);
+    }
+    returns<std::vector<vox_tet_hit>> query_box(const point& min, const point& max, std::uint64_t mask = all_meshes) const {
+        return collect<vox_tet_hit>(16, [&](auto... out) { return Api::box(self(), min.data(), max.data(), mask, out...); });
+    }
+    returns<std::uint64_t> query_box(const point& min, const point& max, span<vox_tet_hit> out,
+                                     std::uint64_t mask = all_meshes) const {
+        return write([&](auto... to) { return Api::box(self(), min.data(), max.data(), mask, to...); }, out);
+    }
+    returns<vox_surface_hit> query_closest(const point& p, double radius = std::numeric_limits<double>::infinity(),
+                                           std::uint64_t mask = all_meshes) const {
+        vox_surface_hit hit{};
+        const vox_result result = Api::closest(self(), p.data(), radius, mask, &hit);
+        return give(result, hit);
+    }
+    // One hit a point.
+    returns<std::vector<vox_closest_hit>> query_closest_points(const points& p,
+                                                               double max_distance = std::numeric_limits<double>::infinity(),
+                                                               std::uint64_t mask = all_meshes,
+                                                               vox_mesh excluded = VOX_NULL_MESH) const {
+        std::vector<vox_closest_hit> hits(static_cast<std::size_t>(p.count));
+        const vox_result result = ask(p, hits.data(), max_distance, mask, excluded);
+        return give(result, std::move(hits));
+    }
+    returns<void> query_closest_points(const points& p, span<vox_closest_hit> out,
+                                       double max_distance = std::numeric_limits<double>::infinity(),
+                                       std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
+        if (out.size() < p.count)
+            return give(fail(VOX_ERROR_INVALID_ARGUMENT, "query_closest_points: room for %llu hits, for %llu points",
+                             out.size(), p.count));
+        return give(ask(p, out.data(), max_distance, mask, excluded));
+    }
+    returns<vox_ray_hit> query_ray(const point& from, const point& to, std::uint64_t mask = all_meshes) const {
+        vox_ray_hit hit{};
+        const vox_result result = Api::ray(self(), from.data(), to.data(), mask, &hit);
+        return give(result, hit);
+    }
+    returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to, std::uint64_t mask = all_meshes,
+                                                       vox_mesh excluded = VOX_NULL_MESH) const {
+        return collect<vox_facet_hit>(
+            16, [&](auto... out) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, out...); });
+    }
+    returns<std::uint64_t> query_ray_hits(const point& from, const point& to, span<vox_facet_hit> out,
+                                          std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
+        return write([&](auto... at) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, at...); }, out);
+    }
+    returns<bool> query_ray_any(const point& from, const point& to, std::uint64_t mask = all_meshes,
+                                vox_mesh excluded = VOX_NULL_MESH) const {
+        std::uint32_t any = 0;
+        const vox_result result = Api::ray_any(self(), from.data(), to.data(), mask, excluded, &any);
+        return give(result, any == 1);
+    }
+
+private:
+    auto self() const noexcept { return static_cast<const Self*>(this)->get(); }
+    template <class F, class T> static returns<std::uint64_t> write(F&& call, span<T> out) {
+        std::uint64_t count = 0;
+        const vox_result result = call(out.data(), std::uint64_t{out.size()}, &count);
+        return give(result, count);
+    }
+    vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room, std::uint64_t* count) const {
+        vox_result result = p.misfit.result();
+        const std::uint64_t number = p.format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
+        if (result == VOX_OK && p.component_byte_stride != 0 && p.component_byte_stride != number)
+            result = fail(VOX_ERROR_UNSUPPORTED, "query_points: numbers of a point are %llu bytes apart, not %llu",
+                          p.component_byte_stride, number);
+        if (result != VOX_OK) return result;
+        return Api::points(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
+    }
+    vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask, vox_mesh excluded) const {
+        const vox_result result = p.misfit.result();
+        if (result != VOX_OK) return result;
+        vox_closest_desc desc = vox_default_closest_desc();
+        desc.format = p.format;
+        desc.points = p.data;
+        desc.byte_stride = p.byte_stride;
+        desc.component_byte_stride = p.component_byte_stride;
+        desc.point_count = p.count;
+        desc.max_distance = max_distance;
+        desc.mask = mask;
+        desc.excluded = excluded;
+        return Api::closest_points(self(), &desc, hits);
+    }
+};
+
+} // namespace detail
+
+// vox_query_view. A copy is one more owner (vox_query_view_retain). It outlives its grid.
+class query_view : public detail::queries<query_view, detail::of_query_view> {
+public:
+    query_view() noexcept = default;
+    query_view(const query_view& other) noexcept : view_(other.view_) {
+        if (view_) (void)vox_query_view_retain(view_); // which fails for null alone
+    }
+    query_view(query_view&& other) noexcept : view_(std::exchange(other.view_, nullptr)) {}
+    query_view& operator=(query_view other) noexcept { return std::swap(view_, other.view_), *this; }
+    ~query_view() { vox_query_view_release(view_); }
+    // Takes over what vox_grid_take_query_view gave.
+    static query_view adopt(vox_query_view* raw) noexcept { return query_view(raw); }
+    const vox_query_view* get() const noexcept { return view_; }
+    // vox_query_view_epoch
+    returns<std::uint64_t> epoch() const {
+        std::uint64_t epoch = 0;
+        const vox_result result = vox_query_view_epoch(view_, &epoch);
+        return detail::give(result, epoch);
+    }
+    // vox_query_view_user_data
+    returns<std::uint64_t> user_data(vox_mesh mesh) const {
+        std::uint64_t data = 0;
+        const vox_result result = vox_query_view_user_data(view_, mesh, &data);
+        return detail::give(result, data);
+    }
+
+private:
+    explicit query_view(vox_query_view* raw) noexcept : view_(raw) {}
+    vox_query_view* view_ = nullptr;
+};
+
+// ---- grid ---------------------------------------------------------------------------------------
+
+namespace detail {
+
+inline watched watch_of(vox_grid* grid) {
+#if VOX_HPP_CHECKED
+    return std::make_shared<watch>(grid);
+#else
+    return (void)grid, watched();
+#endif
+}
+
+// What ends with a grid.
+struct grid_deleter {
+    bool owned = true;
+    std::unique_ptr<callbacks> kept;
+    watched watching{};
+    void operator()(vox_grid* grid) noexcept {
+#if VOX_HPP_CHECKED
+        if (watching) watching->grid = nullptr;
+#endif
+        if (owned) vox_grid_destroy(grid);
+    }
+};
+
+} // namespace detail
+
+// vox_grid. Move-only; its destructor is vox_grid_destroy. One that was moved from is null: calls fail.
+class grid : public detail::queries<grid, detail::of_grid> {
+public:
+#if VOX_HPP_THROWS
+    grid() : grid(create()) {}
+    explicit grid(const vox_grid_desc& desc, log_function log = {}, parallel_for tasks = {})
+        : grid(create(desc, std::move(log), std::move(tasks))) {}
+#endif
+    // vox_grid_create; a log or a parallel_for replaces that of the desc.
+    static returns<grid> create(const vox_grid_desc& desc = vox_default_grid_desc(), log_function log = {},
+                                parallel_for tasks = {}) {
+        return made(detail::settings(desc, std::move(log), std::move(tasks)),
+                    [](const vox_grid_desc* with, vox_grid** out) { return vox_grid_create(with, out); });
+    }
+    // vox_grid_load
+    static returns<grid> load(span<const std::byte> bytes, const vox_grid_desc& desc = vox_default_grid_desc(),
+                              log_function log = {}, parallel_for tasks = {}) {
+        return made(detail::settings(desc, std::move(log), std::move(tasks)),
+                    [&](const vox_grid_desc* with, vox_grid** out) {
+                        return vox_grid_load(bytes.data(), bytes.size(), with, out);
+                    });
+    }
+    // Takes over a grid made in C, to destroy it; with borrow() it stays its owner's, who keeps it alive.
+    static grid adopt(vox_grid* raw) { return grid(raw, true); }
+    static grid borrow(vox_grid* raw) { return grid(raw, false); }
+    // For calls in C. The grid keeps its owner.
+    vox_grid* get() noexcept { return grid_.get(); }
+    const vox_grid* get() const noexcept { return grid_.get(); }
+
+    returns<void> clear() { return detail::give(vox_grid_clear(get())); }                        // vox_grid_clear
+    returns<void> reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {               // vox_grid_reserve
+        return detail::give(vox_grid_reserve(get(), mesh_count, contact_count));
+    }
+    returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); } // the same
+    returns<double> cell_size() const { return value(vox_grid_cell_size); }                      // vox_grid_cell_size
+    returns<void> set_worker_count(std::uint32_t count) {                                        // vox_grid_set_worker_count
+        return detail::give(vox_grid_set_worker_count(get(), count));
+    }
+    returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); } // the same
+    returns<std::uint32_t> flags() const { return value(vox_grid_get_flags); }                   // vox_grid_get_flags
+
+    // -- meshes
+
+    // vox_mesh_insert. The positions are borrowed, the tetrahedra copied; describe() is for all else a mesh can have.
+    returns<vox_mesh> insert(const borrowed_points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+        return insert_with(0, positions, tets, user_data);
+    }
+    // The same with VOX_MESH_COPY_POSITIONS.
+    returns<vox_mesh> insert_copy(const points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+        return insert_with(VOX_MESH_COPY_POSITIONS, positions, tets, user_data);
+    }
+    // vox_mesh_insert
+    returns<vox_mesh> insert(const vox_mesh_desc& desc) {
+        vox_mesh mesh = VOX_NULL_MESH;
+        const vox_result result = vox_mesh_insert(get(), &desc, &mesh);
+        return detail::give(result, mesh);
+    }
+    returns<void> remove(vox_mesh mesh) { return detail::give(rebound(mesh, vox_mesh_remove(get(), mesh))); } // vox_mesh_remove
+    bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; } // vox_mesh_is_valid
+    returns<std::vector<vox_mesh>> meshes() const {                                             // vox_grid_meshes
+        return detail::collect<vox_mesh>(16, [&](auto... out) { return vox_grid_meshes(get(), out...); });
+    }
+    returns<vox_mesh_info> info(vox_mesh mesh) const {                                          // vox_mesh_get_info
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        const vox_result result = vox_mesh_get_info(get(), mesh, &info);
+        return detail::give(result, info);
+    }
+    returns<std::uint64_t> user_data(vox_mesh mesh) const {                                     // vox_mesh_user_data
+        std::uint64_t data = 0;
+        const vox_result result = vox_mesh_user_data(get(), mesh, &data);
+        return detail::give(result, data);
+    }
+    // vox_mesh_copy_tets: corners, and whether each is enabled.
+    returns<std::vector<std::array<std::uint32_t, 4>>> tets_of(vox_mesh mesh) const {
+        using corners = std::array<std::uint32_t, 4>;
+        return detail::collect<corners>(0, [&](corners* out, std::uint64_t room, std::uint64_t* count) {
+            return vox_mesh_copy_tets(get(), mesh, reinterpret_cast<std::uint32_t*>(out), nullptr, room, count);
+        });
+    }
+    returns<std::vector<std::uint8_t>> tets_enabled(vox_mesh mesh) const {
+        return detail::collect<std::uint8_t>(0, [&](auto... out) { return vox_mesh_copy_tets(get(), mesh, nullptr, out...); });
+    }
+    // vox_mesh_bind_strided_positions. Fails unless there are as many as the mesh has vertices.
+    returns<void> bind(vox_mesh mesh, const borrowed_points& positions) {
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        vox_result result = positions.misfit.result();
+        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK && info.vertex_count != positions.count)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "bind: %llu positions for mesh %llu, which has %llu vertices",
+                                  positions.count, mesh, info.vertex_count);
+        if (result == VOX_OK)
+            result = vox_mesh_bind_strided_positions(get(), mesh, positions.data, positions.format, positions.byte_stride,
+                                                     positions.component_byte_stride);
+        return detail::give(rebound(mesh, result));
+    }
+    // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
+    template <class T> returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) & {
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        void* at = nullptr;
+        std::uint64_t stride = 0;
+        vox_result result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK) result = same_format<T>(mesh, info);
+        if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at, &stride);
+        if (at != info.positions) (void)rebound(mesh, result);
+        return detail::give(result, view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), static_cast<std::size_t>(stride),
+                                                           static_cast<std::size_t>(info.vertex_count), 0,
+                                                           watching(0, detail::lasts::mapping, mesh)));
+    }
+    template <class T> returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) && = delete;
+    // vox_mesh_info.positions, to read; UNSUPPORTED for columns.
+    template <class T> returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const& {
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        vox_result result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK) result = same_format<T>(mesh, info);
+        if (result == VOX_OK && info.positions && info.position_component_byte_stride != sizeof(T))
+            result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart", mesh,
+                                  info.position_component_byte_stride);
+        const auto* first = static_cast<const std::array<T, 3>*>(info.positions);
+        const auto stride = static_cast<std::size_t>(info.position_byte_stride);
+        return detail::give(result, view<const std::array<T, 3>>(
+                                        first, stride, first ? static_cast<std::size_t>(info.vertex_count) : 0, 0,
+                                        watching(0, detail::lasts::mapping, mesh)));
+    }
+    template <class T> returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const&& = delete;
+    returns<void> mark_moved(vox_mesh mesh) { return detail::give(vox_mesh_mark_moved(get(), mesh)); } // vox_mesh_mark_moved
+    returns<void> set_filter(vox_mesh mesh, const vox_filter& filter) {                         // vox_mesh_set_filter
+        return detail::give(vox_mesh_set_filter(get(), mesh, &filter));
+    }
+    returns<vox_filter> filter(vox_mesh mesh) const {                                           // vox_mesh_filter
+        vox_filter filter = detail::sized<vox_filter>();
+        const vox_result result = vox_mesh_filter(get(), mesh, &filter);
+        return detail::give(result, filter);
+    }
+    returns<void> set_enabled(vox_mesh mesh, bool enabled) {                                    // vox_mesh_set_enabled
+        return detail::give(vox_mesh_set_enabled(get(), mesh, enabled));
+    }
+    returns<void> set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {                      // vox_grid_set_pair_enabled
+        return detail::give(vox_grid_set_pair_enabled(get(), a, b, enabled));
+    }
+    // vox_mesh_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
+    returns<void> set_transform(vox_mesh mesh, const double (&rows)[12]) {
+        return detail::give(vox_mesh_set_transform(get(), mesh, rows));
+    }
+    returns<void> set_transform(vox_mesh mesh, const std::array<double, 12>& rows) {
+        return detail::give(vox_mesh_set_transform(get(), mesh, rows.data()));
+    }
+    template <class M, class = decltype(static_cast<double>(std::declval<const M&>()(0, 0)))>
+    returns<void> set_transform(vox_mesh mesh, const M& matrix) {
+        double rows[12];
+        for (int i = 0; i < 12; ++i) rows[i] = static_cast<double>(matrix(i / 4, i % 4));
+        return set_transform(mesh, rows);
+    }
+    returns<void> clear_transform(vox_mesh mesh) { return detail::give(vox_mesh_set_transform(get(), mesh, nullptr)); }
+
+    // -- cutting and growing
+
+    returns<void> set_topology(vox_mesh mesh, const vox_mesh_desc& desc) {                      // vox_mesh_set_topology
+        return detail::give(rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc)));
+    }
+    returns<void> set_topology(vox_mesh mesh, const borrowed_points& positions, const tets& tets) {
+        vox_mesh_desc desc;
+        vox_result result = detail::describe(positions, tets, desc);
+        if (result == VOX_OK) result = rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc));
+        return detail::give(result);
+    }
+    // vox_mesh_set_tets_enabled
+    returns<void> set_tets_enabled(vox_mesh mesh, span<const std::uint32_t> indices, bool enabled) {
+        return detail::give(vox_mesh_set_tets_enabled(get(), mesh, indices.data(), indices.size(), enabled));
+    }
+    returns<void> replace_tets(vox_mesh mesh, span<const std::uint32_t> indices, const tets& corners) { // vox_mesh_replace_tets
+        vox_result result = corners.misfit.result();
+        if (result == VOX_OK && corners.count != indices.size())
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "replace_tets: %llu tets to replace, by %llu", indices.size(),
+                                  corners.count);
+        if (result == VOX_OK) result = vox_mesh_replace_tets(get(), mesh, indices.data(), indices.size(), corners.data);
+        return detail::give(result);
+    }
+    returns<std::uint32_t> append_tets(vox_mesh mesh, const tets& corners) {                    // vox_mesh_append_tets
+        std::uint32_t first = 0;
+        vox_result result = corners.misfit.result();
+        if (result == VOX_OK) result = vox_mesh_append_tets(get(), mesh, corners.data, corners.count, &first);
+        return detail::give(result, first);
+    }
+    returns<void> remove_tets(vox_mesh mesh, span<const std::uint32_t> indices) {               // vox_mesh_remove_tets
+        return detail::give(vox_mesh_remove_tets(get(), mesh, indices.data(), indices.size()));
+    }
+    returns<std::uint32_t> append_vertices(vox_mesh mesh, const vox_vertices_desc& desc) {      // vox_mesh_append_vertices
+        std::uint32_t first = 0;
+        const vox_result result = rebound(mesh, vox_mesh_append_vertices(get(), mesh, &desc, &first));
+        return detail::give(result, first);
+    }
+    // The same for `count` vertices. Fails unless the positions are those of all vertices (a mesh that borrows them) or of
+    // the new ones (a mesh with positions of its own), in the format that the mesh has.
+    returns<std::uint32_t> append_vertices(vox_mesh mesh, std::uint64_t count, const borrowed_points& positions,
+                                           span<const std::uint32_t> copies_of = {}) {
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        vox_result result = positions.misfit.result();
+        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        const std::uint64_t wanted = count + ((info.flags & VOX_MESH_COPY_POSITIONS) != 0 ? 0 : info.vertex_count);
+        if (result == VOX_OK && (positions.count != wanted || positions.format != info.position_format))
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                                  "append_vertices: %llu positions of format %llu, mesh %llu takes %llu of format %llu",
+                                  positions.count, positions.format, mesh, wanted, info.position_format);
+        if (result == VOX_OK && !copies_of.empty() && copies_of.size() != count)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "append_vertices: %llu vertices, copies of %llu", count,
+                                  copies_of.size());
+        vox_vertices_desc desc = vox_default_vertices_desc();
+        desc.count = count;
+        desc.positions = positions.data;
+        desc.position_byte_stride = positions.byte_stride;
+        desc.position_component_byte_stride = positions.component_byte_stride;
+        desc.copies_of = copies_of.empty() ? nullptr : copies_of.data();
+        if (result != VOX_OK) return detail::give(result, std::uint32_t{0});
+        return append_vertices(mesh, desc);
+    }
+    returns<void> remove_vertices(vox_mesh mesh, span<const std::uint32_t> vertices) {          // vox_mesh_remove_vertices
+        return detail::give(vox_mesh_remove_vertices(get(), mesh, vertices.data(), vertices.size()));
+    }
+
+    // -- step and results
+
+    returns<void> step() { return done(vox_grid_step(get())); } // vox_grid_step
+    returns<vox_failure> failure(std::uint32_t index = 0) const { // vox_grid_failure
+        vox_failure failure = detail::sized<vox_failure>();
+        const vox_result result = vox_grid_failure(get(), index, &failure);
+        return detail::give(result, failure);
+    }
+    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_contacts); }      // vox_grid_contacts
+    returns<view<const std::uint8_t>> interiors() const& { return read(vox_grid_contact_interiors); } // vox_grid_contact_interiors
+    returns<view<const vox_penetration>> penetrations() const& { return read(vox_grid_penetrations); } // vox_grid_penetrations
+    returns<view<const vox_depth>> depths() const& { return read(vox_grid_depths); }            // vox_grid_depths
+    returns<pair_view> pairs() const& {                                                         // vox_grid_pairs
+        vox_pair_view view{};
+        const vox_result result = vox_grid_pairs(get(), &view);
+        return detail::give(result, pair_view(viewed(view), view.contacts));
+    }
+    returns<event_view<vox_touch_event>> touch_events() const& {                                // vox_grid_touch_events
+        vox_touch_view view{};
+        const vox_result result = vox_grid_touch_events(get(), &view);
+        return detail::give(result, event_view<vox_touch_event>(viewed(view), view.began, view.persisted));
+    }
+    returns<event_view<vox_contact_event>> contact_events() const& {                            // vox_grid_contact_events
+        vox_contact_event_view view{};
+        const vox_result result = vox_grid_contact_events(get(), &view);
+        return detail::give(result, event_view<vox_contact_event>(viewed(view), view.began, 0));
+    }
+    returns<view<const vox_reading>> readings() const& { return read(vox_grid_readings, detail::lasts::readings); } // vox_grid_readings
+    returns<view<const vox_depth>> reading_depths() const& {                                    // vox_grid_reading_depths
+        return read(vox_grid_reading_depths, detail::lasts::readings);
+    }
+    // A temporary grid has no results to look at.
+    void contacts() const&& = delete;
+    void interiors() const&& = delete;
+    void penetrations() const&& = delete;
+    void depths() const&& = delete;
+    void pairs() const&& = delete;
+    void touch_events() const&& = delete;
+    void contact_events() const&& = delete;
+    void readings() const&& = delete;
+    void reading_depths() const&& = delete;
+
+    returns<std::uint64_t> epoch() const { return value(vox_grid_epoch); }                      // vox_grid_epoch
+    returns<std::uint64_t> hash() const { return value(vox_grid_hash); }                        // vox_grid_hash
+    // vox_mesh_copy_contacts, vox_pair_copy_contacts
+    returns<std::vector<vox_contact>> contacts_of(vox_mesh mesh) const {
+        return detail::collect<vox_contact>(16, [&](auto... out) { return vox_mesh_copy_contacts(get(), mesh, out...); });
+    }
+    returns<std::vector<vox_contact>> contacts_of(vox_mesh a, vox_mesh b) const {
+        return detail::collect<vox_contact>(16, [&](auto... out) { return vox_pair_copy_contacts(get(), a, b, out...); });
+    }
+    // vox_grid_prepare_readings, vox_grid_prepare_readings_of
+    returns<void> prepare_readings() { return prepared(vox_grid_prepare_readings(get())); }
+    returns<void> prepare_readings(const vox_readings_desc& desc) {
+        return prepared(vox_grid_prepare_readings_of(get(), &desc));
+    }
+    // vox_mesh_copy_readings, vox_pair_copy_readings
+    returns<std::vector<vox_reading>> readings_of(vox_mesh mesh) const {
+        return detail::collect<vox_reading>(16, [&](auto... out) { return vox_mesh_copy_readings(get(), mesh, out...); });
+    }
+    returns<std::vector<vox_reading>> readings_of(vox_mesh a, vox_mesh b) const {
+        return detail::collect<vox_reading>(16, [&](auto... out) { return vox_pair_copy_readings(get(), a, b, out...); });
+    }
+    returns<std::vector<std::byte>> save() const {                                              // vox_grid_save
+        std::uint64_t size = 0;
+        vox_result result = vox_grid_save(get(), nullptr, 0, &size);
+        std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+        if (result == VOX_OK) result = vox_grid_save(get(), bytes.data(), bytes.size(), &size);
+        return detail::give(result, std::move(bytes));
+    }
+    returns<void> prepare_queries() { return done(vox_grid_prepare_queries(get())); }           // vox_grid_prepare_queries
+    returns<query_view> take_query_view() {                                                     // vox_grid_take_query_view
+        vox_query_view* raw = nullptr;
+        const vox_result result = vox_grid_take_query_view(get(), &raw);
+        query_view taken = query_view::adopt(raw);
+        rethrow();
+        return detail::give(result, std::move(taken));
+    }
+    returns<vox_counters> counters() const {                                                    // vox_grid_counters
+        vox_counters counters = detail::sized<vox_counters>();
+        const vox_result result = vox_grid_counters(get(), &counters);
+        return detail::give(result, counters);
+    }
+    returns<vox_profile> profile() const {                                                      // vox_grid_profile
+        vox_profile profile = detail::sized<vox_profile>();
+        const vox_result result = vox_grid_profile(get(), &profile);
+        return detail::give(result, profile);
+    }
+    // vox_grid_suggest_cell_size, with desc null or given
+    returns<vox_suggestion> suggest_cell_size() const { return suggest(nullptr); }
+    returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc) const { return suggest(&desc); }
+
+private:
+    friend class unique_mesh;
+    friend returns<void> step(span<grid> grids, std::uint32_t worker_count, span<vox_result> results,
+                              parallel_for tasks);
+
+    grid(vox_grid* raw, bool owned, std::unique_ptr<detail::callbacks> kept = nullptr)
+        : grid_(raw, detail::grid_deleter{owned, std::move(kept), detail::watch_of(raw)}) {}
+
+    template <class F> static returns<grid> made(detail::settings&& with, F&& call) {
+        grid made(nullptr, true, std::move(with.kept));
+        vox_grid* raw = nullptr;
+        const vox_result result = call(&with.desc, &raw);
+        made.grid_.reset(raw);
+#if VOX_HPP_CHECKED
+        made.grid_.get_deleter().watching->grid = raw;
+#endif
+        return detail::give(result, std::move(made));
+    }
+    template <class T> returns<T> value(vox_result (*of)(const vox_grid*, T*)) const {
+        T found{};
+        const vox_result result = of(get(), &found);
+        return detail::give(result, found);
+    }
+    detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_mesh mesh = VOX_NULL_MESH) const {
+        return detail::guard(grid_.get_deleter().watching, epoch, until, mesh);
+    }
+    template <class V> using view_of = view<std::remove_pointer_t<decltype(V::data)>>;
+    template <class V> view_of<V> viewed(const V& v, detail::lasts until = detail::lasts::step) const {
+        return {v.data, v.byte_stride, static_cast<std::size_t>(v.count), v.epoch, watching(v.epoch, until)};
+    }
+    template <class V>
+    returns<view_of<V>> read(vox_result (*results)(const vox_grid*, V*), detail::lasts until = detail::lasts::step) const {
+        V v{};
+        const vox_result result = results(get(), &v);
+        return detail::give(result, viewed(v, until));
+    }
+    // After calls that run the task system.
+    void rethrow() {
+        if (const auto& kept = grid_.get_deleter().kept) kept->caught.rethrow();
+    }
+    returns<void> done(vox_result result) {
+        rethrow();
+        return detail::give(result);
+    }
+    returns<void> prepared(vox_result result) {
+#if VOX_HPP_CHECKED
+        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) ++watching->prepared;
+#endif
+        return done(result);
+    }
+    vox_result rebound(vox_mesh mesh, vox_result result) {
+#if VOX_HPP_CHECKED
+        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) watching->rebind(mesh);
+#endif
+        return (void)mesh, result;
+    }
+    template <class T> static vox_result same_format(vox_mesh mesh, const vox_mesh_info& info) {
+        static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
+        if (info.position_format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3)) return VOX_OK;
+        return detail::fail(VOX_ERROR_INVALID_ARGUMENT, "positions of mesh %llu are of format %llu, not numbers of %llu bytes",
+                            mesh, info.position_format, sizeof(T));
+    }
+    returns<vox_mesh> insert_with(std::uint32_t flags, const points& positions, const tets& tets, std::uint64_t user_data) {
+        vox_mesh_desc desc;
+        const vox_result result = detail::describe(positions, tets, desc);
+        desc.flags = flags;
+        desc.user_data = user_data;
+        if (result != VOX_OK) return detail::give(result, vox_mesh{VOX_NULL_MESH});
+        return insert(desc);
+    }
+    returns<vox_suggestion> suggest(const vox_suggest_desc* desc) const {
+        vox_suggestion suggestion = detail::sized<vox_suggestion>();
+        const vox_result result = vox_grid_suggest_cell_size(get(), desc, &suggestion);
+        return detail::give(result, suggestion);
+    }
+
+    std::unique_ptr<vox_grid, detail::grid_deleter> grid_;
+};
+
+// A mesh that its owner removes (vox_mesh_remove), e.g. before the positions that it borrows. The grid must outlive it.
+class unique_mesh {
+public:
+    unique_mesh() noexcept = default;
+    unique_mesh(grid& grid, vox_mesh mesh) : grid_(grid.get()), mesh_(mesh), watching_(grid.grid_.get_deleter().watching) {}
+    unique_mesh(grid&& grid, vox_mesh mesh) = delete;
+    unique_mesh(unique_mesh&& other) noexcept
+        : grid_(other.grid_), mesh_(other.release()), watching_(std::move(other.watching_)) {}
+    unique_mesh& operator=(unique_mesh&& other) noexcept {
+        if (this == &other) return *this;
+        reset();
+        grid_ = other.grid_;
+        mesh_ = other.release();
+        watching_ = std::move(other.watching_);
+        return *this;
+    }
+    ~unique_mesh() { reset(); }
+    vox_mesh get() const noexcept { return mesh_; }
+    vox_mesh release() noexcept { return std::exchange(mesh_, vox_mesh{VOX_NULL_MESH}); } // stays in the grid
+    void reset() noexcept {
+        const vox_mesh mesh = release();
+        if (mesh == VOX_NULL_MESH) return;
+#if VOX_HPP_CHECKED
+        if (!watching_ || !watching_->grid) return; // with its grid
+#endif
+        (void)vox_mesh_remove(grid_, mesh); // may be gone already
+    }
+
+private:
+    vox_grid* grid_ = nullptr;
+    vox_mesh mesh_ = VOX_NULL_MESH;
+    detail::watched watching_{};
+};
+
+// ---- many grids ---------------------------------------------------------------------------------
+
+// vox_grids_step. `results` is empty or has room for one a grid.
+inline returns<void> step(span<grid> grids, std::uint32_t worker_count = 0, span<vox_result> results = {},
+                          parallel_for tasks = {}) {
+    std::vector<vox_grid*> raw;
+    raw.reserve(grids.size());
+    for (grid& one : grids) raw.push_back(one.get());
+    if (!results.empty() && results.size() < raw.size())
+        return detail::give(detail::fail(VOX_ERROR_INVALID_ARGUMENT, "step: room for %llu results, of %llu grids",
+                                         results.size(), raw.size()));
+    detail::callbacks own{{}, std::move(tasks), {}};
+    const vox_task_system system = own.task_system();
+    const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &system : nullptr, worker_count,
+                                             results.empty() ? nullptr : results.data());
+    own.caught.rethrow();
+    for (grid& one : grids) one.rethrow();
+    return detail::give(result);
+}
+
+// Contacts of several grids, one grid after the other.
+struct grouped_contacts {
+    std::vector<vox_contact> contacts;
+    std::vector<std::uint64_t> offsets; // one more than there are grids
+    span<const vox_contact> of(std::size_t grid) const& {
+        return {contacts.data() + offsets[grid], static_cast<std::size_t>(offsets[grid + 1] - offsets[grid])};
+    }
+    void of(std::size_t grid) const&& = delete;
+};
+
+// vox_grids_copy_contacts
+inline returns<grouped_contacts> copy_contacts(span<const grid> grids) {
+    std::vector<const vox_grid*> raw;
+    raw.reserve(grids.size());
+    for (const grid& one : grids) raw.push_back(one.get());
+    grouped_contacts all;
+    all.offsets.resize(raw.size() + 1);
+    vox_result result = vox_grids_copy_contacts(raw.data(), raw.size(), nullptr, 0, all.offsets.data());
+    if (result == VOX_OK) {
+        all.contacts.resize(static_cast<std::size_t>(all.offsets.back()));
+        result = vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(), all.offsets.data());
+    }
+    return detail::give(result, std::move(all));
+}
+
+// ---- version ------------------------------------------------------------------------------------
+
+inline std::uint32_t version() noexcept { return vox_version(); }             // vox_version
+inline const char* version_string() noexcept { return vox_version_string(); } // vox_version_string
+inline std::uint32_t abi_version() noexcept { return vox_abi_version(); }     // vox_abi_version
+inline const char* build_info() noexcept { return vox_build_info(); }         // vox_build_info
+
+// ---- cell size ----------------------------------------------------------------------------------
+
+// vox_suggest_cell_size
+inline returns<vox_suggestion> suggest_cell_size(span<const vox_mesh_desc> meshes,
+                                                 const vox_suggest_desc& desc = vox_default_suggest_desc()) {
+    vox_suggestion suggestion = detail::sized<vox_suggestion>();
+    const vox_result result = vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &suggestion);
+    return detail::give(result, suggestion);
+}
+
+// vox_cost_predict
+inline returns<vox_cost_prediction> predict_cost(span<const vox_mesh_desc> meshes, double cell_size,
+                                                 const vox_suggest_desc& desc = vox_default_suggest_desc()) {
+    vox_cost_prediction prediction = detail::sized<vox_cost_prediction>();
+    const vox_result result = vox_cost_predict(&desc, meshes.data(), meshes.size(), cell_size, &prediction);
+    return detail::give(result, prediction);
+}
+
+// vox_cost_calibrate, vox_cost_get_weights, vox_cost_set_weights; without an argument those shipped with the library.
+inline returns<vox_cost_weights> calibrate() {
+    vox_cost_weights weights = detail::sized<vox_cost_weights>();
+    const vox_result result = vox_cost_calibrate(&weights);
+    return detail::give(result, weights);
+}
+inline returns<vox_cost_weights> cost_weights() {
+    vox_cost_weights weights = detail::sized<vox_cost_weights>();
+    const vox_result result = vox_cost_get_weights(&weights);
+    return detail::give(result, weights);
+}
+inline returns<void> set_cost_weights(const vox_cost_weights& weights) { return detail::give(vox_cost_set_weights(&weights)); }
+inline returns<void> set_cost_weights() { return detail::give(vox_cost_set_weights(nullptr)); }
+
+// A vox_cost_bounds with the default zone.
+inline vox_cost_bounds cost_bounds(double min, double max) noexcept {
+    vox_cost_bounds bounds = vox_default_cost_bounds();
+    bounds.min = min;
+    bounds.max = max;
+    return bounds;
+}
+
+// vox_cost_minimise, for any callable that takes a cell size and returns a number. What it throws ends the search.
+template <class F, std::enable_if_t<std::is_invocable_r_v<double, F&, double>, int> = 0>
+returns<vox_cost_minimum> minimise(F&& cost, const vox_cost_bounds& bounds) {
+    struct context {
+        std::remove_reference_t<F>& cost;
+        detail::catcher caught;
+    } with{cost, {}};
+    vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
+    const vox_result result = vox_cost_minimise(
+        [](double cell_size, void* user) -> double {
+            context& at = *static_cast<context*>(user);
+            double value = std::numeric_limits<double>::infinity();
+            at.caught.run([&] { value = static_cast<double>(at.cost(cell_size)); });
+            return value;
+        },
+        &with, &bounds, &minimum);
+    with.caught.rethrow();
+    return detail::give(result, minimum);
+}
+
+// vox_cost_minimise_terms
+inline returns<vox_cost_minimum> minimise(span<const vox_cost_term> terms, const vox_cost_bounds& bounds) {
+    vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
+    const vox_result result = vox_cost_minimise_terms(terms.data(), terms.size(), &bounds, &minimum);
+    return detail::give(result, minimum);
+}
+
+// vox_zone_distance
+inline returns<double> zone_distance(double n, double n_min, double n_opt, double n_max) {
+    double epsilon = 0;
+    const vox_result result = vox_zone_distance(n, n_min, n_opt, n_max, &epsilon);
+    return detail::give(result, epsilon);
+}
+
+// The curve of a vox_suggestion or vox_cost_minimum; the terms of a vox_suggestion or vox_cost_prediction.
+template <class S> span<const vox_cost_sample> curve(const S& of) { return {of.curve, of.curve_count}; }
+template <class S> span<const vox_cost_share> terms(const S& of) { return {of.terms, of.term_count}; }
+template <class S> void curve(const S&& temporary) = delete;
+template <class S> void terms(const S&& temporary) = delete;
+
+// ---- Eigen --------------------------------------------------------------------------------------
+
+#if defined(EIGEN_WORLD_VERSION)
+// The memory of a view as a matrix of a column an element: eigen_map(readings.field(&vox_reading::position)).
+template <class A> auto eigen_map(const view<A>& elements) {
+    using E = element<std::remove_const_t<A>>;
+    using T = typename E::number;
+    constexpr int rows = static_cast<int>(E::count);
+    using matrix = Eigen::Matrix<T, rows, Eigen::Dynamic>;
+    using mapped = std::conditional_t<std::is_const_v<A>, const matrix, matrix>;
+    using pointer = std::conditional_t<std::is_const_v<A>, const T*, T*>;
+    return Eigen::Map<mapped, Eigen::Unaligned, Eigen::OuterStride<>>(
+        reinterpret_cast<pointer>(elements.data()), rows, static_cast<Eigen::Index>(elements.size()),
+        Eigen::OuterStride<>(static_cast<Eigen::Index>(elements.byte_stride() / sizeof(T))));
+}
+#endif
+
+} // namespace VOX_HPP_MODE
+} // namespace vox
+
+#if defined(__cpp_lib_ranges)
+template <class T> inline constexpr bool std::ranges::enable_borrowed_range<vox::view<T>> = true;
+template <class T> inline constexpr bool std::ranges::enable_view<vox::view<T>> = true;
+#endif
+
+#endif

@@ -1,0 +1,214 @@
+// vox_io.hpp: vox_io.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_io.h that its comment names.
+#ifndef VOX_VOX_IO_HPP
+#define VOX_VOX_IO_HPP
+
+#include <vox/vox.hpp>
+#include <vox/vox_io.h>
+
+namespace vox {
+inline namespace VOX_HPP_MODE {
+namespace io {
+
+// Defaults of vox_io's descs: vox_io_load_desc_init, vox_io_tetrahedralize_desc_init, vox_io_write_desc_init.
+inline vox_io_load_desc default_load_desc() noexcept {
+    vox_io_load_desc desc;
+    (void)vox_io_load_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
+    return desc;
+}
+inline vox_io_tetrahedralize_desc default_tetrahedralize_desc() noexcept {
+    vox_io_tetrahedralize_desc desc;
+    (void)vox_io_tetrahedralize_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
+    return desc;
+}
+inline vox_io_write_desc default_write_desc() noexcept {
+    vox_io_write_desc desc;
+    (void)vox_io_write_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
+    return desc;
+}
+
+// vox_io_mesh. Move-only; its destructor is vox_io_mesh_destroy. One that was moved from is null: calls fail.
+class mesh {
+public:
+    mesh() noexcept = default; // null
+    // Takes over a mesh made in C.
+    static mesh adopt(vox_io_mesh* raw) noexcept { return mesh(raw); }
+    // The mesh that `call` makes in C.
+    template <class F> static returns<mesh> made(F&& call) {
+        vox_io_mesh* raw = nullptr;
+        const vox_result result = call(&raw);
+        return detail::give(result, mesh(raw));
+    }
+    const vox_io_mesh* get() const noexcept { return mesh_.get(); }
+
+    // vox_io_mesh_get. The spans live as long as the mesh.
+    returns<vox_io_mesh_view> view() const& {
+        vox_io_mesh_view view{};
+        const vox_result result = vox_io_mesh_get(get(), &view);
+        return detail::give(result, view);
+    }
+    void view() const&& = delete;
+    // Three numbers a vertex, four corners a tetrahedron, three a triangle; empty for a null mesh.
+    span<const double> positions() const& noexcept {
+        const vox_io_mesh_view v = arrays();
+        return {v.positions, static_cast<std::size_t>(3 * v.vertex_count)};
+    }
+    span<const std::uint32_t> tets() const& noexcept {
+        const vox_io_mesh_view v = arrays();
+        return {v.tets, static_cast<std::size_t>(4 * v.tet_count)};
+    }
+    span<const std::uint32_t> triangles() const& noexcept {
+        const vox_io_mesh_view v = arrays();
+        return {v.triangles, static_cast<std::size_t>(3 * v.triangle_count)};
+    }
+    void positions() const&& = delete;
+    void tets() const&& = delete;
+    void triangles() const&& = delete;
+    // vox_io_mesh_desc over the defaults, for grid::insert: borrows the mesh.
+    returns<vox_mesh_desc> desc() const& {
+        vox_mesh_desc desc = vox_default_mesh_desc();
+        const vox_result result = vox_io_mesh_desc(get(), &desc);
+        return detail::give(result, desc);
+    }
+    void desc() const&& = delete;
+    // vox_io_mesh_report
+    returns<vox_io_report> report() const {
+        vox_io_report report = detail::sized<vox_io_report>();
+        const vox_result result = vox_io_mesh_report(get(), &report);
+        return detail::give(result, report);
+    }
+    // vox_io_mesh_warnings
+    const char* warnings() const& noexcept { return vox_io_mesh_warnings(get()); }
+    void warnings() const&& = delete;
+    // vox_io_measure_quality, beside a surface or by itself
+    returns<vox_io_quality> quality(const mesh& surface) const { return measured(surface.get()); }
+    returns<vox_io_quality> quality() const { return measured(nullptr); }
+    // vox_io_write
+    returns<void> write(const char* path, const vox_io_write_desc& desc = default_write_desc()) const {
+        return detail::give(vox_io_write(get(), path, &desc));
+    }
+    returns<void> write(const std::string& path, const vox_io_write_desc& desc = default_write_desc()) const {
+        return write(path.c_str(), desc);
+    }
+    // vox_io_write_to: `sink` takes a span<const std::byte>. What it throws ends the writing.
+    template <class F, class = std::enable_if_t<std::is_invocable_v<F&, span<const std::byte>>>>
+    returns<void> write_to(F&& sink, const vox_io_write_desc& desc) const {
+        struct context {
+            std::remove_reference_t<F>& sink;
+            detail::catcher caught;
+        } with{sink, {}};
+        const vox_io_sink to = {[](const void* data, std::size_t size, void* user) -> std::int32_t {
+                                    context& at = *static_cast<context*>(user);
+                                    const span<const std::byte> bytes(static_cast<const std::byte*>(data), size);
+                                    return at.caught.run([&] { at.sink(bytes); }) ? 0 : 1;
+                                },
+                                &with};
+        const vox_result result = vox_io_write_to(get(), &desc, &to);
+        with.caught.rethrow();
+        return detail::give(result);
+    }
+
+private:
+    struct deleter {
+        void operator()(vox_io_mesh* raw) const noexcept { vox_io_mesh_destroy(raw); }
+    };
+    explicit mesh(vox_io_mesh* raw) noexcept : mesh_(raw) {}
+    vox_io_mesh_view arrays() const noexcept {
+        vox_io_mesh_view view{};
+        if (mesh_) (void)vox_io_mesh_get(get(), &view);
+        return view;
+    }
+    returns<vox_io_quality> measured(const vox_io_mesh* surface) const {
+        vox_io_quality quality = detail::sized<vox_io_quality>();
+        const vox_result result = vox_io_measure_quality(get(), surface, &quality);
+        return detail::give(result, quality);
+    }
+    std::unique_ptr<vox_io_mesh, deleter> mesh_;
+};
+
+// A file in memory: vox_io_source.
+inline vox_io_source source(const char* name, span<const std::byte> bytes) noexcept {
+    return {name, bytes.data(), bytes.size()};
+}
+
+// vox_io_load
+inline returns<mesh> load(const char* path, const vox_io_load_desc& desc = default_load_desc()) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_load(path, &desc, out); });
+}
+inline returns<mesh> load(const std::string& path, const vox_io_load_desc& desc = default_load_desc()) {
+    return load(path.c_str(), desc);
+}
+// vox_io_read: one source, or both files of TetGen
+inline returns<mesh> read(span<const vox_io_source> sources, const vox_io_load_desc& desc = default_load_desc()) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_read(sources.data(), sources.size(), &desc, out); });
+}
+// vox_io_mesh_create, of packed doubles and indices, three a triangle
+inline returns<mesh> create(span<const double> positions, const vox::tets& tets,
+                            span<const std::uint32_t> triangles = {}) {
+    vox_io_mesh_view arrays{};
+    arrays.positions = positions.data();
+    arrays.vertex_count = positions.size() / 3;
+    arrays.tets = tets.data;
+    arrays.tet_count = tets.count;
+    arrays.triangles = triangles.data();
+    arrays.triangle_count = triangles.size() / 3;
+    vox_result result = tets.misfit.result();
+    if (result == VOX_OK && (positions.size() % 3 != 0 || triangles.size() % 3 != 0))
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "create: %llu numbers of positions and %llu of triangles, not in threes",
+                              positions.size(), triangles.size());
+    return mesh::made([&](vox_io_mesh** out) { return result == VOX_OK ? vox_io_mesh_create(&arrays, out) : result; });
+}
+// vox_io_tetrahedralize
+inline returns<mesh> tetrahedralize(const mesh& surface,
+                                    const vox_io_tetrahedralize_desc& desc = default_tetrahedralize_desc()) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_tetrahedralize(surface.get(), &desc, out); });
+}
+// The same with a callable for the progress: takes the fraction and returns whether to go on. What it throws cancels.
+template <class F, class = std::enable_if_t<std::is_invocable_r_v<bool, F&, double>>>
+returns<mesh> tetrahedralize(const mesh& surface, vox_io_tetrahedralize_desc desc, F&& progress) {
+    struct context {
+        std::remove_reference_t<F>& progress;
+        detail::catcher caught;
+    } with{progress, {}};
+    desc.progress = [](double fraction, void* user) -> std::int32_t {
+        context& at = *static_cast<context*>(user);
+        bool go_on = false;
+        at.caught.run([&] { go_on = at.progress(fraction); });
+        return go_on ? 0 : 1;
+    };
+    desc.progress_user = &with;
+    vox_io_mesh* raw = nullptr;
+    const vox_result result = vox_io_tetrahedralize(surface.get(), &desc, &raw);
+    mesh filled = mesh::adopt(raw);
+    with.caught.rethrow();
+    return detail::give(result, std::move(filled));
+}
+
+// vox_io_format_string
+inline const char* name_of(vox_io_format format) noexcept { return vox_io_format_string(format); }
+
+// vox_io_make_X
+inline returns<mesh> make_lattice_ball(std::uint64_t tet_count, double radius) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_lattice_ball(tet_count, radius, out); });
+}
+inline returns<mesh> make_ball(double radius, double cell) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_ball(radius, cell, out); });
+}
+inline returns<mesh> make_torus(double radius, double tube_radius, double cell) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_torus(radius, tube_radius, cell, out); });
+}
+inline returns<mesh> make_capsule(double radius, double length, double cell) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_capsule(radius, length, cell, out); });
+}
+inline returns<mesh> make_cylinder(double radius, double length, double cell) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_cylinder(radius, length, cell, out); });
+}
+inline returns<mesh> make_box(double size_x, double size_y, double size_z, double cell) {
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_make_box(size_x, size_y, size_z, cell, out); });
+}
+
+} // namespace io
+} // namespace VOX_HPP_MODE
+} // namespace vox
+
+#endif

@@ -1,0 +1,201 @@
+// vox_sim.hpp: vox_sim.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_sim.h that its comment names.
+#ifndef VOX_VOX_SIM_HPP
+#define VOX_VOX_SIM_HPP
+
+#include <vox/vox.hpp>
+#include <vox/vox_sim.h>
+
+namespace vox {
+inline namespace VOX_HPP_MODE {
+namespace sim {
+
+// A vox_sim_body_desc of arrays, which are read when the body is inserted; its other fields have their defaults. The
+// positions are packed doubles.
+inline returns<vox_sim_body_desc> describe(const borrowed_points& positions, const borrowed_tets& tets) {
+    vox_sim_body_desc desc = vox_default_sim_body_desc();
+    desc.positions = static_cast<const double*>(positions.data);
+    desc.vertex_count = positions.count;
+    desc.tets = tets.data;
+    desc.tet_count = tets.count;
+    vox_result result = positions.misfit.result();
+    if (result == VOX_OK) result = tets.misfit.result();
+    const std::uint64_t along = positions.byte_stride, across = positions.component_byte_stride;
+    const bool packed = (along == 0 || along == 3 * sizeof(double)) && (across == 0 || across == sizeof(double));
+    if (result == VOX_OK && (positions.format != VOX_FORMAT_DOUBLE3 || !packed))
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                              "describe: positions of format %llu, %llu bytes apart, are no packed doubles",
+                              positions.format, along);
+    return detail::give(result, desc);
+}
+
+// vox_sim. Move-only; its destructor is vox_sim_destroy. One that was moved from is null: calls fail.
+class simulation {
+public:
+#if VOX_HPP_THROWS
+    simulation() : simulation(create()) {}
+    explicit simulation(const vox_sim_desc& desc) : simulation(create(desc)) {}
+#endif
+    // vox_sim_create
+    static returns<simulation> create(const vox_sim_desc& desc = vox_default_sim_desc()) {
+        vox_sim* raw = nullptr;
+        const vox_result result = vox_sim_create(&desc, &raw);
+        return detail::give(result, simulation(raw));
+    }
+    // Takes over a simulation made in C.
+    static simulation adopt(vox_sim* raw) { return simulation(raw); }
+    vox_sim* get() noexcept { return sim_.get(); }
+    const vox_sim* get() const noexcept { return sim_.get(); }
+
+    // vox_sim_grid. It lives as long as the simulation.
+    vox::grid& grid() & noexcept { return grid_; }
+    const vox::grid& grid() const& noexcept { return grid_; }
+    void grid() && = delete;
+    returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); } // vox_sim_step
+    returns<vox_mesh> insert(const vox_sim_body_desc& desc) {                                     // vox_sim_body_insert
+        vox_mesh body = VOX_NULL_MESH;
+        const vox_result result = vox_sim_body_insert(get(), &desc, &body);
+        return detail::give(result, body);
+    }
+    returns<void> remove(vox_mesh body) { return detail::give(vox_sim_body_remove(get(), body)); } // vox_sim_body_remove
+    // vox_sim_body_get. The arrays live until the body is removed; every step writes them.
+    returns<vox_sim_body_view> body(vox_mesh body) const& {
+        vox_sim_body_view view{};
+        const vox_result result = vox_sim_body_get(get(), body, &view);
+        return detail::give(result, view);
+    }
+    void body(vox_mesh body) const&& = delete;
+    // vox_sim_body_set_state. An empty span leaves positions or velocities as they are.
+    returns<void> set_state(vox_mesh body, span<const double> positions, span<const double> velocities) {
+        vox_sim_body_view view{};
+        vox_result result = vox_sim_body_get(get(), body, &view);
+        for (const auto& numbers : {positions, velocities})
+            if (result == VOX_OK && !numbers.empty() && numbers.size() != 3 * view.vertex_count)
+                result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "set_state: %llu numbers for %llu vertices",
+                                      numbers.size(), view.vertex_count);
+        if (result == VOX_OK)
+            result = vox_sim_body_set_state(get(), body, positions.empty() ? nullptr : positions.data(),
+                                            velocities.empty() ? nullptr : velocities.data());
+        return detail::give(result);
+    }
+    returns<void> set_acceleration(vox_mesh body, const point& acceleration) { // vox_sim_body_set_acceleration
+        return detail::give(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
+    }
+    returns<vox_sim_energies> energy(vox_mesh body = VOX_NULL_MESH) const { // vox_sim_energy
+        vox_sim_energies energies = detail::sized<vox_sim_energies>();
+        const vox_result result = vox_sim_energy(get(), body, &energies);
+        return detail::give(result, energies);
+    }
+    returns<vox_sim_counts> counters() const { // vox_sim_counters
+        vox_sim_counts counts = detail::sized<vox_sim_counts>();
+        const vox_result result = vox_sim_counters(get(), &counts);
+        return detail::give(result, counts);
+    }
+
+private:
+    struct deleter {
+        void operator()(vox_sim* raw) const noexcept { vox_sim_destroy(raw); }
+    };
+    explicit simulation(vox_sim* raw) : sim_(raw), grid_(vox::grid::borrow(grid_of(raw))) {}
+    static vox_grid* grid_of(const vox_sim* raw) noexcept {
+        vox_grid* grid = nullptr;
+        if (raw) (void)vox_sim_grid(raw, &grid);
+        return grid;
+    }
+    std::unique_ptr<vox_sim, deleter> sim_;
+    vox::grid grid_; // ends first, with its views
+};
+
+// vox_experiment. Move-only; its destructor is vox_experiment_destroy.
+class experiment {
+public:
+#if VOX_HPP_THROWS
+    explicit experiment(const vox_experiment_desc& desc) : experiment(create(desc)) {}
+#endif
+    // vox_experiment_create
+    static returns<experiment> create(const vox_experiment_desc& desc) {
+        vox_experiment* raw = nullptr;
+        const vox_result result = vox_experiment_create(&desc, &raw);
+        return detail::give(result, experiment(raw));
+    }
+    vox_experiment* get() noexcept { return experiment_.get(); }
+    const vox_experiment* get() const noexcept { return experiment_.get(); }
+    // vox_experiment_get. Its shares live as long as the experiment.
+    returns<vox_experiment_facts> facts() const& {
+        vox_experiment_facts facts = detail::sized<vox_experiment_facts>();
+        const vox_result result = vox_experiment_get(get(), &facts);
+        return detail::give(result, facts);
+    }
+    void facts() const&& = delete;
+    // vox_experiment_suggest
+    returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc = vox_default_suggest_desc()) const {
+        vox_suggestion suggestion = detail::sized<vox_suggestion>();
+        const vox_result result = vox_experiment_suggest(get(), &desc, &suggestion);
+        return detail::give(result, suggestion);
+    }
+    // vox_experiment_measure. `frame_ns` is empty or takes the time of each frame.
+    returns<vox_experiment_sample> measure(double cell_size, span<std::uint64_t> frame_ns = {}) {
+        vox_experiment_facts facts = detail::sized<vox_experiment_facts>();
+        vox_experiment_sample sample = detail::sized<vox_experiment_sample>();
+        vox_result result = vox_experiment_get(get(), &facts);
+        if (result == VOX_OK && !frame_ns.empty() && frame_ns.size() < facts.frames)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "measure: room for %llu times, of %llu frames", frame_ns.size(),
+                                  facts.frames);
+        if (result == VOX_OK)
+            result = vox_experiment_measure(get(), cell_size, frame_ns.empty() ? nullptr : frame_ns.data(), &sample);
+        return detail::give(result, sample);
+    }
+
+private:
+    struct deleter {
+        void operator()(vox_experiment* raw) const noexcept { vox_experiment_destroy(raw); }
+    };
+    explicit experiment(vox_experiment* raw) noexcept : experiment_(raw) {}
+    std::unique_ptr<vox_experiment, deleter> experiment_;
+};
+
+// vox_experiment_order
+inline returns<std::vector<std::uint64_t>> order(std::size_t count, std::uint64_t seed, std::uint64_t round) {
+    std::vector<std::uint64_t> order(count);
+    const vox_result result = vox_experiment_order(count, seed, round, order.data());
+    return detail::give(result, std::move(order));
+}
+// vox_experiment_time, of rounds with `frames` times each
+inline returns<double> time_of(span<const std::uint64_t> frame_ns, std::size_t frames) {
+    double time = 0;
+    vox_result result = VOX_OK;
+    if (frames != 0 && frame_ns.size() % frames != 0)
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "time_of: %llu times are no whole rounds of %llu frames",
+                              frame_ns.size(), frames);
+    if (result == VOX_OK)
+        result = vox_experiment_time(frame_ns.data(), frames == 0 ? 0 : frame_ns.size() / frames, frames, &time);
+    return detail::give(result, time);
+}
+// vox_fit_times
+inline returns<vox_time_fit> fit_times(span<const double> cell_sizes, span<const double> times) {
+    vox_time_fit fit = detail::sized<vox_time_fit>();
+    vox_result result = VOX_OK;
+    if (cell_sizes.size() != times.size())
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "fit_times: %llu cell sizes and %llu times", cell_sizes.size(),
+                              times.size());
+    if (result == VOX_OK) result = vox_fit_times(cell_sizes.data(), times.data(), times.size(), &fit);
+    return detail::give(result, fit);
+}
+// vox_fit_time_at
+inline returns<double> time_at(const vox_time_fit& fit, double cell_size) {
+    double time = 0;
+    const vox_result result = vox_fit_time_at(&fit, cell_size, &time);
+    return detail::give(result, time);
+}
+// vox_fit_zone: its smallest and largest cell size
+inline returns<std::pair<double, double>> zone(const vox_time_fit& fit, double limit) {
+    std::pair<double, double> zone;
+    const vox_result result = vox_fit_zone(&fit, limit, &zone.first, &zone.second);
+    return detail::give(result, zone);
+}
+
+} // namespace sim
+} // namespace VOX_HPP_MODE
+} // namespace vox
+
+#endif
