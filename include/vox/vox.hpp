@@ -3,8 +3,8 @@
 // Every function here stands for the one of vox.h that its comment names, and vox.h says what that does: units, errors,
 // threads, what ends a view. A const member reads, any other changes, as a const vox_grid does. Structs and enumerators
 // are those of vox.h. What is added:
-//   Errors     A call that fails throws vox::error. With -fno-exceptions, or VOX_HPP_NO_EXCEPTIONS defined, it returns a
-//              vox::expected instead: returns<T> below is T or expected<T>. std::vector throws std::bad_alloc as always.
+//   Errors     A call that fails throws vox::error. With -fno-exceptions, or VOX_HPP_NO_EXCEPTIONS defined, it returns
+//              a vox::expected instead: returns<T> below is T or expected<T>. A std::vector throws std::bad_alloc.
 //   Lifetime   Grids and query views are released by their destructors. Temporaries are not borrowed: such calls do
 //              not compile.
 //   Views      A view has ended once its epoch is no longer that of its grid. Without NDEBUG, or with VOX_HPP_CHECKED
@@ -81,23 +81,25 @@ inline namespace VOX_HPP_MODE {
 // ---- spans --------------------------------------------------------------------------------------
 
 #if defined(__cpp_lib_span)
-template <class T> using span = std::span<T>;
+template <class T>
+using span = std::span<T>;
 #else
 // As much of std::span as is needed before C++20.
-template <class T> class span {
+template <class T>
+class span {
 public:
     using element_type = T;
     using value_type = std::remove_cv_t<T>;
     constexpr span() noexcept = default;
     constexpr span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
-    template <std::size_t N> constexpr span(T (&array)[N]) noexcept : data_(array), size_(N) {}
+    template <std::size_t N>
+    constexpr span(T (&array)[N]) noexcept : data_(array), size_(N) {}
     // Anything with data() and size(); a temporary only where the span cannot write, as for std::span.
-    template <class R,
-              class = std::enable_if_t<
-                  !std::is_array_v<std::remove_reference_t<R>> &&
-                  !std::is_same_v<std::remove_cv_t<std::remove_reference_t<R>>, span> &&
-                  (std::is_lvalue_reference_v<R> || std::is_const_v<T>) &&
-                  std::is_convertible_v<std::remove_pointer_t<decltype(std::data(std::declval<R&>()))> (*)[], T (*)[]>>>
+    template <class R, class = std::enable_if_t<
+                           !std::is_array_v<std::remove_reference_t<R>> &&
+                           !std::is_same_v<std::remove_cv_t<std::remove_reference_t<R>>, span> &&
+                           (std::is_lvalue_reference_v<R> || std::is_const_v<T>)&&std::is_convertible_v<
+                               std::remove_pointer_t<decltype(std::data(std::declval<R&>()))> (*)[], T (*)[]>>>
     constexpr span(R&& range) noexcept : data_(std::data(range)), size_(static_cast<std::size_t>(std::size(range))) {}
     constexpr T* data() const noexcept { return data_; }
     constexpr std::size_t size() const noexcept { return size_; }
@@ -121,7 +123,8 @@ public:
     // The failure that this thread's vox_last_error() describes.
     explicit error(vox_result result) noexcept : error(result, vox_last_error()) {}
     error(vox_result result, const char* text) noexcept : result_(result), text_(copy_of(text)) {}
-    error(const error& other) noexcept : std::exception(other), result_(other.result_), text_(copy_of(other.text_.get())) {}
+    error(const error& other) noexcept
+        : std::exception(other), result_(other.result_), text_(copy_of(other.text_.get())) {}
     error& operator=(const error& other) noexcept {
         result_ = other.result_;
         text_ = copy_of(other.text_.get());
@@ -145,7 +148,8 @@ private:
 
 // A value, or the error that there is instead of it; as much of std::expected as is needed. Reading the value of an
 // error prints its text and aborts.
-template <class T> class [[nodiscard]] expected {
+template <class T>
+class [[nodiscard]] expected {
 public:
     expected(T value) : state_(std::in_place_index<1>, std::move(value)) {}
     expected(vox::error error) : state_(std::in_place_index<0>, std::move(error)) {}
@@ -163,7 +167,8 @@ public:
     T value_or(T other) && { return has_value() ? std::move(*found(state_)) : std::move(other); }
 
 private:
-    template <class S> static auto found(S& state) noexcept -> decltype(std::get_if<1>(&state)) {
+    template <class S>
+    static auto found(S& state) noexcept -> decltype(std::get_if<1>(&state)) {
         if (const auto* error = std::get_if<0>(&state)) {
             std::fprintf(stderr, "vox: %s\n", error->what());
             std::abort();
@@ -172,7 +177,8 @@ private:
     }
     std::variant<vox::error, T> state_;
 };
-template <> class [[nodiscard]] expected<void> {
+template <>
+class [[nodiscard]] expected<void> {
 public:
     expected() noexcept = default;
     expected(vox::error error) : error_(std::in_place_index<1>, std::move(error)) {}
@@ -190,9 +196,11 @@ private:
 };
 
 #if VOX_HPP_THROWS
-template <class T> using returns = T;
+template <class T>
+using returns = T;
 #else
-template <class T> using returns = expected<T>;
+template <class T>
+using returns = expected<T>;
 #endif
 
 namespace detail {
@@ -211,7 +219,8 @@ inline returns<void> give(vox_result result) {
 }
 
 // `value` if the call that was to set it has done so.
-template <class T> returns<T> give(vox_result result, T value) {
+template <class T>
+returns<T> give(vox_result result, T value) {
 #if VOX_HPP_THROWS
     if (result != VOX_OK) raise(result);
 #else
@@ -221,7 +230,8 @@ template <class T> returns<T> give(vox_result result, T value) {
 }
 
 // A failure of this header's own, with its numbers.
-template <class... N> vox_result fail(vox_result result, const char* format, N... numbers) {
+template <class... N>
+vox_result fail(vox_result result, const char* format, N... numbers) {
     char text[256];
     std::snprintf(text, sizeof text, format, static_cast<unsigned long long>(numbers)...);
     return vox_fail(result, text);
@@ -231,7 +241,8 @@ template <class... N> vox_result fail(vox_result result, const char* format, N..
 class catcher {
 public:
     // False if `call` threw, now or before; then it is not run again.
-    template <class F> bool run(F&& call) noexcept {
+    template <class F>
+    bool run(F&& call) noexcept {
 #if VOX_HPP_CATCHES
         if (thrown_) return false;
         try {
@@ -258,14 +269,16 @@ private:
 };
 
 // A struct that a function fills.
-template <class T> T sized() noexcept {
+template <class T>
+T sized() noexcept {
     T value{};
     value.struct_size = static_cast<std::uint32_t>(sizeof value);
     return value;
 }
 
 // Room for `guess` of what `call` copies, and more if there is more.
-template <class T, class F> returns<std::vector<T>> collect(std::size_t guess, F&& call) {
+template <class T, class F>
+returns<std::vector<T>> collect(std::size_t guess, F&& call) {
     std::vector<T> found(guess);
     std::uint64_t count = 0;
     vox_result result = call(found.data(), std::uint64_t{found.size()}, &count);
@@ -287,8 +300,8 @@ namespace detail {
 // What the views of a grid look at. It outlives the grid.
 struct watch {
     explicit watch(const vox_grid* watched) noexcept : grid(watched) {}
-    const vox_grid* grid; // null once it was destroyed
-    std::uint64_t prepared = 0; // readings, so many times
+    const vox_grid* grid;                                    // null once it was destroyed
+    std::uint64_t prepared = 0;                              // readings, so many times
     std::vector<std::pair<vox_mesh, std::uint64_t>> rebound; // meshes whose mapped positions ended, so many times
     std::uint64_t rebound_of(vox_mesh mesh) const noexcept {
         for (const auto& [id, times] : rebound)
@@ -330,7 +343,8 @@ public:
             std::snprintf(text, sizeof text, "a view is read whose grid was destroyed");
         } else if (until_ == lasts::mapping) {
             if (watch_->rebound_of(mesh_) == mark_ && vox_mesh_is_valid(watch_->grid, mesh_) == 1) return false;
-            std::snprintf(text, sizeof text, "mapped positions of mesh %u are used that a removal or new positions ended",
+            std::snprintf(text, sizeof text,
+                          "mapped positions of mesh %u are used that a removal or new positions ended",
                           static_cast<unsigned>(mesh_));
         } else if (vox_grid_epoch(watch_->grid, &now) != VOX_OK || now != epoch_) {
             std::snprintf(text, sizeof text,
@@ -376,13 +390,20 @@ private:
 #endif
 };
 
-template <class M> struct as_object { using type = M; };
-template <class M, std::size_t N> struct as_object<M[N]> { using type = std::array<M, N>; };
+template <class M>
+struct as_object {
+    using type = M;
+};
+template <class M, std::size_t N>
+struct as_object<M[N]> {
+    using type = std::array<M, N>;
+};
 
 } // namespace detail
 
 // Elements `byte_stride` apart, which belong to the grid, with the epoch of vox_X_view: a random-access range.
-template <class T> class view : private detail::guard {
+template <class T>
+class view : private detail::guard {
     using byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
 
 public:
@@ -411,8 +432,14 @@ public:
         iterator& operator-=(difference_type n) noexcept { return *this += -n; }
         iterator& operator++() noexcept { return *this += 1; }
         iterator& operator--() noexcept { return *this += -1; }
-        iterator operator++(int) noexcept { iterator old = *this; return ++*this, old; }
-        iterator operator--(int) noexcept { iterator old = *this; return --*this, old; }
+        iterator operator++(int) noexcept {
+            iterator old = *this;
+            return ++*this, old;
+        }
+        iterator operator--(int) noexcept {
+            iterator old = *this;
+            return --*this, old;
+        }
         friend iterator operator+(iterator i, difference_type n) noexcept { return i += n; }
         friend iterator operator+(difference_type n, iterator i) noexcept { return i += n; }
         friend iterator operator-(iterator i, difference_type n) noexcept { return i -= n; }
@@ -457,7 +484,8 @@ public:
     // Copies that stay.
     std::vector<value_type> to_vector() const { return std::vector<value_type>(begin(), end()); }
     // One field of every element, e.g. field(&vox_reading::position), of std::array where the field is an array.
-    template <class M, class S> auto field(M S::*member) const {
+    template <class M, class S>
+    auto field(M S::*member) const {
         static_assert(std::is_same_v<S, value_type>);
         using object = typename detail::as_object<M>::type;
         using result = std::conditional_t<std::is_const_v<T>, const object, object>;
@@ -467,7 +495,8 @@ public:
         return view<result>(first, stride_, size_, epoch_, *this);
     }
     // The same memory as elements of type V, of the same size: view<std::array<float, 3>> as<glm::vec3>().
-    template <class V> auto as() const {
+    template <class V>
+    auto as() const {
         using result = std::conditional_t<std::is_const_v<T>, const V, V>;
         static_assert(sizeof(V) == sizeof(T) && alignof(V) <= alignof(T), "elements of another size or alignment");
         return view<result>(reinterpret_cast<result*>(data()), stride_, size_, epoch_, *this);
@@ -486,7 +515,9 @@ public:
     }
 
 private:
-    T* address(std::size_t i) const noexcept { return reinterpret_cast<T*>(reinterpret_cast<byte*>(data_) + i * stride_); }
+    T* address(std::size_t i) const noexcept {
+        return reinterpret_cast<T*>(reinterpret_cast<byte*>(data_) + i * stride_);
+    }
     T* data_ = nullptr;
     std::size_t stride_ = sizeof(T);
     std::size_t size_ = 0;
@@ -509,11 +540,13 @@ private:
 };
 
 // vox_touch_view and vox_contact_event_view.
-template <class T> class event_view : public view<const T> {
+template <class T>
+class event_view : public view<const T> {
 public:
     event_view() = default;
     event_view(const view<const T>& events, std::uint64_t began, std::uint64_t persisted)
-        : view<const T>(events), began_(static_cast<std::size_t>(began)), persisted_(static_cast<std::size_t>(persisted)) {}
+        : view<const T>(events), began_(static_cast<std::size_t>(began)),
+          persisted_(static_cast<std::size_t>(persisted)) {}
     view<const T> began() const { return this->subview(0, began_); }
     view<const T> persisted() const { return this->subview(began_, persisted_); } // none for single vertices
     view<const T> ended() const { return this->subview(began_ + persisted_, this->size() - began_ - persisted_); }
@@ -524,66 +557,85 @@ private:
 
 // ---- what is passed in --------------------------------------------------------------------------
 
-// What an array's elements are made of: `count` numbers of a type, of which a position uses the first three. Specialise it
-// for a vector type of your own; numbers, arrays, std::array, and vectors like those of Eigen and glm are known.
-template <class E, class = void> struct element {};
-template <class E> struct element<E, std::enable_if_t<std::is_arithmetic_v<E>>> {
+// What an array's elements are made of: `count` numbers of a type, of which a position uses the first three. Specialise
+// it for a vector type of your own; numbers, arrays, std::array, and vectors like those of Eigen and glm are known.
+template <class E, class = void>
+struct element {};
+template <class E>
+struct element<E, std::enable_if_t<std::is_arithmetic_v<E>>> {
     using number = E;
     static constexpr std::size_t count = 1;
 };
-template <class E, std::size_t N> struct element<E[N]> {
+template <class E, std::size_t N>
+struct element<E[N]> {
     using number = std::remove_cv_t<E>;
     static constexpr std::size_t count = N;
 };
-template <class E, std::size_t N> struct element<std::array<E, N>> {
+template <class E, std::size_t N>
+struct element<std::array<E, N>> {
     using number = E;
     static constexpr std::size_t count = N;
 };
-template <class E> struct element<E, std::enable_if_t<(E::SizeAtCompileTime > 1)>> { // Eigen
+template <class E>
+struct element<E, std::enable_if_t<(E::SizeAtCompileTime > 1)>> { // Eigen
     using number = typename E::Scalar;
     static constexpr std::size_t count = static_cast<std::size_t>(E::SizeAtCompileTime);
 };
-template <class E> struct element<E, std::enable_if_t<(E::length() > 1)>> { // glm
+template <class E>
+struct element<E, std::enable_if_t<(E::length() > 1)>> { // glm
     using number = typename E::value_type;
     static constexpr std::size_t count = static_cast<std::size_t>(E::length());
 };
 
 namespace detail {
 
-template <class R> using element_of = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const R&>()))>>;
-template <class R> using number_of = typename element<element_of<R>>::number;
+template <class R>
+using element_of = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const R&>()))>>;
+template <class R>
+using number_of = typename element<element_of<R>>::number;
 
 // A matrix that lies in memory, like Eigen's.
-template <class R, class = void> struct matrix : std::false_type {};
+template <class R, class = void>
+struct matrix : std::false_type {};
 template <class R>
 struct matrix<R, std::void_t<typename R::Scalar, decltype(std::declval<const R&>().rowStride())>> : std::true_type {};
 
-template <class N> inline constexpr bool is_real = std::is_same_v<N, float> || std::is_same_v<N, double>;
-template <class N> inline constexpr bool is_index = std::is_integral_v<N> && sizeof(N) == sizeof(std::uint32_t);
+template <class N>
+inline constexpr bool is_real = std::is_same_v<N, float> || std::is_same_v<N, double>;
+template <class N>
+inline constexpr bool is_index = std::is_integral_v<N> && sizeof(N) == sizeof(std::uint32_t);
 
-template <class R, class = void> struct positions : std::false_type {};
+template <class R, class = void>
+struct positions : std::false_type {};
 template <class R>
 struct positions<R, std::enable_if_t<is_real<number_of<R>> && element<element_of<R>>::count != 2>>
     : std::bool_constant<element<element_of<R>>::count <= 4> {};
-template <class R, class = void> struct corners : std::false_type {};
+template <class R, class = void>
+struct corners : std::false_type {};
 template <class R>
 struct corners<R, std::enable_if_t<is_index<number_of<R>>>>
     : std::bool_constant<element<element_of<R>>::count == 1 || element<element_of<R>>::count == 4> {};
 
-template <class R, class = void> struct has_stride : std::false_type {};
-template <class R> struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
+template <class R, class = void>
+struct has_stride : std::false_type {};
+template <class R>
+struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
 
 // Types that own nothing, so that a temporary may be borrowed.
-template <class R, class = void> struct owns_nothing : std::false_type {};
+template <class R, class = void>
+struct owns_nothing : std::false_type {};
 #if defined(__cpp_lib_ranges)
 template <class R>
 struct owns_nothing<R, std::enable_if_t<std::ranges::enable_borrowed_range<R>>> : std::true_type {};
 #else
-template <class T> struct owns_nothing<span<T>> : std::true_type {};
-template <class T> struct owns_nothing<view<T>> : std::true_type {};
+template <class T>
+struct owns_nothing<span<T>> : std::true_type {};
+template <class T>
+struct owns_nothing<view<T>> : std::true_type {};
 #endif
 template <class R> // an Eigen::Map
-struct owns_nothing<R, std::enable_if_t<matrix<R>::value && !std::is_same_v<R, typename R::PlainObject>>> : std::true_type {};
+struct owns_nothing<R, std::enable_if_t<matrix<R>::value && !std::is_same_v<R, typename R::PlainObject>>>
+    : std::true_type {};
 
 // Numbers that do not fit the shape, told when they are used.
 struct misfit {
@@ -594,12 +646,13 @@ struct misfit {
 
 } // namespace detail
 
-// Positions that a call reads: a contiguous range of numbers (x y z x y z ...), or of elements of three or four numbers, a
-// view, or a matrix of n x 3 or 3 x n (or, where neither is known to the compiler, with 3 columns before 3 rows).
+// Positions that a call reads: a contiguous range of numbers (x y z x y z ...) or of elements of three or four numbers,
+// a view, or a matrix of n x 3 or 3 x n (where the compiler knows neither, three columns go before three rows).
 class points {
 public:
     points() = default;
-    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0> points(const R& range) {
+    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
+    points(const R& range) {
         using number = detail::number_of<R>;
         format = std::is_same_v<number, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
         data = std::data(range);
@@ -612,7 +665,8 @@ public:
                                     across = sizeof(number) * static_cast<std::uint64_t>(range.colStride());
                 const bool in_rows = int(R::ColsAtCompileTime) == 3 || (int(R::RowsAtCompileTime) != 3 && columns == 3);
                 if (!in_rows && rows != 3)
-                    misfit = {"positions: a matrix of %llu x %llu has neither three rows nor three columns", rows, columns};
+                    misfit = {"positions: a matrix of %llu x %llu has neither three rows nor three columns", rows,
+                              columns};
                 count = in_rows ? rows : columns;
                 byte_stride = in_rows ? along : across;
                 component_byte_stride = in_rows ? across : along;
@@ -629,8 +683,10 @@ public:
         } else {
             static_assert(sizeof(detail::element_of<R>) >= 3 * sizeof(number));
             count = size;
-            if constexpr (detail::has_stride<R>::value) byte_stride = range.byte_stride();
-            else byte_stride = sizeof(detail::element_of<R>);
+            if constexpr (detail::has_stride<R>::value)
+                byte_stride = range.byte_stride();
+            else
+                byte_stride = sizeof(detail::element_of<R>);
         }
     }
 
@@ -648,18 +704,20 @@ public:
     borrowed_points() = default;
     template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
     borrowed_points(const R& range) : points(range) {}
-    template <class R,
-              std::enable_if_t<detail::positions<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
+    template <class R, std::enable_if_t<
+                           detail::positions<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
     borrowed_points(const R&& temporary) = delete;
 };
 
-// Corners of tetrahedra that a call reads: a contiguous range of 32-bit integers, or of elements of four, or a matrix in
-// which the four corners of each tetrahedron lie one after the other.
+// Corners of tetrahedra that a call reads: a contiguous range of 32-bit integers, or of elements of four, or a matrix
+// in which the four corners of each tetrahedron lie one after the other.
 class tets {
 public:
     tets() = default;
-    tets(std::initializer_list<std::uint32_t> corners) : tets(span<const std::uint32_t>(corners.begin(), corners.size())) {}
-    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0> tets(const R& range) {
+    tets(std::initializer_list<std::uint32_t> corners)
+        : tets(span<const std::uint32_t>(corners.begin(), corners.size())) {}
+    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0>
+    tets(const R& range) {
         data = reinterpret_cast<const std::uint32_t*>(std::data(range));
         std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
         if constexpr (detail::matrix<R>::value) {
@@ -684,7 +742,8 @@ public:
 class borrowed_tets : public tets {
 public:
     borrowed_tets() = default;
-    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0> borrowed_tets(const R& range) : tets(range) {}
+    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0>
+    borrowed_tets(const R& range) : tets(range) {}
     template <class R,
               std::enable_if_t<detail::corners<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
     borrowed_tets(const R&& temporary) = delete;
@@ -744,9 +803,9 @@ private:
     void* context_;
 };
 
-// vox_task_system in one call: runs `run` over ranges that cover [0, items), of at least min_range items where possible, on
-// any threads, and returns when all have. What it throws makes the call fail and passes through to its caller. The grid
-// keeps it. One that does not wait: vox_grid_desc.tasks.
+// vox_task_system in one call: runs `run` over ranges that cover [0, items), of min_range items or more where possible,
+// on any threads, and returns when all have run. What it throws makes the call fail and passes through to its caller.
+// The grid keeps it. One that does not wait: vox_grid_desc.tasks.
 using parallel_for = std::function<void(std::uint64_t items, std::uint64_t min_range, const task& run)>;
 
 namespace detail {
@@ -809,29 +868,78 @@ inline constexpr std::uint64_t all_meshes = UINT64_MAX; // a mask
 namespace detail {
 
 struct of_grid {
-    template <class... A> static vox_result point(A... a) { return vox_grid_query_point(a...); }
-    template <class... A> static vox_result points(A... a) { return vox_grid_query_points(a...); }
-    template <class... A> static vox_result box(A... a) { return vox_grid_query_box(a...); }
-    template <class... A> static vox_result closest(A... a) { return vox_grid_query_closest(a...); }
-    template <class... A> static vox_result closest_points(A... a) { return vox_grid_query_closest_points(a...); }
-    template <class... A> static vox_result ray(A... a) { return vox_grid_query_ray(a...); }
-    template <class... A> static vox_result ray_hits(A... a) { return vox_grid_query_ray_hits(a...); }
-    template <class... A> static vox_result ray_any(A... a) { return vox_grid_query_ray_any(a...); }
+    template <class... A>
+    static vox_result point(A... a) {
+        return vox_grid_query_point(a...);
+    }
+    template <class... A>
+    static vox_result points(A... a) {
+        return vox_grid_query_points(a...);
+    }
+    template <class... A>
+    static vox_result box(A... a) {
+        return vox_grid_query_box(a...);
+    }
+    template <class... A>
+    static vox_result closest(A... a) {
+        return vox_grid_query_closest(a...);
+    }
+    template <class... A>
+    static vox_result closest_points(A... a) {
+        return vox_grid_query_closest_points(a...);
+    }
+    template <class... A>
+    static vox_result ray(A... a) {
+        return vox_grid_query_ray(a...);
+    }
+    template <class... A>
+    static vox_result ray_hits(A... a) {
+        return vox_grid_query_ray_hits(a...);
+    }
+    template <class... A>
+    static vox_result ray_any(A... a) {
+        return vox_grid_query_ray_any(a...);
+    }
 };
 struct of_query_view {
-    template <class... A> static vox_result point(A... a) { return vox_query_view_point(a...); }
-    template <class... A> static vox_result points(A... a) { return vox_query_view_points(a...); }
-    template <class... A> static vox_result box(A... a) { return vox_query_view_box(a...); }
-    template <class... A> static vox_result closest(A... a) { return vox_query_view_closest(a...); }
-    template <class... A> static vox_result closest_points(A... a) { return vox_query_view_closest_points(a...); }
-    template <class... A> static vox_result ray(A... a) { return vox_query_view_ray(a...); }
-    template <class... A> static vox_result ray_hits(A... a) { return vox_query_view_ray_hits(a...); }
-    template <class... A> static vox_result ray_any(A... a) { return vox_query_view_ray_any(a...); }
+    template <class... A>
+    static vox_result point(A... a) {
+        return vox_query_view_point(a...);
+    }
+    template <class... A>
+    static vox_result points(A... a) {
+        return vox_query_view_points(a...);
+    }
+    template <class... A>
+    static vox_result box(A... a) {
+        return vox_query_view_box(a...);
+    }
+    template <class... A>
+    static vox_result closest(A... a) {
+        return vox_query_view_closest(a...);
+    }
+    template <class... A>
+    static vox_result closest_points(A... a) {
+        return vox_query_view_closest_points(a...);
+    }
+    template <class... A>
+    static vox_result ray(A... a) {
+        return vox_query_view_ray(a...);
+    }
+    template <class... A>
+    static vox_result ray_hits(A... a) {
+        return vox_query_view_ray_hits(a...);
+    }
+    template <class... A>
+    static vox_result ray_any(A... a) {
+        return vox_query_view_ray_any(a...);
+    }
 };
 
 // vox_grid_query_X and vox_query_view_X. Those with several answers return them all, or write the first ones to `out`
 // and return how many there are.
-template <class Self, class Api> class queries {
+template <class Self, class Api>
+class queries {
 public:
     returns<std::vector<vox_point_hit>> query_point(const point& p, std::uint64_t mask = all_meshes) const {
         return collect<vox_point_hit>(8, [&](auto... out) { return Api::point(self(), p.data(), mask, out...); });
@@ -840,13 +948,17 @@ public:
         return write([&](auto... to) { return Api::point(self(), p.data(), mask, to...); }, out);
     }
     returns<std::vector<vox_point_hit>> query_points(const points& p, std::uint64_t mask = all_meshes) const {
-        return collect<vox_point_hit>(static_cast<std::size_t>(p.count), [&](auto... out) { return ask(p, mask, out...); });
+        return collect<vox_point_hit>(static_cast<std::size_t>(p.count),
+                                      [&](auto... out) { return ask(p, mask, out...); });
     }
-    returns<std::uint64_t> query_points(const points& p, span<vox_point_hit> out, std::uint64_t mask = all_meshes) const {
+    returns<std::uint64_t> query_points(const points& p, span<vox_point_hit> out,
+                                        std::uint64_t mask = all_meshes) const {
         return write([&](auto... to) { return ask(p, mask, to...); }, out);
     }
-    returns<std::vector<vox_tet_hit>> query_box(const point& min, const point& max, std::uint64_t mask = all_meshes) const {
-        return collect<vox_tet_hit>(16, [&](auto... out) { return Api::box(self(), min.data(), max.data(), mask, out...); });
+    returns<std::vector<vox_tet_hit>> query_box(const point& min, const point& max,
+                                                std::uint64_t mask = all_meshes) const {
+        return collect<vox_tet_hit>(
+            16, [&](auto... out) { return Api::box(self(), min.data(), max.data(), mask, out...); });
     }
     returns<std::uint64_t> query_box(const point& min, const point& max, span<vox_tet_hit> out,
                                      std::uint64_t mask = all_meshes) const {
@@ -859,10 +971,9 @@ public:
         return give(result, hit);
     }
     // One hit a point.
-    returns<std::vector<vox_closest_hit>> query_closest_points(const points& p,
-                                                               double max_distance = std::numeric_limits<double>::infinity(),
-                                                               std::uint64_t mask = all_meshes,
-                                                               vox_mesh excluded = VOX_NULL_MESH) const {
+    returns<std::vector<vox_closest_hit>>
+    query_closest_points(const points& p, double max_distance = std::numeric_limits<double>::infinity(),
+                         std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
         std::vector<vox_closest_hit> hits(static_cast<std::size_t>(p.count));
         const vox_result result = ask(p, hits.data(), max_distance, mask, excluded);
         return give(result, std::move(hits));
@@ -880,14 +991,16 @@ public:
         const vox_result result = Api::ray(self(), from.data(), to.data(), mask, &hit);
         return give(result, hit);
     }
-    returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to, std::uint64_t mask = all_meshes,
+    returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to,
+                                                       std::uint64_t mask = all_meshes,
                                                        vox_mesh excluded = VOX_NULL_MESH) const {
         return collect<vox_facet_hit>(
             16, [&](auto... out) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, out...); });
     }
     returns<std::uint64_t> query_ray_hits(const point& from, const point& to, span<vox_facet_hit> out,
                                           std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
-        return write([&](auto... at) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, at...); }, out);
+        return write([&](auto... at) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, at...); },
+                     out);
     }
     returns<bool> query_ray_any(const point& from, const point& to, std::uint64_t mask = all_meshes,
                                 vox_mesh excluded = VOX_NULL_MESH) const {
@@ -898,12 +1011,14 @@ public:
 
 private:
     auto self() const noexcept { return static_cast<const Self*>(this)->get(); }
-    template <class F, class T> static returns<std::uint64_t> write(F&& call, span<T> out) {
+    template <class F, class T>
+    static returns<std::uint64_t> write(F&& call, span<T> out) {
         std::uint64_t count = 0;
         const vox_result result = call(out.data(), std::uint64_t{out.size()}, &count);
         return give(result, count);
     }
-    vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room, std::uint64_t* count) const {
+    vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room,
+                   std::uint64_t* count) const {
         vox_result result = p.misfit.result();
         const std::uint64_t number = p.format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
         if (result == VOX_OK && p.component_byte_stride != 0 && p.component_byte_stride != number)
@@ -912,7 +1027,8 @@ private:
         if (result != VOX_OK) return result;
         return Api::points(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
     }
-    vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask, vox_mesh excluded) const {
+    vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask,
+                   vox_mesh excluded) const {
         const vox_result result = p.misfit.result();
         if (result != VOX_OK) return result;
         vox_closest_desc desc = vox_default_closest_desc();
@@ -1017,17 +1133,24 @@ public:
     vox_grid* get() noexcept { return grid_.get(); }
     const vox_grid* get() const noexcept { return grid_.get(); }
 
-    returns<void> clear() { return detail::give(vox_grid_clear(get())); }                        // vox_grid_clear
-    returns<void> reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {               // vox_grid_reserve
+    // vox_grid_clear
+    returns<void> clear() { return detail::give(vox_grid_clear(get())); }
+    // vox_grid_reserve
+    returns<void> reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
         return detail::give(vox_grid_reserve(get(), mesh_count, contact_count));
     }
-    returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); } // the same
-    returns<double> cell_size() const { return value(vox_grid_cell_size); }                      // vox_grid_cell_size
-    returns<void> set_worker_count(std::uint32_t count) {                                        // vox_grid_set_worker_count
+    // vox_grid_set_cell_size
+    returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); }
+    // vox_grid_cell_size
+    returns<double> cell_size() const { return value(vox_grid_cell_size); }
+    // vox_grid_set_worker_count
+    returns<void> set_worker_count(std::uint32_t count) {
         return detail::give(vox_grid_set_worker_count(get(), count));
     }
-    returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); } // the same
-    returns<std::uint32_t> flags() const { return value(vox_grid_get_flags); }                   // vox_grid_get_flags
+    // vox_grid_set_flags
+    returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); }
+    // vox_grid_get_flags
+    returns<std::uint32_t> flags() const { return value(vox_grid_get_flags); }
 
     // -- meshes
 
@@ -1045,17 +1168,22 @@ public:
         const vox_result result = vox_mesh_insert(get(), &desc, &mesh);
         return detail::give(result, mesh);
     }
-    returns<void> remove(vox_mesh mesh) { return detail::give(rebound(mesh, vox_mesh_remove(get(), mesh))); } // vox_mesh_remove
-    bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; } // vox_mesh_is_valid
-    returns<std::vector<vox_mesh>> meshes() const {                                             // vox_grid_meshes
+    // vox_mesh_remove
+    returns<void> remove(vox_mesh mesh) { return detail::give(rebound(mesh, vox_mesh_remove(get(), mesh))); }
+    // vox_mesh_is_valid
+    bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; }
+    // vox_grid_meshes
+    returns<std::vector<vox_mesh>> meshes() const {
         return detail::collect<vox_mesh>(16, [&](auto... out) { return vox_grid_meshes(get(), out...); });
     }
-    returns<vox_mesh_info> info(vox_mesh mesh) const {                                          // vox_mesh_get_info
+    // vox_mesh_get_info
+    returns<vox_mesh_info> info(vox_mesh mesh) const {
         vox_mesh_info info = detail::sized<vox_mesh_info>();
         const vox_result result = vox_mesh_get_info(get(), mesh, &info);
         return detail::give(result, info);
     }
-    returns<std::uint64_t> user_data(vox_mesh mesh) const {                                     // vox_mesh_user_data
+    // vox_mesh_user_data
+    returns<std::uint64_t> user_data(vox_mesh mesh) const {
         std::uint64_t data = 0;
         const vox_result result = vox_mesh_user_data(get(), mesh, &data);
         return detail::give(result, data);
@@ -1068,7 +1196,8 @@ public:
         });
     }
     returns<std::vector<std::uint8_t>> tets_enabled(vox_mesh mesh) const {
-        return detail::collect<std::uint8_t>(0, [&](auto... out) { return vox_mesh_copy_tets(get(), mesh, nullptr, out...); });
+        return detail::collect<std::uint8_t>(
+            0, [&](auto... out) { return vox_mesh_copy_tets(get(), mesh, nullptr, out...); });
     }
     // vox_mesh_bind_strided_positions. Fails unless there are as many as the mesh has vertices.
     returns<void> bind(vox_mesh mesh, const borrowed_points& positions) {
@@ -1076,15 +1205,17 @@ public:
         vox_result result = positions.misfit.result();
         if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
         if (result == VOX_OK && info.vertex_count != positions.count)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "bind: %llu positions for mesh %llu, which has %llu vertices",
-                                  positions.count, mesh, info.vertex_count);
+            result =
+                detail::fail(VOX_ERROR_INVALID_ARGUMENT, "bind: %llu positions for mesh %llu, which has %llu vertices",
+                             positions.count, mesh, info.vertex_count);
         if (result == VOX_OK)
-            result = vox_mesh_bind_strided_positions(get(), mesh, positions.data, positions.format, positions.byte_stride,
-                                                     positions.component_byte_stride);
+            result = vox_mesh_bind_strided_positions(get(), mesh, positions.data, positions.format,
+                                                     positions.byte_stride, positions.component_byte_stride);
         return detail::give(rebound(mesh, result));
     }
     // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
-    template <class T> returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) & {
+    template <class T>
+    returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) & {
         vox_mesh_info info = detail::sized<vox_mesh_info>();
         void* at = nullptr;
         std::uint64_t stride = 0;
@@ -1092,39 +1223,48 @@ public:
         if (result == VOX_OK) result = same_format<T>(mesh, info);
         if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at, &stride);
         if (at != info.positions) (void)rebound(mesh, result);
-        return detail::give(result, view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), static_cast<std::size_t>(stride),
-                                                           static_cast<std::size_t>(info.vertex_count), 0,
-                                                           watching(0, detail::lasts::mapping, mesh)));
+        return detail::give(result,
+                            view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), static_cast<std::size_t>(stride),
+                                                   static_cast<std::size_t>(info.vertex_count), 0,
+                                                   watching(0, detail::lasts::mapping, mesh)));
     }
-    template <class T> returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) && = delete;
+    template <class T>
+    returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) && = delete;
     // vox_mesh_info.positions, to read; UNSUPPORTED for columns.
-    template <class T> returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const& {
+    template <class T>
+    returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const& {
         vox_mesh_info info = detail::sized<vox_mesh_info>();
         vox_result result = vox_mesh_get_info(get(), mesh, &info);
         if (result == VOX_OK) result = same_format<T>(mesh, info);
         if (result == VOX_OK && info.positions && info.position_component_byte_stride != sizeof(T))
-            result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart", mesh,
-                                  info.position_component_byte_stride);
+            result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart",
+                                  mesh, info.position_component_byte_stride);
         const auto* first = static_cast<const std::array<T, 3>*>(info.positions);
         const auto stride = static_cast<std::size_t>(info.position_byte_stride);
-        return detail::give(result, view<const std::array<T, 3>>(
-                                        first, stride, first ? static_cast<std::size_t>(info.vertex_count) : 0, 0,
-                                        watching(0, detail::lasts::mapping, mesh)));
+        return detail::give(
+            result, view<const std::array<T, 3>>(first, stride, first ? static_cast<std::size_t>(info.vertex_count) : 0,
+                                                 0, watching(0, detail::lasts::mapping, mesh)));
     }
-    template <class T> returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const&& = delete;
-    returns<void> mark_moved(vox_mesh mesh) { return detail::give(vox_mesh_mark_moved(get(), mesh)); } // vox_mesh_mark_moved
-    returns<void> set_filter(vox_mesh mesh, const vox_filter& filter) {                         // vox_mesh_set_filter
+    template <class T>
+    returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const&& = delete;
+    // vox_mesh_mark_moved
+    returns<void> mark_moved(vox_mesh mesh) { return detail::give(vox_mesh_mark_moved(get(), mesh)); }
+    // vox_mesh_set_filter
+    returns<void> set_filter(vox_mesh mesh, const vox_filter& filter) {
         return detail::give(vox_mesh_set_filter(get(), mesh, &filter));
     }
-    returns<vox_filter> filter(vox_mesh mesh) const {                                           // vox_mesh_filter
+    // vox_mesh_filter
+    returns<vox_filter> filter(vox_mesh mesh) const {
         vox_filter filter = detail::sized<vox_filter>();
         const vox_result result = vox_mesh_filter(get(), mesh, &filter);
         return detail::give(result, filter);
     }
-    returns<void> set_enabled(vox_mesh mesh, bool enabled) {                                    // vox_mesh_set_enabled
+    // vox_mesh_set_enabled
+    returns<void> set_enabled(vox_mesh mesh, bool enabled) {
         return detail::give(vox_mesh_set_enabled(get(), mesh, enabled));
     }
-    returns<void> set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {                      // vox_grid_set_pair_enabled
+    // vox_grid_set_pair_enabled
+    returns<void> set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
         return detail::give(vox_grid_set_pair_enabled(get(), a, b, enabled));
     }
     // vox_mesh_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
@@ -1144,7 +1284,8 @@ public:
 
     // -- cutting and growing
 
-    returns<void> set_topology(vox_mesh mesh, const vox_mesh_desc& desc) {                      // vox_mesh_set_topology
+    // vox_mesh_set_topology
+    returns<void> set_topology(vox_mesh mesh, const vox_mesh_desc& desc) {
         return detail::give(rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc)));
     }
     returns<void> set_topology(vox_mesh mesh, const borrowed_points& positions, const tets& tets) {
@@ -1157,30 +1298,34 @@ public:
     returns<void> set_tets_enabled(vox_mesh mesh, span<const std::uint32_t> indices, bool enabled) {
         return detail::give(vox_mesh_set_tets_enabled(get(), mesh, indices.data(), indices.size(), enabled));
     }
-    returns<void> replace_tets(vox_mesh mesh, span<const std::uint32_t> indices, const tets& corners) { // vox_mesh_replace_tets
+    // vox_mesh_replace_tets
+    returns<void> replace_tets(vox_mesh mesh, span<const std::uint32_t> indices, const tets& corners) {
         vox_result result = corners.misfit.result();
         if (result == VOX_OK && corners.count != indices.size())
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "replace_tets: %llu tets to replace, by %llu", indices.size(),
-                                  corners.count);
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "replace_tets: %llu tets to replace, by %llu",
+                                  indices.size(), corners.count);
         if (result == VOX_OK) result = vox_mesh_replace_tets(get(), mesh, indices.data(), indices.size(), corners.data);
         return detail::give(result);
     }
-    returns<std::uint32_t> append_tets(vox_mesh mesh, const tets& corners) {                    // vox_mesh_append_tets
+    // vox_mesh_append_tets
+    returns<std::uint32_t> append_tets(vox_mesh mesh, const tets& corners) {
         std::uint32_t first = 0;
         vox_result result = corners.misfit.result();
         if (result == VOX_OK) result = vox_mesh_append_tets(get(), mesh, corners.data, corners.count, &first);
         return detail::give(result, first);
     }
-    returns<void> remove_tets(vox_mesh mesh, span<const std::uint32_t> indices) {               // vox_mesh_remove_tets
+    // vox_mesh_remove_tets
+    returns<void> remove_tets(vox_mesh mesh, span<const std::uint32_t> indices) {
         return detail::give(vox_mesh_remove_tets(get(), mesh, indices.data(), indices.size()));
     }
-    returns<std::uint32_t> append_vertices(vox_mesh mesh, const vox_vertices_desc& desc) {      // vox_mesh_append_vertices
+    // vox_mesh_append_vertices
+    returns<std::uint32_t> append_vertices(vox_mesh mesh, const vox_vertices_desc& desc) {
         std::uint32_t first = 0;
         const vox_result result = rebound(mesh, vox_mesh_append_vertices(get(), mesh, &desc, &first));
         return detail::give(result, first);
     }
-    // The same for `count` vertices. Fails unless the positions are those of all vertices (a mesh that borrows them) or of
-    // the new ones (a mesh with positions of its own), in the format that the mesh has.
+    // The same for `count` vertices. Fails unless the positions are those of all vertices (a mesh that borrows them) or
+    // of the new ones (a mesh with positions of its own), in the format that the mesh has.
     returns<std::uint32_t> append_vertices(vox_mesh mesh, std::uint64_t count, const borrowed_points& positions,
                                            span<const std::uint32_t> copies_of = {}) {
         vox_mesh_info info = detail::sized<vox_mesh_info>();
@@ -1203,39 +1348,51 @@ public:
         if (result != VOX_OK) return detail::give(result, std::uint32_t{0});
         return append_vertices(mesh, desc);
     }
-    returns<void> remove_vertices(vox_mesh mesh, span<const std::uint32_t> vertices) {          // vox_mesh_remove_vertices
+    // vox_mesh_remove_vertices
+    returns<void> remove_vertices(vox_mesh mesh, span<const std::uint32_t> vertices) {
         return detail::give(vox_mesh_remove_vertices(get(), mesh, vertices.data(), vertices.size()));
     }
 
     // -- step and results
 
-    returns<void> step() { return done(vox_grid_step(get())); } // vox_grid_step
-    returns<vox_failure> failure(std::uint32_t index = 0) const { // vox_grid_failure
+    // vox_grid_step
+    returns<void> step() { return done(vox_grid_step(get())); }
+    // vox_grid_failure
+    returns<vox_failure> failure(std::uint32_t index = 0) const {
         vox_failure failure = detail::sized<vox_failure>();
         const vox_result result = vox_grid_failure(get(), index, &failure);
         return detail::give(result, failure);
     }
-    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_contacts); }      // vox_grid_contacts
-    returns<view<const std::uint8_t>> interiors() const& { return read(vox_grid_contact_interiors); } // vox_grid_contact_interiors
-    returns<view<const vox_penetration>> penetrations() const& { return read(vox_grid_penetrations); } // vox_grid_penetrations
-    returns<view<const vox_depth>> depths() const& { return read(vox_grid_depths); }            // vox_grid_depths
-    returns<pair_view> pairs() const& {                                                         // vox_grid_pairs
+    // vox_grid_contacts
+    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_contacts); }
+    // vox_grid_contact_interiors
+    returns<view<const std::uint8_t>> interiors() const& { return read(vox_grid_contact_interiors); }
+    // vox_grid_penetrations
+    returns<view<const vox_penetration>> penetrations() const& { return read(vox_grid_penetrations); }
+    // vox_grid_depths
+    returns<view<const vox_depth>> depths() const& { return read(vox_grid_depths); }
+    // vox_grid_pairs
+    returns<pair_view> pairs() const& {
         vox_pair_view view{};
         const vox_result result = vox_grid_pairs(get(), &view);
         return detail::give(result, pair_view(viewed(view), view.contacts));
     }
-    returns<event_view<vox_touch_event>> touch_events() const& {                                // vox_grid_touch_events
+    // vox_grid_touch_events
+    returns<event_view<vox_touch_event>> touch_events() const& {
         vox_touch_view view{};
         const vox_result result = vox_grid_touch_events(get(), &view);
         return detail::give(result, event_view<vox_touch_event>(viewed(view), view.began, view.persisted));
     }
-    returns<event_view<vox_contact_event>> contact_events() const& {                            // vox_grid_contact_events
+    // vox_grid_contact_events
+    returns<event_view<vox_contact_event>> contact_events() const& {
         vox_contact_event_view view{};
         const vox_result result = vox_grid_contact_events(get(), &view);
         return detail::give(result, event_view<vox_contact_event>(viewed(view), view.began, 0));
     }
-    returns<view<const vox_reading>> readings() const& { return read(vox_grid_readings, detail::lasts::readings); } // vox_grid_readings
-    returns<view<const vox_depth>> reading_depths() const& {                                    // vox_grid_reading_depths
+    // vox_grid_readings
+    returns<view<const vox_reading>> readings() const& { return read(vox_grid_readings, detail::lasts::readings); }
+    // vox_grid_reading_depths
+    returns<view<const vox_depth>> reading_depths() const& {
         return read(vox_grid_reading_depths, detail::lasts::readings);
     }
     // A temporary grid has no results to look at.
@@ -1249,14 +1406,18 @@ public:
     void readings() const&& = delete;
     void reading_depths() const&& = delete;
 
-    returns<std::uint64_t> epoch() const { return value(vox_grid_epoch); }                      // vox_grid_epoch
-    returns<std::uint64_t> hash() const { return value(vox_grid_hash); }                        // vox_grid_hash
+    // vox_grid_epoch
+    returns<std::uint64_t> epoch() const { return value(vox_grid_epoch); }
+    // vox_grid_hash
+    returns<std::uint64_t> hash() const { return value(vox_grid_hash); }
     // vox_mesh_copy_contacts, vox_pair_copy_contacts
     returns<std::vector<vox_contact>> contacts_of(vox_mesh mesh) const {
-        return detail::collect<vox_contact>(16, [&](auto... out) { return vox_mesh_copy_contacts(get(), mesh, out...); });
+        return detail::collect<vox_contact>(16,
+                                            [&](auto... out) { return vox_mesh_copy_contacts(get(), mesh, out...); });
     }
     returns<std::vector<vox_contact>> contacts_of(vox_mesh a, vox_mesh b) const {
-        return detail::collect<vox_contact>(16, [&](auto... out) { return vox_pair_copy_contacts(get(), a, b, out...); });
+        return detail::collect<vox_contact>(16,
+                                            [&](auto... out) { return vox_pair_copy_contacts(get(), a, b, out...); });
     }
     // vox_grid_prepare_readings, vox_grid_prepare_readings_of
     returns<void> prepare_readings() { return prepared(vox_grid_prepare_readings(get())); }
@@ -1265,32 +1426,39 @@ public:
     }
     // vox_mesh_copy_readings, vox_pair_copy_readings
     returns<std::vector<vox_reading>> readings_of(vox_mesh mesh) const {
-        return detail::collect<vox_reading>(16, [&](auto... out) { return vox_mesh_copy_readings(get(), mesh, out...); });
+        return detail::collect<vox_reading>(16,
+                                            [&](auto... out) { return vox_mesh_copy_readings(get(), mesh, out...); });
     }
     returns<std::vector<vox_reading>> readings_of(vox_mesh a, vox_mesh b) const {
-        return detail::collect<vox_reading>(16, [&](auto... out) { return vox_pair_copy_readings(get(), a, b, out...); });
+        return detail::collect<vox_reading>(16,
+                                            [&](auto... out) { return vox_pair_copy_readings(get(), a, b, out...); });
     }
-    returns<std::vector<std::byte>> save() const {                                              // vox_grid_save
+    // vox_grid_save
+    returns<std::vector<std::byte>> save() const {
         std::uint64_t size = 0;
         vox_result result = vox_grid_save(get(), nullptr, 0, &size);
         std::vector<std::byte> bytes(static_cast<std::size_t>(size));
         if (result == VOX_OK) result = vox_grid_save(get(), bytes.data(), bytes.size(), &size);
         return detail::give(result, std::move(bytes));
     }
-    returns<void> prepare_queries() { return done(vox_grid_prepare_queries(get())); }           // vox_grid_prepare_queries
-    returns<query_view> take_query_view() {                                                     // vox_grid_take_query_view
+    // vox_grid_prepare_queries
+    returns<void> prepare_queries() { return done(vox_grid_prepare_queries(get())); }
+    // vox_grid_take_query_view
+    returns<query_view> take_query_view() {
         vox_query_view* raw = nullptr;
         const vox_result result = vox_grid_take_query_view(get(), &raw);
         query_view taken = query_view::adopt(raw);
         rethrow();
         return detail::give(result, std::move(taken));
     }
-    returns<vox_counters> counters() const {                                                    // vox_grid_counters
+    // vox_grid_counters
+    returns<vox_counters> counters() const {
         vox_counters counters = detail::sized<vox_counters>();
         const vox_result result = vox_grid_counters(get(), &counters);
         return detail::give(result, counters);
     }
-    returns<vox_profile> profile() const {                                                      // vox_grid_profile
+    // vox_grid_profile
+    returns<vox_profile> profile() const {
         vox_profile profile = detail::sized<vox_profile>();
         const vox_result result = vox_grid_profile(get(), &profile);
         return detail::give(result, profile);
@@ -1307,7 +1475,8 @@ private:
     grid(vox_grid* raw, bool owned, std::unique_ptr<detail::callbacks> kept = nullptr)
         : grid_(raw, detail::grid_deleter{owned, std::move(kept), detail::watch_of(raw)}) {}
 
-    template <class F> static returns<grid> made(detail::settings&& with, F&& call) {
+    template <class F>
+    static returns<grid> made(detail::settings&& with, F&& call) {
         grid made(nullptr, true, std::move(with.kept));
         vox_grid* raw = nullptr;
         const vox_result result = call(&with.desc, &raw);
@@ -1317,7 +1486,8 @@ private:
 #endif
         return detail::give(result, std::move(made));
     }
-    template <class T> returns<T> value(vox_result (*of)(const vox_grid*, T*)) const {
+    template <class T>
+    returns<T> value(vox_result (*of)(const vox_grid*, T*)) const {
         T found{};
         const vox_result result = of(get(), &found);
         return detail::give(result, found);
@@ -1325,12 +1495,15 @@ private:
     detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_mesh mesh = VOX_NULL_MESH) const {
         return detail::guard(grid_.get_deleter().watching, epoch, until, mesh);
     }
-    template <class V> using view_of = view<std::remove_pointer_t<decltype(V::data)>>;
-    template <class V> view_of<V> viewed(const V& v, detail::lasts until = detail::lasts::step) const {
+    template <class V>
+    using view_of = view<std::remove_pointer_t<decltype(V::data)>>;
+    template <class V>
+    view_of<V> viewed(const V& v, detail::lasts until = detail::lasts::step) const {
         return {v.data, v.byte_stride, static_cast<std::size_t>(v.count), v.epoch, watching(v.epoch, until)};
     }
     template <class V>
-    returns<view_of<V>> read(vox_result (*results)(const vox_grid*, V*), detail::lasts until = detail::lasts::step) const {
+    returns<view_of<V>> read(vox_result (*results)(const vox_grid*, V*),
+                             detail::lasts until = detail::lasts::step) const {
         V v{};
         const vox_result result = results(get(), &v);
         return detail::give(result, viewed(v, until));
@@ -1355,13 +1528,16 @@ private:
 #endif
         return (void)mesh, result;
     }
-    template <class T> static vox_result same_format(vox_mesh mesh, const vox_mesh_info& info) {
+    template <class T>
+    static vox_result same_format(vox_mesh mesh, const vox_mesh_info& info) {
         static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
         if (info.position_format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3)) return VOX_OK;
-        return detail::fail(VOX_ERROR_INVALID_ARGUMENT, "positions of mesh %llu are of format %llu, not numbers of %llu bytes",
-                            mesh, info.position_format, sizeof(T));
+        return detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                            "positions of mesh %llu are of format %llu, not numbers of %llu bytes", mesh,
+                            info.position_format, sizeof(T));
     }
-    returns<vox_mesh> insert_with(std::uint32_t flags, const points& positions, const tets& tets, std::uint64_t user_data) {
+    returns<vox_mesh> insert_with(std::uint32_t flags, const points& positions, const tets& tets,
+                                  std::uint64_t user_data) {
         vox_mesh_desc desc;
         const vox_result result = detail::describe(positions, tets, desc);
         desc.flags = flags;
@@ -1382,7 +1558,8 @@ private:
 class unique_mesh {
 public:
     unique_mesh() noexcept = default;
-    unique_mesh(grid& grid, vox_mesh mesh) : grid_(grid.get()), mesh_(mesh), watching_(grid.grid_.get_deleter().watching) {}
+    unique_mesh(grid& grid, vox_mesh mesh)
+        : grid_(grid.get()), mesh_(mesh), watching_(grid.grid_.get_deleter().watching) {}
     unique_mesh(grid&& grid, vox_mesh mesh) = delete;
     unique_mesh(unique_mesh&& other) noexcept
         : grid_(other.grid_), mesh_(other.release()), watching_(std::move(other.watching_)) {}
@@ -1452,7 +1629,8 @@ inline returns<grouped_contacts> copy_contacts(span<const grid> grids) {
     vox_result result = vox_grids_copy_contacts(raw.data(), raw.size(), nullptr, 0, all.offsets.data());
     if (result == VOX_OK) {
         all.contacts.resize(static_cast<std::size_t>(all.offsets.back()));
-        result = vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(), all.offsets.data());
+        result = vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(),
+                                         all.offsets.data());
     }
     return detail::give(result, std::move(all));
 }
@@ -1493,7 +1671,9 @@ inline returns<vox_cost_weights> cost_weights() {
     const vox_result result = vox_cost_get_weights(&weights);
     return detail::give(result, weights);
 }
-inline returns<void> set_cost_weights(const vox_cost_weights& weights) { return detail::give(vox_cost_set_weights(&weights)); }
+inline returns<void> set_cost_weights(const vox_cost_weights& weights) {
+    return detail::give(vox_cost_set_weights(&weights));
+}
 inline returns<void> set_cost_weights() { return detail::give(vox_cost_set_weights(nullptr)); }
 
 // A vox_cost_bounds with the default zone.
@@ -1539,25 +1719,35 @@ inline returns<double> zone_distance(double n, double n_min, double n_opt, doubl
 }
 
 // The curve of a vox_suggestion or vox_cost_minimum; the terms of a vox_suggestion or vox_cost_prediction.
-template <class S> span<const vox_cost_sample> curve(const S& of) { return {of.curve, of.curve_count}; }
-template <class S> span<const vox_cost_share> terms(const S& of) { return {of.terms, of.term_count}; }
-template <class S> void curve(const S&& temporary) = delete;
-template <class S> void terms(const S&& temporary) = delete;
+template <class S>
+span<const vox_cost_sample> curve(const S& of) {
+    return {of.curve, of.curve_count};
+}
+template <class S>
+span<const vox_cost_share> terms(const S& of) {
+    return {of.terms, of.term_count};
+}
+template <class S>
+void curve(const S&& temporary) = delete;
+template <class S>
+void terms(const S&& temporary) = delete;
 
 // ---- Eigen --------------------------------------------------------------------------------------
 
 #if defined(EIGEN_WORLD_VERSION)
 // The memory of a view as a matrix of a column an element: eigen_map(readings.field(&vox_reading::position)).
-template <class A> auto eigen_map(const view<A>& elements) {
+template <class A>
+auto eigen_map(const view<A>& elements) {
     using E = element<std::remove_const_t<A>>;
     using T = typename E::number;
     constexpr int rows = static_cast<int>(E::count);
     using matrix = Eigen::Matrix<T, rows, Eigen::Dynamic>;
     using mapped = std::conditional_t<std::is_const_v<A>, const matrix, matrix>;
+    using stride = std::conditional_t<rows == 1, Eigen::InnerStride<>, Eigen::OuterStride<>>;
     using pointer = std::conditional_t<std::is_const_v<A>, const T*, T*>;
-    return Eigen::Map<mapped, Eigen::Unaligned, Eigen::OuterStride<>>(
+    return Eigen::Map<mapped, Eigen::Unaligned, stride>(
         reinterpret_cast<pointer>(elements.data()), rows, static_cast<Eigen::Index>(elements.size()),
-        Eigen::OuterStride<>(static_cast<Eigen::Index>(elements.byte_stride() / sizeof(T))));
+        stride(static_cast<Eigen::Index>(elements.byte_stride() / sizeof(T))));
 }
 #endif
 
@@ -1565,8 +1755,10 @@ template <class A> auto eigen_map(const view<A>& elements) {
 } // namespace vox
 
 #if defined(__cpp_lib_ranges)
-template <class T> inline constexpr bool std::ranges::enable_borrowed_range<vox::view<T>> = true;
-template <class T> inline constexpr bool std::ranges::enable_view<vox::view<T>> = true;
+template <class T>
+inline constexpr bool std::ranges::enable_borrowed_range<vox::view<T>> = true;
+template <class T>
+inline constexpr bool std::ranges::enable_view<vox::view<T>> = true;
 #endif
 
 #endif

@@ -34,7 +34,8 @@ public:
     // Takes over a mesh made in C.
     static mesh adopt(vox_io_mesh* raw) noexcept { return mesh(raw); }
     // The mesh that `call` makes in C.
-    template <class F> static returns<mesh> made(F&& call) {
+    template <class F>
+    static returns<mesh> made(F&& call) {
         vox_io_mesh* raw = nullptr;
         const vox_result result = call(&raw);
         return detail::give(result, mesh(raw));
@@ -154,7 +155,8 @@ inline returns<mesh> create(span<const double> positions, const vox::tets& tets,
     arrays.triangle_count = triangles.size() / 3;
     vox_result result = tets.misfit.result();
     if (result == VOX_OK && (positions.size() % 3 != 0 || triangles.size() % 3 != 0))
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "create: %llu numbers of positions and %llu of triangles, not in threes",
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                              "create: %llu numbers of positions and %llu of triangles, not in threes",
                               positions.size(), triangles.size());
     return mesh::made([&](vox_io_mesh** out) { return result == VOX_OK ? vox_io_mesh_create(&arrays, out) : result; });
 }

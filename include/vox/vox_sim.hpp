@@ -51,13 +51,16 @@ public:
     vox::grid& grid() & noexcept { return grid_; }
     const vox::grid& grid() const& noexcept { return grid_; }
     void grid() && = delete;
-    returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); } // vox_sim_step
-    returns<vox_mesh> insert(const vox_sim_body_desc& desc) {                                     // vox_sim_body_insert
+    // vox_sim_step
+    returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); }
+    // vox_sim_body_insert
+    returns<vox_mesh> insert(const vox_sim_body_desc& desc) {
         vox_mesh body = VOX_NULL_MESH;
         const vox_result result = vox_sim_body_insert(get(), &desc, &body);
         return detail::give(result, body);
     }
-    returns<void> remove(vox_mesh body) { return detail::give(vox_sim_body_remove(get(), body)); } // vox_sim_body_remove
+    // vox_sim_body_remove
+    returns<void> remove(vox_mesh body) { return detail::give(vox_sim_body_remove(get(), body)); }
     // vox_sim_body_get. The arrays live until the body is removed; every step writes them.
     returns<vox_sim_body_view> body(vox_mesh body) const& {
         vox_sim_body_view view{};
@@ -78,15 +81,18 @@ public:
                                             velocities.empty() ? nullptr : velocities.data());
         return detail::give(result);
     }
-    returns<void> set_acceleration(vox_mesh body, const point& acceleration) { // vox_sim_body_set_acceleration
+    // vox_sim_body_set_acceleration
+    returns<void> set_acceleration(vox_mesh body, const point& acceleration) {
         return detail::give(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
     }
-    returns<vox_sim_energies> energy(vox_mesh body = VOX_NULL_MESH) const { // vox_sim_energy
+    // vox_sim_energy
+    returns<vox_sim_energies> energy(vox_mesh body = VOX_NULL_MESH) const {
         vox_sim_energies energies = detail::sized<vox_sim_energies>();
         const vox_result result = vox_sim_energy(get(), body, &energies);
         return detail::give(result, energies);
     }
-    returns<vox_sim_counts> counters() const { // vox_sim_counters
+    // vox_sim_counters
+    returns<vox_sim_counts> counters() const {
         vox_sim_counts counts = detail::sized<vox_sim_counts>();
         const vox_result result = vox_sim_counters(get(), &counts);
         return detail::give(result, counts);
@@ -139,8 +145,8 @@ public:
         vox_experiment_sample sample = detail::sized<vox_experiment_sample>();
         vox_result result = vox_experiment_get(get(), &facts);
         if (result == VOX_OK && !frame_ns.empty() && frame_ns.size() < facts.frames)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "measure: room for %llu times, of %llu frames", frame_ns.size(),
-                                  facts.frames);
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "measure: room for %llu times, of %llu frames",
+                                  frame_ns.size(), facts.frames);
         if (result == VOX_OK)
             result = vox_experiment_measure(get(), cell_size, frame_ns.empty() ? nullptr : frame_ns.data(), &sample);
         return detail::give(result, sample);
@@ -176,8 +182,8 @@ inline returns<vox_time_fit> fit_times(span<const double> cell_sizes, span<const
     vox_time_fit fit = detail::sized<vox_time_fit>();
     vox_result result = VOX_OK;
     if (cell_sizes.size() != times.size())
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "fit_times: %llu cell sizes and %llu times", cell_sizes.size(),
-                              times.size());
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "fit_times: %llu cell sizes and %llu times",
+                              cell_sizes.size(), times.size());
     if (result == VOX_OK) result = vox_fit_times(cell_sizes.data(), times.data(), times.size(), &fit);
     return detail::give(result, fit);
 }

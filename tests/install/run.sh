@@ -1,8 +1,8 @@
 #!/bin/sh
-# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC lean|tbb: installs into a scratch prefix and builds the consumers there, by CMake's
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC CXX lean|tbb: installs into a scratch prefix and builds the consumers there, by CMake's
 # components and by pkg-config.
 set -eu
-build=$1 source=$2 cmake=$3 generator=$4 cc=$5 threads=$6
+build=$1 source=$2 cmake=$3 generator=$4 cc=$5 cxx=$6 threads=$7
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -19,14 +19,17 @@ if [ -x "$scratch/prefix/bin/vox" ]; then
     done
 fi
 
-"$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" -DCOMPONENTS="$components" >"$scratch/log" &&
+"$cmake" -S "$scratch" -B "$scratch/build" -G "$generator" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" -DCOMPONENTS="$components" >"$scratch/log" &&
     "$cmake" --build "$scratch/build" >>"$scratch/log" || { cat "$scratch/log"; exit 1; }
 "$scratch/build/consumer"
+"$scratch/build/consumer_cpp"
 
 PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name vox.pc)")
 export PKG_CONFIG_PATH
 "$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
+"$cxx" -std=c++17 "$scratch/consumer_cpp.cpp" $(pkg-config --cflags --libs vox) -o "$scratch/consumer_cpp"
+LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_cpp"
 
 for component in $(echo "$components" | tr ';' ' '); do
     "$scratch/build/consumer_$component"

@@ -1,0 +1,1005 @@
+// vox.hpp beside vox.h: the same values, errors as exceptions with code and text, moves, views that know when they have
+// ended, temporaries that are refused, callables. Compiled twice: checked as C++20, unchecked as C++17.
+#include <Eigen/Geometry>
+
+#include <vox/vox.hpp>
+
+#include "cpp/scene.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+// Compiled without exceptions and unchecked, in a file of its own.
+extern "C" std::uint64_t hash_without_exceptions(vox_grid* grid);
+
+// Vectors as other libraries have them.
+namespace other {
+struct glm_like {
+    using value_type = float;
+    static constexpr int length() { return 3; }
+    float x, y, z;
+};
+struct plain {
+    double x, y, z, w;
+};
+} // namespace other
+template <>
+struct vox::element<other::plain> {
+    using number = double;
+    static constexpr std::size_t count = 4;
+};
+
+namespace {
+
+// The call throws vox::error with this result, and these words in its text, which is that of vox_last_error().
+template <class F>
+void throws(F&& call, vox_result result, const char* words) {
+    try {
+        call();
+    } catch (const vox::error& error) {
+        ck_assert_msg(error.result() == result, "%s: %s", vox_result_string(error.result()), error.what());
+        ck_assert_msg(strstr(error.what(), words) != nullptr, "the text is \"%s\", expected \"%s\"",
+                      error.what(), words);
+        ck_assert_str_eq(error.what(), vox_last_error());
+        return;
+    }
+    ck_abort_msg("nothing was thrown, expected %s", vox_result_string(result));
+}
+
+// Reading the view throws std::logic_error with these words in a checked build, and is not tried in others.
+template <class F>
+void ended([[maybe_unused]] F&& read, [[maybe_unused]] const char* words) {
+#if VOX_HPP_CHECKED
+    try {
+        (void)read();
+    } catch (const std::logic_error& error) {
+        ck_assert_msg(strstr(error.what(), words) != nullptr, "the text is \"%s\", expected \"%s\"",
+                      error.what(), words);
+        return;
+    }
+    ck_abort_msg("nothing was thrown, expected %s", words);
+#endif
+}
+
+// A stepped grid of the scene, by vox.hpp.
+struct Stepped {
+    Scene scene;
+    vox::grid grid;
+    vox_mesh a, b;
+    explicit Stepped(std::uint32_t flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS) {
+        grid.set_flags(flags);
+        a = grid.insert(scene.a, scene.tets, 1);
+        b = grid.insert(scene.b, scene.tets, 2);
+        grid.step();
+    }
+};
+
+// Every element of a view equals that of the same view in C, byte by byte.
+template <class T, class V>
+void same_view(const vox::view<T>& view, const V& c) {
+    ck_assert_uint_eq(view.size(), c.count);
+    ck_assert_uint_eq(view.byte_stride(), c.byte_stride);
+    ck_assert_uint_gt(c.count, 0);
+    const auto* at = reinterpret_cast<const unsigned char*>(c.data);
+    for (const T& element : view) {
+        ck_assert_mem_eq(&element, at, sizeof element);
+        at += c.byte_stride;
+    }
+}
+template <class T>
+void same(const std::vector<T>& found, const std::vector<T>& c) {
+    ck_assert_uint_eq(found.size(), c.size());
+    ck_assert_uint_gt(c.size(), 0);
+    ck_assert_mem_eq(found.data(), c.data(), c.size() * sizeof(T));
+}
+
+template <class T>
+T sized_struct() {
+    T value;
+    memset(&value, 0, sizeof value);
+    value.struct_size = static_cast<std::uint32_t>(sizeof value);
+    return value;
+}
+
+START_TEST(results_equal_those_of_c) {
+    Stepped with;
+    const vox::grid& grid = with.grid;
+    CGrid c(with.scene);
+    ck_ok(vox_grid_step(c.grid));
+    std::uint64_t hash = 0, epoch = 0;
+    ck_ok(vox_grid_hash(c.grid, &hash));
+    ck_assert_uint_eq(grid.hash(), hash);
+    ck_ok(vox_grid_set_flags(c.grid, VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS));
+    ck_ok(vox_grid_epoch(with.grid.get(), &epoch));
+    ck_assert_uint_eq(grid.epoch(), epoch);
+
+    vox_contact_view contacts;
+    vox_interior_view interiors;
+    vox_penetration_view penetrations;
+    vox_depth_view depths;
+    vox_pair_view pairs;
+    vox_touch_view touches;
+    vox_contact_event_view events;
+    ck_ok(vox_grid_contacts(c.grid, &contacts));
+    ck_ok(vox_grid_contact_interiors(c.grid, &interiors));
+    ck_ok(vox_grid_penetrations(c.grid, &penetrations));
+    ck_ok(vox_grid_depths(c.grid, &depths));
+    ck_ok(vox_grid_pairs(c.grid, &pairs));
+    ck_ok(vox_grid_touch_events(c.grid, &touches));
+    ck_ok(vox_grid_contact_events(c.grid, &events));
+    same_view(grid.contacts(), contacts);
+    same_view(grid.interiors(), interiors);
+    same_view(grid.penetrations(), penetrations);
+    same_view(grid.depths(), depths);
+    same_view<const vox_pair>(grid.pairs(), pairs);
+    same_view<const vox_touch_event>(grid.touch_events(), touches);
+    same_view<const vox_contact_event>(grid.contact_events(), events);
+    ck_assert_uint_eq(grid.contacts().epoch(), grid.epoch());
+    ck_assert_uint_eq(grid.touch_events().began().size(), touches.began);
+    ck_assert_uint_eq(grid.touch_events().persisted().size() + grid.touch_events().ended().size(), 0);
+    ck_assert_uint_eq(grid.contact_events().began().size(), events.began);
+    const auto indices = grid.pairs().contacts(grid.pairs()[0]);
+    ck_assert_uint_eq(indices.size(), contacts.count);
+    ck_assert_mem_eq(indices.data(), pairs.contacts, indices.size() * sizeof indices[0]);
+    with.grid.step();
+    ck_assert_uint_eq(grid.touch_events().persisted().size(), 1);
+
+    vox_counters counters = counters_of(c.grid);
+    ck_assert_uint_eq(grid.counters().contacts, counters.contacts);
+    ck_assert_uint_gt(grid.profile().step_ns, 0);
+    ck_assert_uint_eq(grid.failure().mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(grid.flags(), VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS);
+    ck_assert_double_gt(grid.cell_size(), 0);
+
+    std::vector<vox_contact> some(contacts.count);
+    std::uint64_t count = 0;
+    ck_ok(vox_mesh_copy_contacts(c.grid, c.meshes[0], some.data(), some.size(), &count));
+    same(grid.contacts_of(with.a), some);
+    ck_ok(vox_pair_copy_contacts(c.grid, c.meshes[1], c.meshes[0], some.data(), some.size(), &count));
+    same(grid.contacts_of(with.b, with.a), some);
+}
+END_TEST
+
+START_TEST(readings_equal_those_of_c) {
+    Stepped with;
+    CGrid c(with.scene);
+    ck_ok(vox_grid_step(c.grid));
+    throws([&] { (void)with.grid.readings(); }, VOX_ERROR_INVALID_STATE, "readings");
+    ck_ok(vox_grid_prepare_readings(c.grid));
+    with.grid.prepare_readings();
+    vox_reading_view readings;
+    vox_depth_view depths;
+    ck_ok(vox_grid_readings(c.grid, &readings));
+    ck_ok(vox_grid_reading_depths(c.grid, &depths));
+    same_view(with.grid.readings(), readings);
+    same_view(with.grid.reading_depths(), depths);
+    ck_assert_uint_eq(with.grid.readings_of(with.a).size(), readings.count);
+    ck_assert_uint_eq(with.grid.readings_of(with.b, with.a).size(), readings.count);
+    vox_readings_desc desc = vox_default_readings_desc();
+    desc.what = VOX_READING_POSITION;
+    with.grid.prepare_readings(desc);
+    ck_assert_uint_eq(with.grid.readings()[0].known, VOX_READING_POSITION);
+
+    // A field of all readings, as numbers and as a matrix of Eigen in the same memory.
+    const auto positions = with.grid.readings().field(&vox_reading::position);
+    ck_assert_uint_eq(positions.byte_stride(), readings.byte_stride);
+    const auto matrix = vox::eigen_map(positions);
+    ck_assert_int_eq(matrix.cols(), static_cast<Eigen::Index>(readings.count));
+    ck_assert_ptr_eq(matrix.data(), positions.data()->data());
+    const auto contacts = vox::eigen_map(with.grid.readings().field(&vox_reading::contact));
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        ck_assert_double_eq(positions[i][2], readings.data[i].position[2]);
+        ck_assert_double_eq(matrix(1, static_cast<Eigen::Index>(i)), positions[i][1]);
+        ck_assert_uint_eq(contacts(0, static_cast<Eigen::Index>(i)), i);
+    }
+}
+END_TEST
+
+START_TEST(meshes_tell_what_c_tells) {
+    Stepped with;
+    const vox::grid& grid = with.grid;
+    ck_assert(grid.meshes() == std::vector<vox_mesh>({with.a, with.b}));
+    ck_assert(grid.contains(with.a) && !grid.contains(VOX_NULL_MESH));
+    ck_assert_uint_eq(grid.user_data(with.b), 2);
+    vox_mesh_info info = sized_struct<vox_mesh_info>();
+    ck_ok(vox_mesh_get_info(grid.get(), with.a, &info));
+    const vox_mesh_info same_info = grid.info(with.a);
+    ck_assert_mem_eq(&same_info, &info, sizeof info);
+    const auto tets = grid.tets_of(with.a);
+    ck_assert_uint_eq(tets.size(), with.scene.tet_count());
+    ck_assert_mem_eq(tets.data(), with.scene.tets.data(), 4 * tets.size() * sizeof(std::uint32_t));
+    with.grid.set_tets_enabled(with.a, std::vector<std::uint32_t>{3}, false);
+    const auto enabled = grid.tets_enabled(with.a);
+    ck_assert_int_eq(std::accumulate(enabled.begin(), enabled.end(), 0), static_cast<int>(tets.size()) - 1);
+    ck_assert_uint_eq(enabled[3], 0);
+
+    vox_filter filter = vox_default_filter();
+    filter.group = -7;
+    with.grid.set_filter(with.a, filter);
+    ck_assert_int_eq(grid.filter(with.a).group, -7);
+    with.grid.set_enabled(with.b, false);
+    ck_assert_uint_eq(grid.info(with.b).enabled, 0);
+    with.grid.set_enabled(with.b, true);
+    with.grid.step();
+    ck_assert_uint_gt(grid.contacts().size(), 0);
+    with.grid.set_pair_enabled(with.a, with.b, false);
+    with.grid.step();
+    ck_assert(grid.contacts().empty());
+    with.grid.set_pair_enabled(with.a, with.b, true);
+    with.grid.mark_moved(with.a);
+    with.grid.step();
+    ck_assert_uint_eq(grid.counters().moved_meshes, 1);
+    with.grid.set_worker_count(2);
+    with.grid.set_cell_size(0.25);
+    with.grid.reserve(8, 100);
+    with.grid.step();
+    ck_assert_double_eq(grid.cell_size(), 0.25);
+    with.grid.clear();
+    ck_assert(grid.meshes().empty());
+}
+END_TEST
+
+// The scene moved by (0.01, 0.02, 0.03) by each way to write a transform.
+START_TEST(transforms) {
+    Stepped with;
+    const double rows[12] = {1, 0, 0, 0.01, 0, 1, 0, 0.02, 0, 0, 1, 0.03};
+    ck_ok(vox_mesh_set_transform(with.grid.get(), with.a, rows));
+    with.grid.step();
+    const std::uint64_t hash = with.grid.hash();
+    with.grid.clear_transform(with.a);
+    with.grid.step();
+    ck_assert_uint_ne(with.grid.hash(), hash);
+    std::array<double, 12> array;
+    std::copy(rows, rows + 12, array.begin());
+    Eigen::Affine3d affine = Eigen::Affine3d::Identity();
+    affine.translation() << 0.01, 0.02, 0.03;
+    const std::function<void()> ways[] = {[&] { with.grid.set_transform(with.a, rows); },
+                                          [&] { with.grid.set_transform(with.a, array); },
+                                          [&] { with.grid.set_transform(with.a, affine); }};
+    for (const auto& way : ways) {
+        with.grid.clear_transform(with.a);
+        way();
+        with.grid.step();
+        ck_assert_uint_eq(with.grid.hash(), hash);
+    }
+}
+END_TEST
+
+// ---- errors ----
+
+START_TEST(errors_have_code_and_text) {
+    Stepped with;
+    throws(
+        [&] {
+            with.grid.insert(with.scene.a, {0, 1, 2, 900});
+        },
+        VOX_ERROR_INVALID_MESH, "names vertex 900 of 64");
+    throws([&] { with.grid.user_data(VOX_NULL_MESH); }, VOX_ERROR_INVALID_HANDLE, "");
+    throws([&] { with.grid.set_cell_size(-1); }, VOX_ERROR_INVALID_ARGUMENT, "-1");
+    throws([&] { vox::grid::load(std::vector<std::byte>(100)); }, VOX_ERROR_FORMAT, "");
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.worker_count = 1000;
+    throws([&] { vox::grid grid(desc); }, VOX_ERROR_INVALID_ARGUMENT, "1000");
+    with.scene.b[4] = NAN;
+    throws([&] { with.grid.step(); }, VOX_ERROR_NON_FINITE, "nan");
+    ck_assert_uint_eq(with.grid.failure().mesh, with.b);
+    ck_assert_uint_eq(with.grid.failure().vertex, 1);
+
+    // An error is a value: copies keep the text, whatever fails later.
+    try {
+        with.grid.user_data(77);
+        ck_abort_msg("nothing was thrown");
+    } catch (const std::exception& caught) {
+        const vox::error error = static_cast<const vox::error&>(caught);
+        const std::string text = vox_last_error();
+        vox::error assigned(VOX_ERROR_FILE, "another");
+        assigned = error;
+        throws([&] { with.grid.set_cell_size(-1); }, VOX_ERROR_INVALID_ARGUMENT, "");
+        ck_assert_str_eq(error.what(), text.c_str());
+        ck_assert_str_eq(assigned.what(), text.c_str());
+        ck_assert_int_eq(assigned.result(), VOX_ERROR_INVALID_HANDLE);
+    }
+    ck_assert_str_eq(vox::error(VOX_ERROR_BUDGET, "").what(), "VOX_ERROR_BUDGET");
+}
+END_TEST
+
+START_TEST(arrays_of_another_size_are_errors) {
+    Stepped with;
+    std::vector<float> odd(13);
+    const std::vector<std::uint32_t> five = {0, 1, 2, 3, 0}, two = {1, 2};
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> matrix = Eigen::MatrixXd::Zero(5, 7);
+    throws([&] { with.grid.insert(odd); }, VOX_ERROR_INVALID_ARGUMENT,
+           "13 numbers are not three for each vertex");
+    throws([&] { with.grid.insert(with.scene.a, five); }, VOX_ERROR_INVALID_ARGUMENT,
+           "5 indices are not four");
+    throws([&] { with.grid.insert(matrix); }, VOX_ERROR_INVALID_ARGUMENT, "a matrix of 5 x 7 has neither");
+    throws([&] { (void)vox::describe(odd); }, VOX_ERROR_INVALID_ARGUMENT, "13 numbers");
+    throws([&] { with.grid.append_tets(with.a, five); }, VOX_ERROR_INVALID_ARGUMENT, "5 indices");
+    throws(
+        [&] {
+            with.grid.replace_tets(with.a, two, {0, 1, 2, 3});
+        },
+        VOX_ERROR_INVALID_ARGUMENT, "2 tets to replace, by 1");
+    odd.resize(12);
+    throws([&] { with.grid.bind(with.a, odd); }, VOX_ERROR_INVALID_ARGUMENT, "4 positions for mesh");
+    throws([&] { with.grid.bind(with.a, odd); }, VOX_ERROR_INVALID_ARGUMENT, "which has 64 vertices");
+    throws([&] { with.grid.bind(77, odd); }, VOX_ERROR_INVALID_HANDLE, "");
+    throws([&] { with.grid.append_vertices(with.a, 1, odd); }, VOX_ERROR_INVALID_ARGUMENT,
+           "4 positions of format 0");
+    throws([&] { with.grid.map_positions<double>(with.a); }, VOX_ERROR_INVALID_ARGUMENT,
+           "not numbers of 8 bytes");
+    throws([&] { (void)with.grid.positions<double>(with.a); }, VOX_ERROR_INVALID_ARGUMENT,
+           "not numbers of 8 bytes");
+    with.grid.prepare_queries();
+    const Eigen::Matrix<float, Eigen::Dynamic, 3> columns =
+        Eigen::Matrix<float, Eigen::Dynamic, 3>::Zero(4, 3);
+    throws([&] { with.grid.query_points(columns); }, VOX_ERROR_UNSUPPORTED, "16 bytes apart, not 4");
+    ck_assert_uint_eq(with.grid.query_closest_points(columns).size(), 4);
+    std::vector<vox_closest_hit> room(3);
+    throws([&] { with.grid.query_closest_points(columns, room); }, VOX_ERROR_INVALID_ARGUMENT,
+           "room for 3 hits, for 4");
+    with.grid.step(); // and the grid is as it was
+    ck_assert_uint_eq(with.grid.meshes().size(), 2);
+}
+END_TEST
+
+// ---- ownership ----
+
+// Counts what it has handed out.
+struct Counting : std::pmr::memory_resource {
+    std::uint64_t bytes = 0, most = 0;
+    void* do_allocate(std::size_t size, std::size_t alignment) override {
+        if (bytes + size > most) throw std::bad_alloc();
+        bytes += size;
+        return std::pmr::new_delete_resource()->allocate(size, alignment);
+    }
+    void do_deallocate(void* at, std::size_t size, std::size_t alignment) override {
+        bytes -= size;
+        std::pmr::new_delete_resource()->deallocate(at, size, alignment);
+    }
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+START_TEST(grids_move_and_release) {
+    static_assert(!std::is_copy_constructible_v<vox::grid> && !std::is_copy_assignable_v<vox::grid>);
+    static_assert(std::is_nothrow_move_constructible_v<vox::grid> &&
+                  std::is_nothrow_move_assignable_v<vox::grid>);
+    const Scene scene;
+    Counting memory;
+    memory.most = 100 << 20;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.allocator = vox::allocator_of(memory);
+    {
+        vox::grid grid(desc);
+        const vox_mesh a = grid.insert(scene.a, scene.tets);
+        grid.insert(scene.b, scene.tets);
+        grid.step();
+        const auto contacts = grid.contacts();
+        const std::size_t count = contacts.size();
+        ck_assert_uint_gt(memory.bytes, 0);
+        vox::grid moved = std::move(grid);
+        throws([&] { grid.step(); }, VOX_ERROR_INVALID_ARGUMENT,
+               "null"); // NOLINT: what a moved-from grid does
+        throws([&] { (void)grid.contacts(); }, VOX_ERROR_INVALID_ARGUMENT, "null"); // NOLINT
+        ck_assert(!grid.contains(a));                                               // NOLINT
+        ck_assert_uint_eq(std::distance(contacts.begin(), contacts.end()), count);  // the view moved with it
+        vox::grid other(desc);
+        other.insert(scene.a, scene.tets);
+        other = std::move(moved);
+        ck_assert(other.contains(a));
+        ck_assert_uint_eq(contacts[0].mesh_a, a);
+
+        // A view of queries outlives its grid; a copy is another owner.
+        vox::query_view view = other.take_query_view();
+        ck_assert_uint_eq(view.epoch(), other.epoch());
+        vox::query_view copy = view;
+        view = vox::query_view();
+        other = vox::grid();
+        ended([&] { return contacts.size() + contacts[0].tet; }, "grid was destroyed");
+        ck_assert_uint_eq(copy.query_point({0.1, 0.1, 0.1}).size(), 1);
+        ck_assert_uint_eq(copy.user_data(a), 0);
+        ck_assert_uint_gt(memory.bytes, 0);
+    }
+    ck_assert_uint_eq(memory.bytes, 0);
+
+    // A resource without memory gives OUT_OF_MEMORY, as its exception does not cross the library.
+    memory.most = 1 << 20;
+    vox::grid grid(desc);
+    throws(
+        [&] {
+            for (;;) grid.insert_copy(scene.a, scene.tets);
+        },
+        VOX_ERROR_OUT_OF_MEMORY, "");
+}
+END_TEST
+
+START_TEST(meshes_are_removed_by_their_owner) {
+    Stepped with;
+    {
+        vox::unique_mesh mesh(with.grid, with.a);
+        vox::unique_mesh moved = std::move(mesh);
+        ck_assert_uint_eq(mesh.get(), VOX_NULL_MESH); // NOLINT
+        mesh = std::move(moved);
+        ck_assert_uint_eq(mesh.get(), with.a);
+        ck_assert(with.grid.contains(with.a));
+        vox::unique_mesh kept(with.grid, with.b);
+        ck_assert_uint_eq(kept.release(), with.b);
+    }
+    ck_assert(!with.grid.contains(with.a) && with.grid.contains(with.b));
+    // One that was removed already, and one that is assigned over.
+    vox::unique_mesh mesh(with.grid, with.b);
+    with.grid.remove(with.b);
+    mesh = vox::unique_mesh(with.grid, with.grid.insert(with.scene.a));
+    ck_assert_uint_eq(with.grid.meshes().size(), 1);
+    mesh = {};
+    ck_assert(with.grid.meshes().empty());
+#if VOX_HPP_CHECKED
+    { // In a checked build it may outlive its grid.
+        vox::grid grid;
+        mesh = vox::unique_mesh(grid, grid.insert(with.scene.a));
+    }
+    mesh.reset();
+#endif
+}
+END_TEST
+
+START_TEST(grids_of_c_and_back) {
+    const Scene scene;
+    CGrid c(scene);
+    {
+        vox::grid borrowed = vox::grid::borrow(c.grid);
+        borrowed.step();
+        ck_assert_uint_gt(borrowed.contacts().size(), 0);
+        ck_assert_ptr_eq(borrowed.get(), c.grid);
+        ck_ok(vox_grid_step(borrowed.get()));
+        ck_assert_uint_eq(borrowed.epoch(), 2);
+    }
+    ck_assert_uint_eq(hash_of_step(c.grid), hash_without_exceptions(c.grid)); // it is alive
+    vox::grid adopted = vox::grid::adopt(std::exchange(c.grid, nullptr));
+    ck_assert_uint_eq(adopted.meshes().size(), 2);
+    ck_assert_uint_eq(hash_without_exceptions(adopted.get()), adopted.hash());
+}
+END_TEST
+
+// ---- views ----
+
+START_TEST(views_know_when_they_have_ended) {
+    Stepped with;
+    vox::grid& grid = with.grid;
+    const std::function<void()> changes[] = {
+        [&] { grid.step(); }, [&] { ck_ok(vox_grid_step(grid.get())); }, [&] { grid.reserve(9, 99); },
+        [&] { grid.set_flags(grid.flags() ^ VOX_GRID_SKIP_BAD_MESHES); }, [&] { grid.clear(); }};
+    for (const auto& change : changes) {
+        grid.step();
+        const auto contacts = grid.contacts();
+        const auto pairs = grid.pairs();
+        const auto events = grid.touch_events();
+        const auto tets = contacts.field(&vox_contact::tet);
+        auto at = contacts.begin();
+        ck_assert_uint_eq(contacts[0].tet, tets[0]);
+        ck_assert_uint_eq(at->tet, (*at).tet);
+        contacts.check();
+        change();
+        ended([&] { return contacts[0].tet; }, "a step, clear, reserve or other flags ended it");
+        ended([&] { return contacts.begin(); }, "epoch");
+        ended([&] { return contacts.data(); }, "epoch");
+        ended([&] { return contacts.check(), 0; }, "epoch");
+        ended([&] { return at->tet; }, "epoch");
+        ended([&] { return tets[0]; }, "epoch");
+        ended([&] { return contacts.subview(0, 1)[0].tet; }, "epoch");
+        ended([&] { return pairs.contacts(vox_pair{}).size(); }, "epoch");
+        ended([&] { return events.persisted().front().pair; }, "epoch");
+    }
+}
+END_TEST
+
+START_TEST(readings_and_mapped_positions_end_by_themselves) {
+    Stepped with;
+    vox::grid& grid = with.grid;
+    grid.prepare_readings();
+    const auto readings = grid.readings();
+    ck_assert_uint_eq(readings[0].contact, 0);
+    grid.prepare_readings();
+    ended([&] { return readings[0].contact; }, "prepared again");
+    ck_assert_uint_eq(grid.readings()[0].contact, 0);
+
+    auto read = grid.positions<float>(with.a);
+    ck_assert_ptr_eq(read.data()->data(), with.scene.a.data());
+    auto mapped = grid.map_positions<float>(with.a);
+    ended([&] { return read[0][0]; }, "mapped positions of mesh");
+    ck_assert_uint_eq(mapped.size(), with.scene.vertices());
+    const auto again = grid.map_positions<float>(with.a); // the same array
+    const auto other = grid.map_positions<float>(with.b);
+    for (auto& position : mapped) position[0] += 0.125f;
+    ck_assert_float_eq(again[0][0], 0.125f);
+    ck_assert_float_eq(grid.positions<float>(with.a)[0][0], 0.125f);
+    grid.step(); // which ends none of them
+    ck_assert_float_eq(mapped[0][0], 0.125f);
+    grid.bind(with.a, with.scene.a);
+    ended([&] { return mapped[0][0]; }, "new positions ended");
+    ck_assert_float_eq(other[0][0], with.scene.b[0]);
+    grid.remove(with.b);
+    ended([&] { return other[0][0]; }, "a removal or");
+    mapped = grid.map_positions<float>(with.a);
+    grid.append_vertices(with.a, 1, std::vector<std::array<float, 3>>{{{9, 9, 9}}}[0]);
+    ended([&] { return mapped[0][0]; }, "new positions ended");
+    mapped = grid.map_positions<float>(with.a);
+    ck_assert_float_eq(mapped.back()[2], 9);
+    grid.clear();
+    ended([&] { return mapped[0][0]; }, "mapped positions");
+}
+END_TEST
+
+START_TEST(views_are_ranges) {
+    Stepped with;
+    const auto contacts = with.grid.contacts();
+    const std::vector<vox_contact> copy = contacts.to_vector();
+    ck_assert_uint_eq(copy.size(), contacts.size());
+    const auto one =
+        std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return c.mesh_a == with.b; });
+    ck_assert(one != contacts.end() && one->mesh_b == with.a);
+    ck_assert_int_eq(std::count_if(contacts.begin(), one, [&](const auto& c) { return c.mesh_a != with.a; }),
+                     0);
+    ck_assert_ptr_eq(&contacts.back(), &contacts.begin()[static_cast<std::ptrdiff_t>(contacts.size()) - 1]);
+    ck_assert_int_eq(contacts.end() - contacts.begin(), static_cast<std::ptrdiff_t>(contacts.size()));
+    ck_assert(contacts.begin() < contacts.end() && contacts.end() - 1 >= contacts.begin());
+#if defined(__cpp_lib_ranges)
+    static_assert(std::ranges::random_access_range<vox::view<const vox_contact>>);
+    static_assert(std::ranges::view<vox::view<const vox_contact>> &&
+                  std::ranges::borrowed_range<vox::view<const vox_contact>>);
+#endif
+#if !VOX_HPP_CHECKED
+    static_assert(sizeof(vox::view<const vox_contact>) == sizeof(vox_contact_view)); // and nothing is asked
+    static_assert(sizeof(vox::view<const vox_contact>::iterator) == 2 * sizeof(void*));
+#else
+    ended([&] { return contacts[contacts.size()].tet; }, "of a view of");
+#endif
+    // By the stride alone: every second number.
+    const float numbers[] = {1, -1, 2, -2, 3, -3};
+    const vox::view<const float> odd(numbers, 2 * sizeof(float), 3);
+    ck_assert_float_eq(std::accumulate(odd.begin(), odd.end(), 0.0f), 6);
+    const vox::view<const std::array<float, 3>> triples(
+        reinterpret_cast<const std::array<float, 3>*>(numbers), 12, 2);
+    ck_assert_float_eq(triples.as<other::glm_like>()[1].z, -3);
+    const vox::view<const vox_contact> none;
+    ck_assert(none.empty() && none.begin() == none.end() &&
+              none.field(&vox_contact::barycentric).to_vector().empty());
+}
+END_TEST
+
+// ---- what is passed in ----
+
+template <class P, class = void>
+struct can_insert : std::false_type {};
+template <class P>
+struct can_insert<P, std::void_t<decltype(std::declval<vox::grid&>().insert(std::declval<P>()))>>
+    : std::true_type {};
+template <class P, class = void>
+struct can_copy : std::false_type {};
+template <class P>
+struct can_copy<P, std::void_t<decltype(std::declval<vox::grid&>().insert_copy(std::declval<P>()))>>
+    : std::true_type {};
+template <class G, class = void>
+struct can_look : std::false_type {};
+template <class G>
+struct can_look<G, std::void_t<decltype(*std::declval<G>().contacts().begin())>> : std::true_type {};
+
+START_TEST(temporaries_are_not_borrowed) {
+    using floats = std::vector<float>;
+    using triples = std::vector<std::array<double, 3>>;
+    static_assert(can_insert<floats&>::value && can_insert<const floats&>::value &&
+                  can_insert<triples&>::value);
+    static_assert(!can_insert<floats>::value && !can_insert<const floats>::value &&
+                  !can_insert<triples>::value);
+    static_assert(!can_insert<Eigen::MatrixX3d>::value && can_insert<Eigen::MatrixX3d&>::value);
+    static_assert(can_insert<vox::span<const float>>::value &&
+                  can_insert<Eigen::Map<const Eigen::MatrixX3d>>::value);
+    static_assert(can_insert<vox::view<const std::array<float, 3>>>::value);
+    static_assert(can_copy<floats>::value && can_copy<triples>::value);
+    static_assert(std::is_constructible_v<vox::borrowed_tets, std::vector<int>&>);
+    static_assert(!std::is_constructible_v<vox::borrowed_tets, std::vector<int>>);
+    static_assert(!std::is_constructible_v<vox::borrowed_points, floats>);
+    // What is no array of positions at all.
+    static_assert(!can_insert<std::vector<int>&>::value && !can_insert<std::vector<floats>&>::value);
+    static_assert(!can_insert<std::vector<std::array<float, 2>>&>::value && !can_insert<std::string&>::value);
+    static_assert(!std::is_constructible_v<vox::tets, std::vector<std::uint64_t>&>);
+    static_assert(!std::is_constructible_v<vox::tets, std::vector<std::array<int, 3>>&>);
+    // Results of a temporary grid.
+    static_assert(can_look<vox::grid&>::value && can_look<const vox::grid&>::value &&
+                  !can_look<vox::grid>::value);
+    static_assert(!std::is_constructible_v<vox::unique_mesh, vox::grid, vox_mesh>);
+}
+END_TEST
+
+// Inserts the scene with `a` given as `positions`; the hash of a step.
+template <class P, class T>
+std::uint64_t hash_with(const Scene& scene, const P& positions, const T& tets) {
+    vox::grid grid;
+    grid.insert(positions, tets);
+    grid.insert(scene.b, scene.tets);
+    grid.step();
+    return grid.hash();
+}
+
+START_TEST(arrays_of_all_kinds) {
+    const Scene scene;
+    const std::size_t n = scene.vertices();
+    const std::uint64_t hash = hash_with(scene, scene.a, scene.tets);
+    const auto number = [&](std::size_t v, std::size_t c) { return scene.a[3 * v + c]; };
+    std::vector<std::array<float, 3>> arrays(n);
+    std::vector<std::array<float, 4>> padded(n);
+    std::vector<other::glm_like> glm(n);
+    std::vector<other::plain> plain(n);
+    std::vector<Eigen::Vector3f> vectors(n);
+    std::vector<double> doubles(scene.a.begin(), scene.a.end());
+    const auto rows = static_cast<Eigen::Index>(n);
+    Eigen::Matrix<float, Eigen::Dynamic, 3> by_column(rows, 3);
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> by_row(rows, 3);
+    Eigen::MatrixXf unknown(rows, 3);
+    for (std::size_t v = 0; v < n; ++v) {
+        arrays[v] = {number(v, 0), number(v, 1), number(v, 2)};
+        padded[v] = {number(v, 0), number(v, 1), number(v, 2), 99};
+        glm[v] = {number(v, 0), number(v, 1), number(v, 2)};
+        plain[v] = {number(v, 0), number(v, 1), number(v, 2), 99};
+        vectors[v] = {number(v, 0), number(v, 1), number(v, 2)};
+        for (Eigen::Index c = 0; c < 3; ++c) {
+            const auto at = static_cast<Eigen::Index>(v);
+            by_column(at, c) = unknown(at, c) = number(v, static_cast<std::size_t>(c));
+            by_row(at, c) = static_cast<double>(number(v, static_cast<std::size_t>(c)));
+        }
+    }
+    const Eigen::Matrix<float, 3, Eigen::Dynamic> wide = by_column.transpose();
+    const Eigen::VectorXf flat = Eigen::Map<const Eigen::VectorXf>(scene.a.data(), 3 * rows);
+    ck_assert_uint_eq(hash_with(scene, arrays, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, padded, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, glm, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, plain, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, vectors, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, doubles, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, by_column, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, by_row, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, unknown, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, wide, scene.tets), hash);
+    ck_assert_uint_eq(hash_with(scene, flat, scene.tets), hash);
+    const float(&raw)[64][3] = *reinterpret_cast<const float(*)[64][3]>(scene.a.data());
+    ck_assert_uint_eq(n, 64);
+    ck_assert_uint_eq(hash_with(scene, raw, scene.tets), hash);
+
+    std::vector<int> ints(scene.tets.begin(), scene.tets.end());
+    std::vector<std::array<std::uint32_t, 4>> fours(scene.tet_count());
+    Eigen::Matrix<int, Eigen::Dynamic, 4, Eigen::RowMajor> corners(static_cast<Eigen::Index>(fours.size()),
+                                                                   4);
+    for (std::size_t i = 0; i < scene.tets.size(); ++i) {
+        fours[i / 4][i % 4] = scene.tets[i];
+        corners(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = ints[i];
+    }
+    ck_assert_uint_eq(hash_with(scene, scene.a, ints), hash);
+    ck_assert_uint_eq(hash_with(scene, scene.a, fours), hash);
+    ck_assert_uint_eq(hash_with(scene, scene.a, corners), hash);
+    const Eigen::Matrix<int, Eigen::Dynamic, 4> turned = corners;
+    throws([&] { hash_with(scene, scene.a, turned); }, VOX_ERROR_INVALID_ARGUMENT,
+           "do not lie one after the other");
+
+    // Positions of one mesh bound to another; then a body that is copied, and one that is described.
+    vox::grid grid;
+    const vox_mesh first = grid.insert_copy(std::vector<float>(scene.a), scene.tets);
+    const vox_mesh second = grid.insert(scene.b, scene.tets);
+    grid.step();
+    ck_assert_uint_eq(grid.hash(), hash);
+    grid.bind(second, grid.positions<float>(first));
+    grid.bind(second, doubles);
+    grid.bind(second, scene.b);
+    vox_mesh_desc desc = vox::describe(scene.a, scene.tets);
+    desc.flags = VOX_MESH_BORROW_TETS;
+    desc.user_data = 5;
+    ck_assert_uint_eq(grid.user_data(grid.insert(desc)), 5);
+}
+END_TEST
+
+// ---- callables ----
+
+START_TEST(logs_are_callables) {
+    Counting none; // without memory
+    std::string text;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = VOX_ENGINE_REFERENCE;
+    const Scene scene;
+    {
+        vox::grid grid(desc, [&](vox_log_level, const char* line) { text += line; });
+        grid.insert(scene.a);
+        ck_assert_msg(text.find("no tetrahedra") != std::string::npos || !text.empty(), "the log is \"%s\"",
+                      text.c_str());
+        text.clear();
+        vox::grid moved = std::move(grid); // the callable stays where it is
+        moved.insert(scene.b, scene.tets);
+        moved.step();
+        ck_assert_msg(text.find("cell size") != std::string::npos, "the log is \"%s\"", text.c_str());
+    }
+    int lines = 0;
+    vox::grid grid(desc, [&](vox_log_level, const char*) {
+        ++lines;
+        throw std::runtime_error("no room");
+    });
+    grid.insert(scene.b, scene.tets);
+    grid.step(); // which the log cannot fail
+    ck_assert_int_gt(lines, 0);
+}
+END_TEST
+
+START_TEST(task_systems_are_callables) {
+    const Scene scene(20);
+    bool fails = false;
+    int tasks = 0;
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.worker_count = 2;
+    vox::grid grid(desc, {}, [&](std::uint64_t items, std::uint64_t, const vox::task& run) {
+        ++tasks;
+        if (fails) throw std::runtime_error("no threads");
+        run(0, items / 2, 0);
+        run(items / 2, items, 1);
+    });
+    grid.insert(scene.a, scene.tets);
+    grid.insert(scene.b, scene.tets);
+    grid.step();
+    ck_assert_int_gt(tasks, 0);
+    const std::uint64_t hash = grid.hash();
+    fails = true;
+    const std::function<void()> calls[] = {[&] { grid.step(); }, [&] { grid.prepare_queries(); },
+                                           [&] { (void)grid.take_query_view(); }};
+    for (const auto& call : calls) {
+        try {
+            call();
+            ck_abort_msg("nothing was thrown");
+        } catch (const std::runtime_error& error) {
+            ck_assert_str_eq(error.what(), "no threads");
+        }
+    }
+    fails = false;
+    grid.step();
+    ck_assert_uint_eq(grid.hash(), hash);
+}
+END_TEST
+
+START_TEST(cost_functions_are_callables) {
+    const vox_cost_bounds bounds = vox::cost_bounds(0.125, 8);
+    const auto cost = [](double d) { return d + 1 / d; };
+    vox_cost_minimum expected = sized_struct<vox_cost_minimum>();
+    ck_ok(vox_cost_minimise([](double d, void*) { return d + 1 / d; }, nullptr, &bounds, &expected));
+    const vox_cost_minimum minimum = vox::minimise(cost, bounds);
+    ck_assert_mem_eq(&minimum, &expected, sizeof minimum);
+    ck_assert_uint_eq(vox::curve(minimum).size(), minimum.curve_count);
+    const vox_cost_term terms[] = {{1, 1}, {1, -1}};
+    ck_assert_double_eq_tol(vox::minimise(terms, bounds).cell_size, minimum.cell_size, 1e-6);
+    int calls = 0;
+    try {
+        vox::minimise(
+            [&](double) -> double {
+                ++calls;
+                throw std::out_of_range("no cost");
+            },
+            bounds);
+        ck_abort_msg("nothing was thrown");
+    } catch (const std::out_of_range& error) {
+        ck_assert_str_eq(error.what(), "no cost");
+        ck_assert_int_eq(calls, 1); // it is not called again
+    }
+    throws([&] { vox::minimise(cost, vox::cost_bounds(2, 1)); }, VOX_ERROR_INVALID_ARGUMENT, "");
+    double epsilon = 0;
+    ck_ok(vox_zone_distance(3, 2, 4, 8, &epsilon));
+    ck_assert_double_eq(vox::zone_distance(3, 2, 4, 8), epsilon);
+}
+END_TEST
+
+// ---- queries, cutting, cell sizes, snapshots, many grids ----
+
+// Every query of a grid or a view of it equals that of the grid in C.
+template <class Q>
+void queries_equal(const Q& asked, const Scene& scene, const vox_grid* c) {
+    const double p[3] = {0.45, 0.4, 0.3}, q[3] = {3, 2, 1};
+    const std::array<double, 3> point = {0.45, 0.4, 0.3};
+    std::uint64_t count = 0;
+    std::vector<vox_point_hit> points(1000);
+    ck_ok(vox_grid_query_point(c, p, vox::all_meshes, points.data(), points.size(), &count));
+    points.resize(count);
+    same(asked.query_point(point), points);
+    std::vector<vox_point_hit> first(1);
+    ck_assert_uint_eq(asked.query_point(p, first), count);
+    ck_assert_mem_eq(first.data(), points.data(), sizeof first[0]);
+    points.resize(10000);
+    ck_ok(vox_grid_query_points(c, scene.a.data(), VOX_FORMAT_FLOAT3, 0, scene.vertices(), vox::all_meshes,
+                                points.data(), points.size(), &count));
+    points.resize(count);
+    same(asked.query_points(scene.a), points);
+    ck_assert_uint_eq(asked.query_points(scene.a, first), count);
+    std::vector<vox_tet_hit> tets(10000), one(1);
+    ck_ok(vox_grid_query_box(c, p, q, vox::all_meshes, tets.data(), tets.size(), &count));
+    tets.resize(count);
+    same(asked.query_box(p, q), tets);
+    ck_assert_uint_eq(asked.query_box(p, q, one), count);
+    vox_surface_hit surface;
+    ck_ok(vox_grid_query_closest(c, q, 100, vox::all_meshes, &surface));
+    const vox_surface_hit same_surface = asked.query_closest({3, 2, 1}, 100);
+    ck_assert_mem_eq(&same_surface, &surface, sizeof surface);
+    vox_closest_desc desc = vox_default_closest_desc();
+    desc.points = scene.a.data();
+    desc.point_count = scene.vertices();
+    std::vector<vox_closest_hit> closest(scene.vertices()), written(scene.vertices());
+    ck_ok(vox_grid_query_closest_points(c, &desc, closest.data()));
+    same(asked.query_closest_points(scene.a), closest);
+    asked.query_closest_points(scene.a, written);
+    same(written, closest);
+    vox_ray_hit ray;
+    ck_ok(vox_grid_query_ray(c, q, p, vox::all_meshes, &ray));
+    const vox_ray_hit same_ray = asked.query_ray(q, p);
+    ck_assert_mem_eq(&same_ray, &ray, sizeof ray);
+    std::vector<vox_facet_hit> facets(1000), facet(1);
+    ck_ok(vox_grid_query_ray_hits(c, q, p, vox::all_meshes, VOX_NULL_MESH, facets.data(), facets.size(),
+                                  &count));
+    facets.resize(count);
+    same(asked.query_ray_hits(q, p), facets);
+    ck_assert_uint_eq(asked.query_ray_hits(q, p, facet), count);
+    ck_assert(asked.query_ray_any(q, p) && !asked.query_ray_any(q, {4, 4, 4}));
+    ck_assert(!asked.query_ray_any(q, p, 0));
+    throws([&] { (void)asked.query_point({NAN, 0, 0}); }, VOX_ERROR_NON_FINITE, "nan");
+}
+
+START_TEST(queries_equal_those_of_c) {
+    Stepped with;
+    CGrid c(with.scene);
+    ck_ok(vox_grid_prepare_queries(c.grid));
+    throws([&] { (void)with.grid.query_point({0, 0, 0}); }, VOX_ERROR_INVALID_STATE, "");
+    with.grid.prepare_queries();
+    queries_equal(with.grid, with.scene, c.grid);
+    queries_equal(with.grid.take_query_view(), with.scene, c.grid);
+}
+END_TEST
+
+START_TEST(meshes_are_cut_as_in_c) {
+    Stepped with;
+    CGrid c(with.scene);
+    vox_grid* raw = c.grid;
+    const std::vector<std::uint32_t> some = {3, 9};
+    const std::uint32_t corners[] = {0, 1, 2, 64};
+    std::vector<float> grown = with.scene.a;
+    grown.insert(grown.end(), {0.6f, 0.5f, 0.4f});
+    vox_vertices_desc vertices = vox_default_vertices_desc();
+    vertices.count = 1;
+    vertices.positions = grown.data();
+    std::uint32_t first = 0, first_tet = 0;
+    ck_ok(vox_mesh_set_tets_enabled(raw, c.meshes[0], some.data(), 2, 0));
+    ck_ok(vox_mesh_append_vertices(raw, c.meshes[0], &vertices, &first));
+    ck_ok(vox_mesh_append_tets(raw, c.meshes[0], corners, 1, &first_tet));
+    ck_ok(vox_mesh_replace_tets(raw, c.meshes[0], some.data(), 1, corners));
+    ck_ok(vox_mesh_remove_tets(raw, c.meshes[0], some.data() + 1, 1));
+    with.grid.set_tets_enabled(with.a, some, false);
+    ck_assert_uint_eq(with.grid.append_vertices(with.a, 1, grown), first);
+    ck_assert_uint_eq(with.grid.append_tets(with.a, {0, 1, 2, 64}), first_tet);
+    with.grid.replace_tets(with.a, vox::span<const std::uint32_t>(some.data(), 1), corners);
+    with.grid.remove_tets(with.a, vox::span<const std::uint32_t>(some.data() + 1, 1));
+    with.grid.step();
+    ck_assert_uint_eq(with.grid.hash(), hash_of_step(raw));
+
+    // A copy of a vertex of a mesh with its own positions; then that vertex goes, and everything.
+    const vox_mesh own = with.grid.insert_copy(with.scene.b, with.scene.tets);
+    const std::vector<std::uint32_t> source = {5}, added = {64};
+    const std::vector<float> at = {1, 2, 3};
+    ck_assert_uint_eq(with.grid.append_vertices(own, 1, at, source), 64);
+    ck_assert_float_eq(with.grid.positions<float>(own)[64][1], 2);
+    with.grid.remove_vertices(own, added);
+    throws([&] { with.grid.remove_vertices(own, added); }, VOX_ERROR_INVALID_ARGUMENT, "64");
+    with.grid.set_topology(own, with.scene.a, with.scene.tets);
+    ck_assert_uint_eq(with.grid.info(own).vertex_count, 64);
+    vox_mesh_desc desc = vox::describe(with.scene.b);
+    with.grid.set_topology(own, desc);
+    ck_assert_uint_eq(with.grid.info(own).tet_count, 0);
+}
+END_TEST
+
+START_TEST(cell_sizes_equal_those_of_c) {
+    Stepped with;
+    const std::vector<vox_mesh_desc> meshes = {vox::describe(with.scene.a, with.scene.tets),
+                                               vox::describe(with.scene.b, with.scene.tets)};
+    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_suggestion expected = sized_struct<vox_suggestion>();
+    ck_ok(vox_suggest_cell_size(nullptr, meshes.data(), 2, &expected));
+    const vox_suggestion suggestion = vox::suggest_cell_size(meshes);
+    ck_assert_mem_eq(&suggestion, &expected, sizeof expected);
+    ck_assert_uint_eq(vox::curve(suggestion).size(), expected.curve_count);
+    ck_assert_uint_eq(vox::terms(suggestion).size(), expected.term_count);
+    ck_ok(vox_grid_suggest_cell_size(with.grid.get(), nullptr, &expected));
+    ck_assert_double_eq(with.grid.suggest_cell_size().cell_size, expected.cell_size);
+    ck_assert_int_eq(with.grid.suggest_cell_size().model, VOX_COST_MODEL_FAST);
+    desc.model = VOX_COST_MODEL_REFERENCE;
+    ck_assert_int_eq(with.grid.suggest_cell_size(desc).model, VOX_COST_MODEL_REFERENCE);
+    vox_cost_prediction prediction = sized_struct<vox_cost_prediction>();
+    ck_ok(vox_cost_predict(&desc, meshes.data(), 2, 0.3, &prediction));
+    ck_assert_double_eq(vox::predict_cost(meshes, 0.3, desc).cost, prediction.cost);
+    throws([&] { (void)vox::suggest_cell_size({}); }, VOX_ERROR_INVALID_ARGUMENT, "");
+
+    const vox_cost_weights shipped = vox::cost_weights();
+    vox_cost_weights weights = shipped;
+    weights.fast_visit_tile *= 2;
+    vox::set_cost_weights(weights);
+    ck_assert_double_eq(vox::cost_weights().fast_visit_tile, weights.fast_visit_tile);
+    ck_assert_uint_eq(vox::calibrate().measured, 1);
+    vox::set_cost_weights();
+    ck_assert_double_eq(vox::cost_weights().fast_visit_tile, shipped.fast_visit_tile);
+}
+END_TEST
+
+START_TEST(snapshots_hold_the_grid) {
+    Stepped with;
+    const std::vector<std::byte> bytes = with.grid.save();
+    vox::grid loaded = vox::grid::load(bytes);
+    ck_assert(loaded.meshes() == with.grid.meshes());
+    loaded.step();
+    ck_assert_uint_eq(loaded.hash(), with.grid.hash());
+    const auto positions = loaded.positions<float>(with.a);
+    ck_assert_mem_eq(positions.data(), with.scene.a.data(), with.scene.a.size() * sizeof(float));
+}
+END_TEST
+
+START_TEST(many_grids_in_one_call) {
+    const Scene scene;
+    std::vector<vox::grid> grids(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        grids[i].insert(scene.a, scene.tets);
+        if (i != 1) grids[i].insert(scene.b, scene.tets);
+    }
+    std::vector<vox_result> results(3, VOX_ERROR_INTERNAL);
+    vox::step(grids, 1, results);
+    ck_assert(results == std::vector<vox_result>(3, VOX_OK));
+    const vox::grouped_contacts all = vox::copy_contacts(grids);
+    ck_assert_uint_eq(all.offsets.size(), 4);
+    ck_assert_uint_eq(all.of(1).size(), 0);
+    ck_assert_uint_eq(all.of(0).size(), grids[0].contacts().size());
+    ck_assert_mem_eq(all.of(2).data(), grids[2].contacts().data(), all.of(2).size() * sizeof(vox_contact));
+    int tasks = 0;
+    vox::step(grids, 2, {}, [&](std::uint64_t items, std::uint64_t, const vox::task& run) {
+        ++tasks;
+        run(0, items, 0);
+    });
+    ck_assert_int_gt(tasks, 0);
+    try {
+        vox::step(grids, 2, {},
+                  [](std::uint64_t, std::uint64_t, const vox::task&) { throw std::runtime_error("stop"); });
+        ck_abort_msg("nothing was thrown");
+    } catch (const std::runtime_error& error) {
+        ck_assert_str_eq(error.what(), "stop");
+    }
+    throws([&] { vox::step(grids, 1, vox::span<vox_result>(results.data(), 2)); }, VOX_ERROR_INVALID_ARGUMENT,
+           "room for 2 results, of 3");
+    const std::vector<float> bad = {NAN, 0, 0};
+    grids[1].insert(bad);
+    throws([&] { vox::step(grids); }, VOX_ERROR_NON_FINITE, "grid 1");
+    ck_assert_uint_gt(grids[2].contacts().size(), 0);
+}
+END_TEST
+
+START_TEST(versions) {
+    ck_assert_uint_eq(vox::version(), vox_version());
+    ck_assert_uint_eq(vox::abi_version(), VOX_ABI_VERSION);
+    ck_assert_str_eq(vox::version_string(), vox_version_string());
+    ck_assert_str_eq(vox::build_info(), vox_build_info());
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("vox.hpp");
+    tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, readings_equal_those_of_c,
+                   meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
+                   cell_sizes_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call, versions);
+    tcase_add_each(add_case(suite, "errors"), errors_have_code_and_text, arrays_of_another_size_are_errors);
+    tcase_add_each(add_case(suite, "ownership"), grids_move_and_release, meshes_are_removed_by_their_owner,
+                   grids_of_c_and_back);
+    tcase_add_each(add_case(suite, "views"), views_know_when_they_have_ended,
+                   readings_and_mapped_positions_end_by_themselves, views_are_ranges);
+    tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds);
+    tcase_add_each(add_case(suite, "callables"), logs_are_callables, task_systems_are_callables,
+                   cost_functions_are_callables);
+    return run_suite(suite);
+}
