@@ -1688,9 +1688,9 @@ extern "C" {
     /// Removes all meshes and contacts and keeps the settings. Old mesh ids become stale.
     pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
     /// Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in
-    /// advance; never releases any. A contact takes 85 bytes, with VOX_GRID_PENETRATIONS 76 more and with
-    /// VOX_GRID_CONTACT_EVENTS 56 more; its penetration takes up to 160 more in the step that finds it. Contacts stay,
-    /// but views of them end. Errors: LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY.
+    /// advance; never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with
+    /// VOX_GRID_CONTACT_EVENTS 56 more; the closest points that a step searches (docs/depth.md) take up to 24 each.
+    /// Contacts stay, views end. Errors: LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_reserve(grid: *mut vox_grid, mesh_count: u32, contact_count: u64) -> vox_result;
     /// Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts. Errors:
     /// INVALID_ARGUMENT when negative, infinite or NaN.
@@ -2358,9 +2358,10 @@ extern "C" {
     pub fn vox_io_load_desc_init(desc: *mut vox_io_load_desc, struct_size: u32) -> vox_result;
     /// Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must files that a
     /// .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory;
-    /// one that stands for more triangles than that fails with LIMIT. A regular file is mapped into memory while it is
-    /// read and must not be shortened meanwhile. Errors: FILE, FORMAT (the text names the file, the line or byte, and
-    /// what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT, INVALID_STATE (cancelled).
+    /// one that stands for more triangles or vertices than that fails with LIMIT. A regular file is mapped into memory
+    /// while it is read and must not be shortened meanwhile. Errors: FILE, FORMAT (the text names the file, the line or
+    /// byte, and what was expected there), UNSUPPORTED, LIMIT, OUT_OF_MEMORY, INVALID_ARGUMENT, INVALID_STATE
+    /// (cancelled).
     pub fn vox_io_load(
         path: *const c_char,
         desc: *const vox_io_load_desc,
