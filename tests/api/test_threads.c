@@ -247,6 +247,9 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
     desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
     make_bodies();
     vox_grid* grid = new_scene(&desc);
+    body far = make_box(28, 1, 100, 0, 0); /* positions enough for the workers to share */
+    const vox_mesh_desc far_desc = body_desc(&far);
+    (void)insert_mesh(grid, &far_desc);
     const float zero = 0;
     (void)stepped_hash(grid, &counters);
     for (int bad = 0; bad < small_bodies; bad += 7) {
@@ -276,6 +279,7 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
         ck_ok(vox_grid_step(grid));
     }
     vox_grid_destroy(grid);
+    free_body(&far);
     free_bodies();
 }
 END_TEST
