@@ -40,6 +40,26 @@ public:
         const vox_result result = call(&raw);
         return detail::give(result, mesh(raw));
     }
+    // The same under a desc with a callable for its progress. What that throws cancels the call.
+    template <class D, class F, class C>
+    static returns<mesh> made(D desc, F& progress, C&& call) {
+        struct context {
+            F& progress;
+            detail::catcher caught;
+        } with{progress, {}};
+        desc.progress = [](double fraction, void* user) -> std::int32_t {
+            context& at = *static_cast<context*>(user);
+            bool go_on = false;
+            at.caught.run([&] { go_on = at.progress(fraction); });
+            return go_on ? 0 : 1;
+        };
+        desc.progress_user = &with;
+        vox_io_mesh* raw = nullptr;
+        const vox_result result = call(desc, &raw);
+        mesh made(raw);
+        with.caught.rethrow();
+        return detail::give(result, std::move(made));
+    }
     const vox_io_mesh* get() const noexcept { return mesh_.get(); }
 
     // vox_io_mesh_get. The spans live as long as the mesh.
@@ -139,6 +159,13 @@ inline returns<mesh> load(const char* path, const vox_io_load_desc& desc = defau
 inline returns<mesh> load(const std::string& path, const vox_io_load_desc& desc = default_load_desc()) {
     return load(path.c_str(), desc);
 }
+// The same with a callable for the progress: takes the fraction and returns whether to go on. What it throws cancels.
+template <class F, class = std::enable_if_t<std::is_invocable_r_v<bool, F&, double>>>
+returns<mesh> load(const std::string& path, const vox_io_load_desc& desc, F&& progress) {
+    return mesh::made(desc, progress, [&](const vox_io_load_desc& with, vox_io_mesh** out) {
+        return vox_io_load(path.c_str(), &with, out);
+    });
+}
 // vox_io_read: one source, or both files of TetGen
 inline returns<mesh> read(span<const vox_io_source> sources, const vox_io_load_desc& desc = default_load_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_read(sources.data(), sources.size(), &desc, out); });
@@ -165,25 +192,12 @@ inline returns<mesh> tetrahedralize(const mesh& surface,
                                     const vox_io_tetrahedralize_desc& desc = default_tetrahedralize_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_tetrahedralize(surface.get(), &desc, out); });
 }
-// The same with a callable for the progress: takes the fraction and returns whether to go on. What it throws cancels.
+// The same with a callable for the progress, as for load.
 template <class F, class = std::enable_if_t<std::is_invocable_r_v<bool, F&, double>>>
-returns<mesh> tetrahedralize(const mesh& surface, vox_io_tetrahedralize_desc desc, F&& progress) {
-    struct context {
-        std::remove_reference_t<F>& progress;
-        detail::catcher caught;
-    } with{progress, {}};
-    desc.progress = [](double fraction, void* user) -> std::int32_t {
-        context& at = *static_cast<context*>(user);
-        bool go_on = false;
-        at.caught.run([&] { go_on = at.progress(fraction); });
-        return go_on ? 0 : 1;
-    };
-    desc.progress_user = &with;
-    vox_io_mesh* raw = nullptr;
-    const vox_result result = vox_io_tetrahedralize(surface.get(), &desc, &raw);
-    mesh filled = mesh::adopt(raw);
-    with.caught.rethrow();
-    return detail::give(result, std::move(filled));
+returns<mesh> tetrahedralize(const mesh& surface, const vox_io_tetrahedralize_desc& desc, F&& progress) {
+    return mesh::made(desc, progress, [&](const vox_io_tetrahedralize_desc& with, vox_io_mesh** out) {
+        return vox_io_tetrahedralize(surface.get(), &with, out);
+    });
 }
 
 // vox_io_format_string

@@ -63,6 +63,13 @@ START_TEST(files_and_bodies) {
     const std::string path = "hpp_libraries.msh";
     copy.write(path);
     ck_assert_uint_eq(vox::io::load(path).report().tets, arrays.tet_count);
+    double last = 0;
+    const auto watch = [&](double fraction) { return last = fraction, true; };
+    const vox::io::mesh watched = vox::io::load(path, vox::io::default_load_desc(), watch);
+    ck_assert_double_eq(last, 1);
+    ck_assert_uint_eq(watched.tets().size(), ball.tets().size());
+    throws([&] { vox::io::load(path, vox::io::default_load_desc(), [](double) { return false; }); },
+           VOX_ERROR_INVALID_STATE, "cancel");
     ck_assert_int_eq(remove(path.c_str()), 0);
 
     throws([&] { vox::io::load("no such file.msh"); }, VOX_ERROR_FILE, "no such file.msh");
