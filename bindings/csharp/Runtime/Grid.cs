@@ -87,6 +87,12 @@ namespace Voxtet
 
         internal Handle.Use Read() { return handle.Read(); }
 
+        /// <summary>Version of the library that is loaded, as "major.minor.patch".</summary>
+        public static string LibraryVersion { get { return VoxException.Text(Native.vox_version_string()); } }
+
+        /// <summary>Compiler, instruction sets and options of that library.</summary>
+        public static string LibraryBuild { get { return VoxException.Text(Native.vox_build_info()); } }
+
         // ---- settings ----
 
         /// <summary>Removes all meshes and contacts and keeps the settings.</summary>
@@ -699,6 +705,27 @@ namespace Voxtet
                 ReadingView view;
                 using (var use = handle.Read()) VoxException.Check(Native.vox_grid_readings(use.Pointer, &view));
                 return new View<Reading>(this, version, view.data, view.byte_stride, view.count);
+            }
+        }
+
+        /// <summary>The prepared readings of the contacts in which a mesh takes part, or of those between two meshes, copied.
+        /// </summary>
+        public Reading[] CopyReadings(Mesh mesh, Mesh? other = null)
+        {
+            using (var use = handle.Read())
+            {
+                ulong count = 0;
+                var readings = new Reading[0];
+                for (int pass = 0; pass < 2; ++pass)
+                {
+                    if (pass == 1) readings = new Reading[count];
+                    fixed (Reading* r = readings)
+                        VoxException.Check(
+                            other.HasValue
+                                ? Native.vox_pair_copy_readings(use.Pointer, mesh.Id, other.Value.Id, r, count, &count)
+                                : Native.vox_mesh_copy_readings(use.Pointer, mesh.Id, r, count, &count));
+                }
+                return readings;
             }
         }
 

@@ -39,6 +39,44 @@ namespace Voxtet
             }
         }
 
+        /// <summary>Of arrays, which are copied: three numbers a vertex, four indices a tetrahedron, three a triangle.</summary>
+        public static MeshFile Create(double[] positions, uint[] tets, uint[] triangles)
+        {
+            if (positions == null) throw new ArgumentNullException("positions");
+            if (positions.Length % 3 != 0 || tets != null && tets.Length % 4 != 0 || triangles != null && triangles.Length % 3 != 0)
+                throw new ArgumentException("expected 3 numbers a vertex, 4 indices a tetrahedron and 3 a triangle");
+            IntPtr mesh;
+            fixed (double* p = positions)
+            fixed (uint* t = tets)
+            fixed (uint* f = triangles)
+            {
+                IoMeshView view;
+                view.positions = p;
+                view.vertex_count = (ulong)positions.Length / 3;
+                view.tets = t;
+                view.tet_count = tets == null ? 0 : (ulong)tets.Length / 4;
+                view.triangles = f;
+                view.triangle_count = triangles == null ? 0 : (ulong)triangles.Length / 3;
+                return new MeshFile(Native.vox_io_mesh_create(&view, &mesh), mesh);
+            }
+        }
+
+        /// <summary>How good it is, and how close to a surface if one is given.</summary>
+        public IoQuality GetQuality(MeshFile surface = null)
+        {
+            IoQuality quality;
+            quality.struct_size = (uint)sizeof(IoQuality);
+            using (var use = handle.Read())
+            {
+                if (surface == null)
+                    VoxException.Check(Native.vox_io_measure_quality(use.Pointer, IntPtr.Zero, &quality));
+                else
+                    using (var other = surface.handle.Read())
+                        VoxException.Check(Native.vox_io_measure_quality(use.Pointer, other.Pointer, &quality));
+            }
+            return quality;
+        }
+
         /// <summary>A ball of about that many equal tetrahedra.</summary>
         public static MeshFile LatticeBall(ulong tets, double radius)
         {

@@ -96,6 +96,11 @@ namespace Voxtet.Tests
             Contact[] kept = contacts.ToArray();
             Test.Same(grid.CopyContacts(a).Length, count, "contacts of a mesh");
             Test.Same(grid.CopyContacts(a, b).Length, count, "contacts of a pair");
+            grid.PrepareReadings(ReadingFlags.Position, a);
+            Test.Same(grid.CopyReadings(a).Length, count, "readings of a mesh");
+            Test.Same(grid.CopyReadings(b, a).Length, count, "readings of a pair");
+            Test.Same(grid.ReadingDepths.Length, 0, "depths that were not asked for");
+            Test.That(Grid.LibraryBuild.Contains(Grid.LibraryVersion), Grid.LibraryBuild);
             Positions<float> positions = grid.GetPositions(b);
             for (int i = 0; i < positions.Length; i += 3) positions[i] += 100;
             grid.Step();
@@ -246,6 +251,12 @@ namespace Voxtet.Tests
             Test.Throws<VoxException>(() => MeshFile.Load(path), "bälle.msh");
             Test.Throws<ArgumentException>(() => MeshFile.Load("a\0b"), "zero character");
             Test.Throws<VoxArgumentException>(() => MeshFile.Ball(-1, 0.1), "");
+            uint[] facets = { 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3 };
+            using (MeshFile surface = MeshFile.Create(Array.ConvertAll(unit, x => (double)x), null, facets))
+            using (MeshFile filled = surface.Tetrahedralize(0.1, 0.03))
+                Test.That(filled.GetQuality(surface).hausdorff <= 0.03 && filled.GetQuality().hausdorff == 0, "distances");
+            Test.Throws<ArgumentException>(() => MeshFile.Create(new double[4], null, null), "3 numbers a vertex");
+            Test.Throws<VoxArgumentException>(() => MeshFile.Create(new double[3], new uint[4] { 0, 1, 2, 3 }, null), "");
             using (MeshFile torus = MeshFile.Torus(1, 0.3, 0.1)) Test.That(torus.Report.volume > 1.5, "a torus");
         }
 
