@@ -135,7 +135,7 @@ double JsonReader::number(const char* what) {
     const char* const end = file_.bytes.data() + file_.bytes.size();
     const char first = next() == '-' && start + 1 < end ? start[1] : next();
     double value = 0;
-    const auto [stop, error] = std::from_chars(start, end, value);
+    const auto [stop, error] = read_double(start, end, value);
     if (first < '0' || first > '9' || error == std::errc::invalid_argument) expected(what);
     const std::string_view text(start, static_cast<std::size_t>(stop - start));
     if (error == std::errc::result_out_of_range && !Scanner::is_tiny(text))

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/llu.hpp"
+#include "io/formats/decimal.hpp"
 #include "io/progress.hpp"
 
 #include <algorithm>
@@ -122,7 +123,7 @@ public:
         skip_blanks();
         const char* start = at_ + (at_ != end_ && *at_ == '+');
         double value = 0;
-        const auto [stop, error] = std::from_chars(start, end_, value);
+        const auto [stop, error] = read_double(start, end_, value);
         if (error == std::errc::invalid_argument || !at_word_end(stop)) expected(what);
         // A number too small for a double is read as zero, as by C's strtod; a number too large fails.
         if (error == std::errc::result_out_of_range) {

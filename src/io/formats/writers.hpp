@@ -1,6 +1,7 @@
 // The writers, one for each format, turn a mesh and numbers on its vertices and cells into bytes.
 #pragma once
 
+#include "io/formats/decimal.hpp"
 #include "io/mesh_data.hpp"
 
 #include <bit>
@@ -27,7 +28,12 @@ public:
         buffer_ += c;
         return checked();
     }
-    Output& operator<<(double value) { return number(value); } // shortest text that gives the same double
+    // The shortest text that gives the same double.
+    Output& operator<<(double value) {
+        char text[32];
+        return *this << std::string_view(
+                   text, static_cast<std::size_t>(write_double(text, text + sizeof text, value) - text));
+    }
     Output& operator<<(std::uint32_t value) { return number(value); }
     Output& operator<<(std::uint64_t value) { return number(value); }
 

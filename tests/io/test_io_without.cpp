@@ -1,0 +1,31 @@
+// What vox_io answers where it is built without a library that a format needs.
+#include "io/formats/readers.hpp"
+#include "support/suite.h"
+
+#include <cstring>
+
+using namespace vox;
+using namespace vox::io;
+
+namespace {
+
+START_TEST(without_xml) {
+    const File file{"folder/a.vtu", "<VTKFile type=\"UnstructuredGrid\">"};
+    try {
+        (void)read_vtu(file);
+        ck_abort_msg("was read");
+    } catch (const Error& error) {
+        ck_assert_int_eq(error.result(), VOX_ERROR_UNSUPPORTED);
+        ck_assert_ptr_nonnull(std::strstr(error.what(), "folder/a.vtu: this vox_io was built without"));
+        ck_assert_ptr_nonnull(std::strstr(error.what(), "VOX_IO_XML"));
+    }
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("io_without");
+    tcase_add_test(add_case(suite, "xml"), without_xml);
+    return run_suite(suite);
+}
