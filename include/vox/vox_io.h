@@ -7,6 +7,8 @@
  *
  * CMake: find_package(vox COMPONENTS io), then link vox::io, which brings vox::vox with it. pkg-config: vox_io.
  *
+ * Paths and names are UTF-8 on every system, Windows included. Other systems take any bytes as a path.
+ *
  * A tet file must contain a tet. Anything else that is odd about it is listed in the report and never stops a load.
  *
  * Threads: no function keeps state between calls. Different meshes are independent, and one mesh may be
@@ -30,7 +32,9 @@ typedef enum vox_io_format {
     VOX_IO_FORMAT_MEDIT = 3,   /* .mesh, ASCII */
     VOX_IO_FORMAT_VEGA = 4,    /* .veg */
     VOX_IO_FORMAT_VTK = 5,     /* legacy .vtk, 2.0 to 5.1; ASCII and binary */
-    VOX_IO_FORMAT_VTU = 6,     /* XML .vtu: ASCII, base64, appended; raw or zlib */
+    /* XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
+     * pugixml and zlib (docs/files.md). */
+    VOX_IO_FORMAT_VTU = 6,
     VOX_IO_FORMAT_SURFACE = 7, /* .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
      * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the

@@ -3,6 +3,7 @@
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/structs.hpp"
+#include "io/formats/paths.hpp"
 #include "io/formats/readers.hpp"
 #include "io/formats/writers.hpp"
 #include "io/mesh.hpp"
@@ -56,8 +57,8 @@ vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) 
 void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
            std::function<void(std::string_view)> sink) {
     Output out(std::move(sink));
-    const WrittenData values{{desc.point_data, desc.point_data_count},
-                             {desc.cell_data, desc.cell_data_count}};
+    const WrittenData values{{desc.point_data, static_cast<std::size_t>(desc.point_data_count)},
+                             {desc.cell_data, static_cast<std::size_t>(desc.cell_data_count)}};
     const bool binary = desc.binary != 0;
     if (desc.format == VOX_IO_WRITE_VTU)
         write_vtu(mesh.arrays, values, binary, out);
@@ -74,7 +75,7 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
 // terminal), it is written directly.
 void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const std::string& path) {
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    const std::filesystem::file_status status = std::filesystem::status(path_of(path), error);
     if (std::filesystem::is_directory(status)) fail(path, EISDIR);
     const bool direct = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
     const std::string target = direct ? path : path + ".part";
@@ -82,9 +83,9 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
     {
         const auto close = [&](std::FILE* file) {
             (void)std::fclose(file);
-            if (!direct && !done) (void)std::remove(target.c_str());
+            if (!direct && !done) (void)std::filesystem::remove(path_of(target), error);
         };
-        std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(target.c_str(), "wb"), close);
+        std::unique_ptr<std::FILE, decltype(close)> file(open_to_write(target), close);
         if (!file) fail(path, errno);
         write(mesh, desc, [&](std::string_view bytes) {
             if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(path, errno);
@@ -93,10 +94,11 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
         done = true;
     }
     if (direct) return;
-    std::filesystem::rename(target, path, error);
+    std::filesystem::rename(path_of(target), path_of(path), error);
     if (error) {
-        (void)std::remove(target.c_str());
-        throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), error.message().c_str()));
+        const std::string reason = error.message();
+        (void)std::filesystem::remove(path_of(target), error);
+        throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), reason.c_str()));
     }
 }
 

@@ -151,9 +151,12 @@ START_TEST(failing_sink) {
 END_TEST
 
 START_TEST(files) {
-    static const char* const names[] = {"vox_test_io_write.msh", "vox_test_io_write.vtu"};
+    /* The last two in UTF-8: wuerfel, with its umlaut, and the Chinese for cube. */
+    static const char* const names[] = {"vox_test_io_write.msh", "vox_test_io_write.vtu",
+                                        "vox_test_w\xc3\xbcrfel.msh",
+                                        "vox_test_\xe7\xab\x8b\xe6\x96\xb9\xe4\xbd\x93.vtu"};
     vox_io_mesh *mesh = hard_mesh(), *again = NULL;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 4; ++i) {
         FILE* old = fopen(names[i], "wb");
         fputs("old", old);
         fclose(old);
@@ -179,6 +182,7 @@ START_TEST(files) {
     remove(names[0]);
     ck_fails(vox_io_write(mesh, "no/such/folder/x.msh", NULL), VOX_ERROR_FILE, "no/such/folder/x.msh");
     ck_assert_ptr_null(strstr(vox_last_error(), ".part")); /* the name that the caller gave */
+    ck_fails(vox_io_load("no \xe7\xab\x8b.msh", NULL, &again), VOX_ERROR_FILE, "no \xe7\xab\x8b.msh: ");
     ck_fails(vox_io_write(mesh, ".", &desc), VOX_ERROR_NON_FINITE, "bad");
     desc.point_data_count = 0;
     ck_fails(vox_io_write(mesh, ".", &desc), VOX_ERROR_FILE, "irectory");

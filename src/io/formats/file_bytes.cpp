@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #else
-#include <filesystem>
+#include "io/formats/paths.hpp"
 #endif
 
 namespace vox::io {
@@ -67,11 +67,11 @@ FileBytes::~FileBytes() {
 
 FileBytes::FileBytes(const std::string& path) : file_{path, {}} {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) fail(path, "is a directory");
-    if (!std::filesystem::is_regular_file(path, error))
+    const std::filesystem::file_status status = std::filesystem::status(path_of(path), error);
+    if (std::filesystem::is_directory(status)) fail(path, "is a directory");
+    if (!std::filesystem::is_regular_file(status))
         fail(path, error ? error.message() : "is not a regular file");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"),
-                                                                 &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(open_to_read(path), &std::fclose);
     if (!stream) fail(path, std::strerror(errno));
     for (;;) {
         const std::size_t size = read_.size();

@@ -1,6 +1,7 @@
 #include "io/formats/gltf_document.hpp"
 
 #include "io/formats/base64.hpp"
+#include "io/formats/paths.hpp"
 
 #include <filesystem>
 
@@ -282,20 +283,20 @@ std::string_view Document::bytes_beside(const std::string& uri) {
             VOX_ERROR_LIMIT);
     bool inside = !name.empty() && name.find_first_of(":\\") == std::string::npos &&
                   name.find('\0') == std::string::npos;
-    const std::filesystem::path relative = std::filesystem::path(name).lexically_normal();
+    const std::filesystem::path relative = path_of(name).lexically_normal();
     inside = inside && relative.is_relative();
     for (const auto& part : relative) inside = inside && part != "..";
     if (!inside)
         json_->fail(
             format("%s: only files in the same folder or below are read", printable(uri, 200).c_str()),
             VOX_ERROR_UNSUPPORTED);
-    const std::string path = (std::filesystem::path(*folder_) / relative).string();
+    const std::string path = utf8_of(path_of(*folder_) / relative);
     for (const FileBytes& other : files_)
         if (other.file().name == path) return other.file().bytes;
     if (files_.size() >= most_files)
         json_->fail(format("more than %zu other files", most_files), VOX_ERROR_LIMIT);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) // opening a pipe would wait
+    if (!std::filesystem::is_regular_file(path_of(path), error)) // opening a pipe would wait
         throw Error(VOX_ERROR_FILE, format("%s, named in %s: %s", path.c_str(), file_.name.c_str(),
                                            error ? error.message().c_str() : "is not a regular file"));
     return files_.emplace_back(path).file().bytes;
