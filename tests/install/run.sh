@@ -1,8 +1,8 @@
 #!/bin/sh
-# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC CXX lean|tbb: installs into a scratch prefix and builds the consumers there, by CMake's
+# usage: run.sh BUILD_DIR SOURCE_DIR CMAKE GENERATOR CC CXX lean|tbb ARCHIVE: installs into a scratch prefix and builds the consumers there, by CMake's
 # components and by pkg-config.
 set -eu
-build=$1 source=$2 cmake=$3 generator=$4 cc=$5 cxx=$6 threads=$7
+build=$1 source=$2 cmake=$3 generator=$4 cc=$5 cxx=$6 threads=$7 archive=$8
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -30,6 +30,11 @@ export PKG_CONFIG_PATH
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
 "$cxx" -std=c++17 "$scratch/consumer_cpp.cpp" $(pkg-config --cflags --libs vox) -o "$scratch/consumer_cpp"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_cpp"
+
+# What vox.pc names for static linking is all that the core needs besides itself.
+"$cc" -std=c99 -DVOX_STATIC "$scratch/consumer.c" $(pkg-config --cflags vox) "$archive" \
+    $(pkg-config --static --libs vox | sed 's/-lvox\b//') -o "$scratch/consumer_static"
+"$scratch/consumer_static"
 
 for component in $(echo "$components" | tr ';' ' '); do
     "$scratch/build/consumer_$component"
