@@ -3,7 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <ctime>
+#include <time.h>
 
 namespace vox {
 
@@ -15,10 +15,9 @@ inline std::uint64_t nanoseconds() noexcept {
 // Nanoseconds in which this thread had a processor; where the system does not count them, those that passed.
 inline std::uint64_t thread_nanoseconds() noexcept {
 #ifdef CLOCK_THREAD_CPUTIME_ID
-    std::timespec time{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0)
-        return static_cast<std::uint64_t>(time.tv_sec) * 1000000000u +
-               static_cast<std::uint64_t>(time.tv_nsec);
+    timespec now{};
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) == 0)
+        return static_cast<std::uint64_t>(now.tv_sec) * 1000000000u + static_cast<std::uint64_t>(now.tv_nsec);
 #endif
     return nanoseconds();
 }

@@ -157,10 +157,11 @@ vox_result vox_fit_times(const double* cell_sizes, const double* times, std::uin
             check_positive(cell_sizes[i], format("cell_sizes[%" PRIu64 "]", i).c_str());
             check_positive(times[i], format("times[%" PRIu64 "]", i).c_str());
         }
-        const std::span<const double> sizes(cell_sizes, count);
+        const auto items = static_cast<std::size_t>(count);
+        const std::span<const double> sizes(cell_sizes, items);
         const std::size_t distinct = count_distinct(sizes);
         if (distinct < 5) refuse(format("%zu different cell sizes, expected at least 5", distinct));
-        write_struct(out_fit, fit_times(sizes, {times, count}), "out_fit");
+        write_struct(out_fit, fit_times(sizes, {times, items}), "out_fit");
     });
 }
 
