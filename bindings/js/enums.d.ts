@@ -220,7 +220,10 @@ export declare const IoFormat: Readonly<{
   VEGA: 4;
   /** legacy .vtk, 2.0 to 5.1; ASCII and binary */
   VTK: 5;
-  /** XML .vtu: ASCII, base64, appended; raw or zlib */
+  /**
+   * XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
+   * pugixml and zlib (docs/files.md).
+   */
   VTU: 6;
   /** .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
   SURFACE: 7;

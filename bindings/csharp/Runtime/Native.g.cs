@@ -208,7 +208,7 @@ namespace Voxtet
         Vega = 4,
         /// <summary>legacy .vtk, 2.0 to 5.1; ASCII and binary</summary>
         Vtk = 5,
-        /// <summary>XML .vtu: ASCII, base64, appended; raw or zlib</summary>
+        /// <summary>XML .vtu: ASCII, base64, appended; raw or zlib.</summary>
         Vtu = 6,
         /// <summary>.stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets</summary>
         Surface = 7,

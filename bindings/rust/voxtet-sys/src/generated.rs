@@ -214,7 +214,8 @@ pub const VOX_IO_FORMAT_MEDIT: vox_io_format = 3;
 pub const VOX_IO_FORMAT_VEGA: vox_io_format = 4;
 /// legacy .vtk, 2.0 to 5.1; ASCII and binary
 pub const VOX_IO_FORMAT_VTK: vox_io_format = 5;
-/// XML .vtu: ASCII, base64, appended; raw or zlib
+/// XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without pugixml
+/// and zlib (docs/files.md).
 pub const VOX_IO_FORMAT_VTU: vox_io_format = 6;
 /// .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets
 pub const VOX_IO_FORMAT_SURFACE: vox_io_format = 7;
