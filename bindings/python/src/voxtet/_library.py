@@ -1,0 +1,105 @@
+"""Finds and loads the native libraries, and turns their results into exceptions."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from typing import Any, TypeVar
+
+from . import _c
+from .errors import error_of
+
+_HERE = os.path.dirname(os.path.abspath(__file__))
+_Struct = TypeVar("_Struct", bound=ctypes.Structure)
+
+
+def file_name(name: str) -> str:
+    """What the shared library `name` (vox, vox_io, vox_sim) is called on this system."""
+    if sys.platform == "win32":
+        return name + ".dll"
+    if sys.platform == "darwin":
+        return f"lib{name}.{_c.VOX_ABI_VERSION}.dylib"
+    return f"lib{name}.so.{_c.VOX_ABI_VERSION}"
+
+
+def find(name: str) -> str:
+    """The file to load: the package's own; else that of a folder in VOXTET_LIBRARY_DIR (a build tree, for development);
+    else whatever the system finds by that name."""
+    folders = [os.path.join(_HERE, "lib"), *filter(None, os.environ.get("VOXTET_LIBRARY_DIR", "").split(os.pathsep))]
+    for folder in folders:
+        path = os.path.join(folder, file_name(name))
+        if os.path.exists(path):
+            return path
+    return file_name(name)
+
+
+def load(name: str) -> Any:
+    """The library `name`, with the types of its functions. vox_io and vox_sim find the libvox that was loaded before."""
+    path = find(name)
+    try:
+        library = ctypes.CDLL(path, mode=ctypes.RTLD_GLOBAL)
+    except OSError as error:
+        raise ImportError(
+            f"voxtet cannot load {path} ({error}). The wheels have it inside; for a build tree, name its folders in "
+            "VOXTET_LIBRARY_DIR.") from error
+    return library
+
+
+def check(result: int, _function: Any, _arguments: Any) -> int:
+    """The errcheck of every function that can fail. The text is that of this thread's last failure."""
+    if result:
+        raise error_of(result, vox.vox_last_error().decode("utf-8", "replace"))
+    return result
+
+
+def _load_vox() -> Any:
+    library = load("vox")
+    try:
+        library.vox_abi_version.restype = ctypes.c_uint32
+        found = library.vox_abi_version()
+    except AttributeError:
+        found = 0
+    if found != _c.VOX_ABI_VERSION:
+        raise ImportError(f"{find('vox')} has version {found} of the binary interface; this package was made for version "
+                          f"{_c.VOX_ABI_VERSION}")
+    _c.declare(library, "vox", check)
+    return library
+
+
+def load_part(name: str) -> Any:
+    """vox_io or vox_sim."""
+    library = load(name)
+    _c.declare(library, name, check)
+    return library
+
+
+vox: Any = _load_vox()
+
+
+def described(kind: type[_Struct], library: Any = vox) -> _Struct:
+    """A struct with the library's defaults."""
+    desc = kind()
+    getattr(library, kind.__name__ + "_init")(desc, ctypes.sizeof(kind))
+    return desc
+
+
+def sized(kind: type[_Struct]) -> Any:
+    """A struct for the library to fill."""
+    out = kind()
+    out.struct_size = ctypes.sizeof(kind)
+    return out
+
+
+class Handle:
+    """Owns something of the library's, and destroys it with the last reference to the handle."""
+
+    __slots__ = ("__weakref__", "destroy", "kept", "pointer")
+
+    def __init__(self, pointer: int, destroy: Any, kept: Any = None) -> None:
+        self.pointer = pointer
+        self.destroy = destroy
+        self.kept = kept  # what the library may call or read until then
+
+    def __del__(self) -> None:
+        self.destroy(self.pointer)

@@ -1,0 +1,661 @@
+"""A grid: meshes that collide, the step that finds their contacts, and what it found."""
+
+from __future__ import annotations
+
+import _thread
+import ctypes
+import logging
+import threading
+import weakref
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _c, results
+from ._arguments import U32, Rows, choice, integer, real, switch
+from ._library import Handle, described, sized, vox
+from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
+from .mesh import Filter, Mesh, Topology
+from .queries import Queries, QueryView, hits_of
+from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of
+
+Log = Callable[[int, str], Any]
+_KEEP: Any = object()
+_LEVELS = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: logging.WARNING}
+_DTYPE_CONTACT = results.CONTACTS.dtype
+_DTYPE_READING = results.READINGS.dtype
+_step = vox.vox_grid_step
+
+
+class Counters(NamedTuple):
+    """What the last successful step did (vox_counters)."""
+
+    meshes: int
+    vertices: int
+    tets: int
+    cells: int
+    entries: int
+    fullest_cell: int
+    visited_cells: int
+    visited_entries: int
+    candidates: int
+    exact_tests: int
+    contacts: int
+    skipped_degenerate: int
+    bytes: int
+    peak_bytes: int
+    moved_meshes: int
+    carried_contacts: int
+    penetrations: int
+    leaving_edges: int
+    edge_tests: int
+    closest_searches: int
+    closest_tests: int
+    disabled_meshes: int
+    filtered: int
+    cell_size_changes: int
+    unknown_penetrations: int
+    carried_penetrations: int
+    skipped_meshes: int
+    meshes_without_tets: int
+    total_touches_began: int
+    total_touches_ended: int
+    total_contacts_began: int
+    total_contacts_ended: int
+
+
+class Profile(NamedTuple):
+    """Nanoseconds of the last successful step, in total and by stage (vox_profile)."""
+
+    step_ns: int
+    bin_ns: int
+    broad_ns: int
+    narrow_ns: int
+    contacts_ns: int
+    depth_ns: int
+    events_ns: int
+    stream_ns: int
+    winding_ns: int
+    broad_phase_ns: int
+    windows_ns: int
+    lookup_ns: int
+    decide_ns: int
+
+
+class Failure(NamedTuple):
+    """A mesh that made a step fail, or that it left out."""
+
+    result: _c.Result
+    mesh: int
+    slot: int
+    user_data: int
+    vertex: Optional[int]  # the first with a bad coordinate; None if the failure is about none
+    position: tuple[float, float, float]
+
+
+class _Closed:
+    """Stands for the lock of a closed grid."""
+
+    def __enter__(self) -> None:
+        raise InvalidStateError("the grid is closed")
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+
+class _InLog:
+    """Stands for the lock while the log is written: a log function that calls its grid would wait for itself."""
+
+    def __init__(self, lock: Any) -> None:
+        self._lock, self._thread = lock, threading.get_ident()
+
+    def __enter__(self) -> None:
+        if threading.get_ident() == self._thread:
+            raise InvalidStateError("a log function must not call the grid it came from")
+        self._lock.acquire()
+
+    def __exit__(self, *_: object) -> None:
+        self._lock.release()
+
+
+def _log_function(grid: Grid, log: Log) -> Any:
+    """`log` as the library calls it, maybe on another thread. An exception in it is reported and goes no further."""
+    itself = weakref.ref(grid)
+
+    def write(level: int, text: bytes, _user: Any) -> None:
+        grid = itself()
+        lock = grid and grid._lock
+        try:
+            if grid is not None:
+                grid._lock = _InLog(lock)
+            log(_LEVELS.get(_c.LogLevel(level), level), text.decode("utf-8", "replace"))
+        except KeyboardInterrupt:
+            _thread.interrupt_main()  # once more, where it can be raised
+        finally:
+            if grid is not None:
+                grid._lock = lock
+
+    return _c.vox_log_write(write)
+
+
+class Grid(Queries, Results):
+    """A set of meshes that collide. `step` finds all contacts of their positions as they are then.
+
+    cell_size, worker_count (`workers`), engine, storage, hash, the byte budget and closest_budget are those of
+    vox_grid_desc. `log` is called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
+
+    Arrays that a grid returns are copies of yours. Any thread may use a grid; one at a time does. `with Grid() as grid:`
+    closes it at the end.
+
+    >>> import numpy as np
+    >>> tet = [[0, 1, 2, 3]]
+    >>> first = np.array([[5, 5, 5], [6, 5, 5], [5, 6, 5], [.2, .3, .4]], np.float32)
+    >>> second = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], np.float32)
+    >>> with Grid() as grid:
+    ...     a, b = grid.add(first, tet, tag="a"), grid.add(second, tet, tag="b")
+    ...     grid.step()
+    ...     for c in grid.contacts:
+    ...         print("vertex", c.vertex, "of", grid[c.mesh_a].tag, "in tet", c.tet, "of", grid[c.mesh_b].tag)
+    vertex 3 of a in tet 0 of b
+    """
+
+    _prefix = "vox_grid_query_"
+
+    def __init__(self, cell_size: float = 0.0, *, workers: int = 1, engine: str = "auto", storage: str = "auto",
+                 hash: str = "mixed", world: Optional[tuple[ArrayLike, ArrayLike]] = None, byte_budget: int = 4 << 30,
+                 hash_table_size: int = 0, penetrations: bool = True, contact_events: bool = False,
+                 skip_bad_meshes: bool = False, closest_budget: int = 0, log: Optional[Log] = None) -> None:
+        desc = described(_c.vox_grid_desc)
+        desc.cell_size = real(cell_size, "cell_size")
+        desc.engine = choice(_c.Engine, engine, "engine")
+        desc.storage = choice(_c.Storage, storage, "storage")
+        desc.hash = choice(_c.Hash, hash, "hash")
+        if world is not None:
+            corners = np.asarray(world)
+            if corners.shape != (2, 3) or corners.dtype.kind not in "iuf":
+                raise InvalidArgumentError("world must be two corners of three numbers")
+            desc.world_min[:], desc.world_max[:] = corners[0].tolist(), corners[1].tolist()
+        desc.hash_table_size = integer(hash_table_size, "hash_table_size")
+        desc.flags = (switch(penetrations, "penetrations") * _c.GridFlags.PENETRATIONS
+                      | switch(contact_events, "contact_events") * _c.GridFlags.CONTACT_EVENTS
+                      | switch(skip_bad_meshes, "skip_bad_meshes") * _c.GridFlags.SKIP_BAD_MESHES)
+        self._prepare(desc, workers, byte_budget, closest_budget, log)
+        pointer = ctypes.c_void_p()
+        vox.vox_grid_create(desc, pointer)
+        self._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc.log.write))
+
+    def _prepare(self, desc: Any, workers: int, byte_budget: int, closest_budget: int, log: Optional[Log]) -> None:
+        """The settings that a snapshot does not hold."""
+        self._pointer: Optional[int] = None
+        self._lock: Any = threading.Lock()
+        desc.worker_count = integer(workers, "workers", 0, U32)
+        desc.byte_budget = integer(byte_budget, "byte_budget")
+        desc.closest_budget = integer(closest_budget, "closest_budget")
+        self._settings = {"workers": desc.worker_count, "byte_budget": desc.byte_budget,
+                          "closest_budget": desc.closest_budget}
+        if log is not None:
+            if not callable(log):
+                raise TypeError(f"log is of type {type(log).__name__}; it must be a function of a level and a text")
+            desc.log.write = _log_function(self, log)
+
+    def _hold(self, handle: Handle) -> None:
+        self._handle: Optional[Handle] = handle
+        self._pointer = handle.pointer
+        # By id: the arrays of positions and of tets that the mesh borrows, and the caller's tags. Meshes themselves are
+        # made when asked for, so that nothing here refers to the grid, and a grid that is dropped goes at once.
+        self._kept: dict[int, tuple[Optional[Rows], Optional[NDArray[Any]]]] = {}
+        self._tags: dict[int, Any] = {}
+        self._borrowed = Exports()
+        self._borrowed_readings = Exports()
+        self._mapped: dict[int, Exports] = {}
+
+    # ---- life ----
+
+    def close(self) -> None:
+        """Frees the grid's memory. Twice does nothing. Raises BufferError while borrowed arrays are in use."""
+        if self._pointer is None:
+            return
+        with self._lock:
+            self._refuse("close")
+            for exports in self._mapped.values():
+                exports.refuse("close")
+            self._forget()
+
+    def _forget(self) -> None:
+        self._pointer = self._handle = None
+        self._kept, self._tags, self._mapped = {}, {}, {}
+        self._lock = _Closed()
+
+    @property
+    def closed(self) -> bool:
+        """Whether the grid was closed."""
+        return self._pointer is None
+
+    def __enter__(self) -> Grid:
+        with self._lock:
+            return self
+
+    def __exit__(self, kind: Any, *_: object) -> None:
+        try:
+            self.close()
+        except BufferError:
+            if kind is None:
+                raise  # otherwise the exception on its way says more, and its traceback may be what holds the arrays
+
+    def __repr__(self) -> str:
+        if self._pointer is None:
+            return "<voxtet.Grid, closed>"
+        return f"<voxtet.Grid of {len(self)} meshes>"
+
+    def clear(self) -> None:
+        """Removes all meshes and contacts, and keeps the settings."""
+        with self._lock:
+            self._refuse("clear")
+            for exports in self._mapped.values():
+                exports.refuse("clear")
+            vox.vox_grid_clear(self._pointer)
+            self._kept, self._tags, self._mapped = {}, {}, {}
+
+    def reserve(self, mesh_count: int, contact_count: int) -> None:
+        """Allocates the memory for so many meshes and contacts in advance."""
+        meshes, contacts = integer(mesh_count, "mesh_count", 0, U32), integer(contact_count, "contact_count")
+        with self._lock:
+            self._refuse("reserve")
+            vox.vox_grid_reserve(self._pointer, meshes, contacts)
+
+    def _refuse(self, what: str) -> None:
+        if self._borrowed:
+            self._borrowed.refuse(what)
+        if self._borrowed_readings:
+            self._borrowed_readings.refuse(what)
+
+    def _refuse_positions(self, mesh: int, what: str) -> None:
+        exports = self._mapped.get(mesh)
+        if exports is not None:
+            exports.refuse(what)
+
+    def _exports_of(self, mesh: int) -> Exports:
+        return self._mapped.setdefault(mesh, Exports())
+
+    def _keep(self, mesh: int, positions: Any = _KEEP, tets: Any = _KEEP) -> None:
+        """Remembers what a mesh borrows, and forgets what it borrowed before."""
+        before = self._kept.pop(mesh, (None, None))
+        now = (before[0] if positions is _KEEP else positions, before[1] if tets is _KEEP else tets)
+        if now[0] is not None or now[1] is not None:
+            self._kept[mesh] = now
+
+    # ---- settings ----
+
+    @property
+    def cell_size(self) -> float:
+        """The cell size in use. Set it for the following steps; 0: the library chooses. It never changes the contacts."""
+        size = ctypes.c_double()
+        with self._lock:
+            vox.vox_grid_cell_size(self._pointer, size)
+        return size.value
+
+    @cell_size.setter
+    def cell_size(self, cell_size: float) -> None:
+        size = real(cell_size, "cell_size")
+        with self._lock:
+            vox.vox_grid_set_cell_size(self._pointer, size)
+
+    @property
+    def workers(self) -> int:
+        """Threads of a step; 0: one for each core."""
+        return int(self._settings["workers"])
+
+    @workers.setter
+    def workers(self, workers: int) -> None:
+        count = integer(workers, "workers", 0, U32)
+        with self._lock:
+            vox.vox_grid_set_worker_count(self._pointer, count)
+            self._settings["workers"] = count
+
+    def set_flags(self, *, penetrations: Optional[bool] = None, contact_events: Optional[bool] = None,
+                  skip_bad_meshes: Optional[bool] = None) -> None:
+        """Changes what the following steps do; what is None stays."""
+        wanted = [(penetrations, "penetrations", _c.GridFlags.PENETRATIONS),
+                  (contact_events, "contact_events", _c.GridFlags.CONTACT_EVENTS),
+                  (skip_bad_meshes, "skip_bad_meshes", _c.GridFlags.SKIP_BAD_MESHES)]
+        with self._lock:
+            before = ctypes.c_uint32()
+            vox.vox_grid_get_flags(self._pointer, before)
+            flags = before.value
+            for value, name, flag in wanted:
+                if value is not None:
+                    flags = flags & ~flag | switch(value, name) * flag
+            if flags != before.value:
+                self._refuse("a change of the flags")
+            vox.vox_grid_set_flags(self._pointer, flags)
+
+    @property
+    def flags(self) -> _c.GridFlags:
+        """What the steps do."""
+        flags = ctypes.c_uint32()
+        with self._lock:
+            vox.vox_grid_get_flags(self._pointer, flags)
+        return _c.GridFlags(flags.value)
+
+    # ---- meshes ----
+
+    def add(self, positions: Any, tets: Optional[ArrayLike] = None, *, vertex_count: Optional[int] = None,
+            copy: bool = False, tag: Any = None, user_data: int = 0, filter: Optional[Filter] = None,
+            self_collision: bool = False, rest_positions: Any = None, borrow_tets: bool = False) -> Mesh:
+        """Adds a mesh, which takes part from the next step on.
+
+        positions: float32 or float64, (n, 3), in rows or whole columns with any strides; anything else raises. They are
+        borrowed: move the body by writing to this very array in place. The grid holds a reference. With copy=True they
+        are copied instead, may be any sequence of floats, and are moved through `mesh.positions`. None: set them before
+        the next step, and say how many by vertex_count.
+        tets: integers, (m, 4), copied unless borrow_tets (uint32 only). None: a surface or points, whose vertices
+        collide with the tetrahedra of others.
+        tag: any object, for `mesh.tag`. user_data: a number that events and readings repeat.
+        rest_positions: for `Filter.self_rest_distance`, copied.
+        """
+        new = Topology(positions, tets, vertex_count, copy, rest_positions, borrow_tets)
+        new.desc.user_data = integer(user_data, "user_data")
+        if filter is not None:
+            if not isinstance(filter, Filter):
+                raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
+            new.desc.filter = ctypes.pointer(filter._struct())
+        new.desc.flags |= switch(self_collision, "self_collision") * _c.MeshFlags.SELF_COLLISION
+        mesh = ctypes.c_uint32()
+        with self._lock:
+            vox.vox_mesh_insert(self._pointer, new.desc, mesh)
+            kept = new.kept()
+            self._keep(mesh.value, *kept)
+            if tag is not None:
+                self._tags[mesh.value] = tag
+        return Mesh(self, mesh.value)
+
+    def _id(self, mesh: Union[Mesh, int], name: str = "mesh") -> int:
+        if isinstance(mesh, Mesh) and mesh.grid is not self:
+            raise InvalidHandleError(f"{name} is mesh {mesh.id} of another grid")
+        return integer(mesh, name, 0, U32)
+
+    def _excluded(self, mesh: Union[Mesh, int, None]) -> int:
+        return 0 if mesh is None else self._id(mesh, "excluded")
+
+    def remove(self, mesh: Union[Mesh, int]) -> None:
+        """Removes a mesh. The contacts of the last step stay until the next one."""
+        id = self._id(mesh)
+        with self._lock:
+            self._refuse_positions(id, "removal of the mesh")
+            vox.vox_mesh_remove(self._pointer, id)
+            self._keep(id, None, None)
+            self._tags.pop(id, None)
+            self._mapped.pop(id, None)
+
+    def _ids(self) -> NDArray[np.uint32]:
+        with self._lock:
+            return hits_of(lambda ids, room, count: vox.vox_grid_meshes(self._pointer, ids, room, count),  # type: ignore
+                           np.ndarray, np.dtype(np.uint32), 16)
+
+    @property
+    def meshes(self) -> list[Mesh]:
+        """All meshes, in the order of their ids, disabled ones included."""
+        return [Mesh(self, int(id)) for id in self._ids()]
+
+    def __iter__(self) -> Iterator[Mesh]:
+        return iter(self.meshes)
+
+    def __len__(self) -> int:
+        count = ctypes.c_uint64()
+        with self._lock:
+            vox.vox_grid_meshes(self._pointer, None, 0, count)
+        return count.value
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __contains__(self, mesh: object) -> bool:
+        if isinstance(mesh, Mesh) and mesh.grid is not self:
+            return False
+        try:
+            id = integer(mesh, "mesh")
+        except (TypeError, InvalidArgumentError):
+            return False
+        with self._lock:
+            return id <= U32 and bool(vox.vox_mesh_is_valid(self._pointer, id))
+
+    def __getitem__(self, mesh: Union[Mesh, int]) -> Mesh:
+        """The mesh with an id, e.g. of a contact."""
+        id = self._id(mesh)
+        with self._lock:
+            if not vox.vox_mesh_is_valid(self._pointer, id):
+                raise InvalidHandleError(f"{id} is no mesh of the grid")
+        return Mesh(self, id)
+
+    def set_pair_enabled(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int], enabled: bool) -> None:
+        """With False, the two meshes do not collide in the following steps, whatever their filters say."""
+        a, b, number = self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"), switch(enabled, "enabled")
+        with self._lock:
+            vox.vox_grid_set_pair_enabled(self._pointer, a, b, number)
+
+    # ---- the step ----
+
+    def step(self) -> None:
+        """Finds all contacts of the positions as they are now. Other Python threads run meanwhile."""
+        with self._lock:
+            if self._borrowed or self._borrowed_readings:
+                self._refuse("step")
+            _step(self._pointer)
+
+    def borrowed(self) -> Borrowed:
+        """The results without a copy: `with grid.borrowed() as results: results.contacts`. See Borrowed."""
+        return Borrowed(self)
+
+    def _source(self) -> Grid:
+        return self
+
+    def _make(self, view: results.View, address: int, count: int, stride: int) -> Any:
+        return copy_of(address, count, stride, view.records, view.dtype)
+
+    def _copied(self, function: str, records: Any, dtype: Any, *ids: int) -> Any:
+        call = getattr(vox, function)
+        with self._lock:
+            return hits_of(lambda to, room, count: call(self._pointer, *ids, to, room, count), records, dtype, 64)
+
+    def contacts_of(self, mesh: Union[Mesh, int]) -> Contacts:
+        """Contacts of the last step in which the mesh is on either side, pair by pair."""
+        return self._copied("vox_mesh_copy_contacts", Contacts, _DTYPE_CONTACT, self._id(mesh))  # type: ignore[no-any-return]
+
+    def contacts_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Contacts:
+        """Contacts of the last step between two meshes, or of one with itself."""
+        return self._copied("vox_pair_copy_contacts", Contacts, _DTYPE_CONTACT,  # type: ignore[no-any-return]
+                            self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
+
+    # ---- readings ----
+
+    def prepare_readings(self, mesh_a: Union[Mesh, int, None] = None, mesh_b: Union[Mesh, int, None] = None, *,
+                         position: bool = True, surface: bool = True, depth: bool = True,
+                         closest_budget: int = 0) -> None:
+        """Computes the readings of the last step's contacts, or of those of one mesh or of a pair of meshes."""
+        desc = described(_c.vox_readings_desc)
+        desc.what = (switch(position, "position") * _c.ReadingFlags.POSITION | switch(surface, "surface")
+                     * _c.ReadingFlags.SURFACE | switch(depth, "depth") * _c.ReadingFlags.DEPTH)
+        desc.mesh_a = 0 if mesh_a is None else self._id(mesh_a, "mesh_a")
+        desc.mesh_b = 0 if mesh_b is None else self._id(mesh_b, "mesh_b")
+        desc.closest_budget = integer(closest_budget, "closest_budget")
+        with self._lock:
+            self._borrowed_readings.refuse("prepare_readings")
+            vox.vox_grid_prepare_readings_of(self._pointer, desc)
+
+    def readings(self, mesh_a: Union[Mesh, int, None] = None, mesh_b: Union[Mesh, int, None] = None, *,
+                 position: bool = True, surface: bool = True, depth: bool = True, closest_budget: int = 0) -> Readings:
+        """Prepares readings and returns them: what a response, a picture or a report needs for each contact."""
+        self.prepare_readings(mesh_a, mesh_b, position=position, surface=surface, depth=depth,
+                              closest_budget=closest_budget)
+        return self._array(results.READINGS)  # type: ignore[no-any-return]
+
+    @property
+    def reading_depths(self) -> Depths:
+        """Depth and direction of the prepared readings in double."""
+        return self._array(results.READING_DEPTHS)  # type: ignore[no-any-return]
+
+    def readings_of(self, mesh: Union[Mesh, int]) -> Readings:
+        """The prepared readings of `contacts_of(mesh)`."""
+        return self._copied("vox_mesh_copy_readings", Readings, _DTYPE_READING, self._id(mesh))  # type: ignore[no-any-return]
+
+    def readings_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Readings:
+        """The prepared readings of `contacts_between(mesh_a, mesh_b)`."""
+        return self._copied("vox_pair_copy_readings", Readings, _DTYPE_READING,  # type: ignore[no-any-return]
+                            self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
+
+    # ---- queries ----
+
+    def prepare_queries(self) -> None:
+        """Lets the queries see the meshes as they are now, e.g. after a step."""
+        with self._lock:
+            vox.vox_grid_prepare_queries(self._pointer)
+
+    def query_view(self) -> QueryView:
+        """The meshes as they are now, to be asked at any time and by any thread, also while the grid steps."""
+        view = ctypes.c_void_p()
+        with self._lock:
+            vox.vox_grid_take_query_view(self._pointer, view)
+        return QueryView(Handle(view.value or 0, vox.vox_query_view_release))
+
+    # ---- measurements ----
+
+    def _number(self, function: str, kind: Any) -> Any:
+        out = kind()
+        with self._lock:
+            getattr(vox, function)(self._pointer, out)
+        return out.value
+
+    @property
+    def epoch(self) -> int:
+        """Number of steps, clears, reserves and changes of the flags so far."""
+        return self._number("vox_grid_epoch", ctypes.c_uint64)  # type: ignore[no-any-return]
+
+    @property
+    def hash(self) -> int:
+        """A hash of the contacts, the same on every machine and with every setting."""
+        return self._number("vox_grid_hash", ctypes.c_uint64)  # type: ignore[no-any-return]
+
+    @property
+    def counters(self) -> Counters:
+        """What the last successful step did."""
+        out = sized(_c.vox_counters)
+        with self._lock:
+            vox.vox_grid_counters(self._pointer, out)
+        return Counters(*(getattr(out, name) for name in Counters._fields))
+
+    @property
+    def profile(self) -> Profile:
+        """Nanoseconds of the last successful step, by stage."""
+        out = sized(_c.vox_profile)
+        with self._lock:
+            vox.vox_grid_profile(self._pointer, out)
+        return Profile(*(getattr(out, name) for name in Profile._fields))
+
+    @property
+    def failures(self) -> list[Failure]:
+        """The mesh that made the last step fail, or the meshes that it left out (skip_bad_meshes)."""
+        found: list[Failure] = []
+        with self._lock:
+            while True:
+                f = sized(_c.vox_failure)
+                vox.vox_grid_failure(self._pointer, len(found), f)
+                if not f.mesh:
+                    return found
+                found.append(Failure(_c.Result(f.result), f.mesh, f.slot, f.user_data,
+                                     None if f.vertex == _c.VOX_NO_VERTEX else f.vertex, tuple(f.position)))
+
+    # ---- snapshots ----
+
+    def snapshot(self) -> bytes:
+        """The grid as it is now, in a format that is the same on every machine. Not in it: the settings of
+        `from_snapshot`, tags, and the results of the last step. `pickle` uses this, and keeps settings (without the log)
+        and tags."""
+        size = ctypes.c_uint64()
+        with self._lock:
+            vox.vox_grid_save(self._pointer, None, 0, size)
+            bytes_ = ctypes.create_string_buffer(size.value)
+            vox.vox_grid_save(self._pointer, ctypes.addressof(bytes_), size.value, size)
+        return bytes_.raw
+
+    @classmethod
+    def from_snapshot(cls, snapshot: Union[bytes, bytearray, memoryview], *, engine: str = "auto", workers: int = 1,
+                      byte_budget: int = 4 << 30, closest_budget: int = 0, log: Optional[Log] = None) -> Grid:
+        """A grid from a snapshot: the same ids, the same contacts. Its meshes have positions of their own
+        (`mesh.positions`). The bytes need not be trusted."""
+        data = np.frombuffer(snapshot, np.uint8)
+        grid = cls.__new__(cls)
+        desc = described(_c.vox_grid_desc)
+        desc.engine = choice(_c.Engine, engine, "engine")
+        grid._prepare(desc, workers, byte_budget, closest_budget, log)
+        pointer = ctypes.c_void_p()
+        vox.vox_grid_load(data.ctypes.data, data.size, desc, pointer)
+        grid._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc.log.write))
+        return grid
+
+    def __reduce__(self) -> Any:
+        return _restored, (type(self), self.snapshot(), dict(self._settings), dict(self._tags))
+
+
+def _restored(kind: type[Grid], snapshot: bytes, settings: dict[str, Any], tags: dict[int, Any]) -> Grid:
+    grid = kind.from_snapshot(snapshot, **settings)
+    grid._tags.update(tags)
+    return grid
+
+
+def step_all(grids: Iterable[Grid], workers: int = 0) -> None:
+    """Steps many grids in one call, several at the same time (workers 0: one for each core). For many small scenes. If
+    some fail, the others are stepped nevertheless, and the exception is that of the first."""
+    count = integer(workers, "workers", 0, U32)
+    all_ = _distinct(grids)
+    with _Locked(all_):
+        for grid in all_:
+            grid._refuse("step_all")
+        pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
+        vox.vox_grids_step(pointers, len(all_), None, count, None)
+
+
+def contacts_of_all(grids: Iterable[Grid]) -> tuple[Contacts, NDArray[np.uint64]]:
+    """The contacts of many grids, one grid after the other, and offsets: those of grid i are
+    `contacts[offsets[i]:offsets[i + 1]]`."""
+    all_ = _distinct(grids)
+    with _Locked(all_):
+        pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
+        offsets = np.zeros(len(all_) + 1, np.uint64)
+        vox.vox_grids_copy_contacts(pointers, len(all_), None, 0, offsets.ctypes.data)
+        contacts = np.empty(int(offsets[-1]), _DTYPE_CONTACT)
+        vox.vox_grids_copy_contacts(pointers, len(all_), contacts.ctypes.data, len(contacts), offsets.ctypes.data)
+    return contacts.view(Contacts), offsets
+
+
+def _distinct(grids: Iterable[Grid]) -> list[Grid]:
+    all_ = list(grids)
+    for i, grid in enumerate(all_):
+        if not isinstance(grid, Grid):
+            raise TypeError(f"grids[{i}] is of type {type(grid).__name__}; it must be a Grid")
+    if len(set(map(id, all_))) != len(all_):
+        raise InvalidArgumentError("a grid is given twice")
+    return all_
+
+
+class _Locked:
+    """The locks of many grids, always taken in the same order, so that two such calls do not wait for each other."""
+
+    def __init__(self, grids: list[Grid]) -> None:
+        self._grids = sorted(grids, key=id)
+        self._held: list[Any] = []
+
+    def __enter__(self) -> None:
+        try:
+            for grid in self._grids:
+                lock = grid._lock
+                lock.__enter__()
+                self._held.append(lock)
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def __exit__(self, *_: object) -> None:
+        for lock in reversed(self._held):
+            lock.__exit__(None, None, None)
+        self._held = []

@@ -1,0 +1,386 @@
+"""A mesh of a grid, and what it does not collide with."""
+
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _c
+from ._arguments import NOTHING, U32, U64, Rows, array_of, copied_rows, indices, integer, matrix, real, rows, switch
+from ._library import described, sized, vox
+from .errors import InvalidArgumentError
+from .results import Contacts, Exports, Readings, borrow_of
+
+if TYPE_CHECKING:
+    from .grid import Grid
+
+
+@dataclasses.dataclass(frozen=True)
+class Filter:
+    """What a mesh does not collide with. `dataclasses.replace(mesh.filter, category=2)` changes one of them."""
+
+    group: int = 0  # meshes with the same group collide if it is positive, and do not if it is negative
+    category: int = 1  # otherwise they do if the category of each has a bit in common with the mask of the other
+    mask: int = U64
+    self_collision: bool = False  # vertices of the mesh inside its own tetrahedra are contacts
+    self_rings: int = 0  # ... but not those within so many edges of the tetrahedron
+    self_rest_distance: float = 0.0  # ... nor those closer to it than this in the rest pose
+    penetration_mask: int = U64  # 0: contacts of this mesh have no penetrations
+
+    def _struct(self) -> Any:
+        out = described(_c.vox_filter)
+        out.group = integer(self.group, "group", -2**31, 2**31 - 1)
+        out.category, out.mask = integer(self.category, "category"), integer(self.mask, "mask")
+        out.self_collision = switch(self.self_collision, "self_collision")
+        out.self_rings = integer(self.self_rings, "self_rings", 0, U32)
+        out.self_rest_distance = real(self.self_rest_distance, "self_rest_distance")
+        out.penetration_mask = integer(self.penetration_mask, "penetration_mask")
+        return out
+
+
+class MeshInfo(NamedTuple):
+    """A mesh as it is now."""
+
+    slot: int
+    user_data: int
+    vertex_count: int  # with the removed ones
+    tet_count: int  # with those that are disabled or removed
+    enabled_tet_count: int
+    enabled: bool
+    owns_positions: bool  # copied, mapped or loaded
+    borrows_tets: bool
+    has_transform: bool
+
+
+class Topology:
+    """Vertices and tetrahedra as `vox_mesh_desc`, with the arrays that the library borrows."""
+
+    def __init__(self, positions: Any, tets: Any, vertex_count: Optional[int], copy: bool, rest_positions: Any,
+                 borrow_tets: bool) -> None:
+        self.desc = desc = described(_c.vox_mesh_desc)
+        self.rows = NOTHING
+        if positions is not None:
+            self.rows = copied_rows(positions, "positions") if copy else rows(positions, "positions")
+            if vertex_count is not None and vertex_count != self.rows.length:
+                raise InvalidArgumentError(f"vertex_count is {vertex_count}, but there are {self.rows.length} positions")
+            desc.position_format = self.rows.format
+            if copy:
+                desc.flags |= _c.MeshFlags.COPY_POSITIONS
+        desc.vertex_count = self.rows.length if vertex_count is None else integer(vertex_count, "vertex_count")
+        desc.positions, desc.position_byte_stride = self.rows.address, self.rows.stride
+        desc.position_component_byte_stride = self.rows.component
+        self.tets: Optional[NDArray[np.uint32]] = None
+        if tets is not None:
+            if borrow_tets and not (isinstance(tets, np.ndarray) and tets.dtype == np.uint32
+                                    and tets.flags.c_contiguous):
+                raise InvalidArgumentError("tets that are borrowed must be a numpy array of uint32 in rows")
+            self.tets = indices(tets, "tets", 4)
+            desc.tets, desc.tet_count = self.tets.ctypes.data, len(self.tets)
+            if borrow_tets:
+                desc.flags |= _c.MeshFlags.BORROW_TETS
+        self.rest = NOTHING
+        if rest_positions is not None:
+            self.rest = copied_rows(rest_positions, "rest_positions")
+            if self.rest.length != desc.vertex_count:
+                raise InvalidArgumentError(f"there are {self.rest.length} rest_positions for {desc.vertex_count} vertices")
+            if positions is not None and self.rest.format != desc.position_format:
+                raise InvalidArgumentError("rest_positions and positions have different dtypes")
+            desc.position_format = self.rest.format
+            desc.rest_positions, desc.rest_position_byte_stride = self.rest.address, self.rest.stride
+            desc.rest_position_component_byte_stride = self.rest.component
+
+    def kept(self) -> tuple[Optional[Rows], Optional[NDArray[Any]]]:
+        """What the library goes on reading after the call: positions and tets."""
+        return (None if self.desc.flags & _c.MeshFlags.COPY_POSITIONS or self.rows.array is None else self.rows,
+                self.tets if self.desc.flags & _c.MeshFlags.BORROW_TETS else None)
+
+
+class Mesh:
+    """A mesh of a grid, from `Grid.add` or `grid[id]`. It is a name only: the grid keeps the mesh. Where an id is wanted,
+    a Mesh may be given, and the reverse."""
+
+    __slots__ = ("grid", "id")
+
+    def __init__(self, grid: Grid, id: int) -> None:
+        self.grid = grid
+        self.id = id
+
+    def __index__(self) -> int:
+        return self.id
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mesh) and other.grid is self.grid and other.id == self.id
+
+    def __hash__(self) -> int:
+        return hash((id(self.grid), self.id))
+
+    def __repr__(self) -> str:
+        tag = f", tag={self.tag!r}" if self.tag is not None else ""
+        return f"<voxtet.Mesh {self.id}{tag}>" if self.valid else f"<voxtet.Mesh {self.id}, removed>"
+
+    @property
+    def valid(self) -> bool:
+        """Whether the mesh is still in the grid."""
+        return self.grid._pointer is not None and self in self.grid
+
+    @property
+    def tag(self) -> Any:
+        """Any object of yours."""
+        return self.grid._tags.get(self.id)
+
+    @tag.setter
+    def tag(self, tag: Any) -> None:
+        with self.grid._lock:
+            self._raw_info()
+            self.grid._tags[self.id] = tag
+
+    def _raw_info(self) -> Any:
+        info = sized(_c.vox_mesh_info)
+        vox.vox_mesh_get_info(self.grid._pointer, self.id, info)
+        return info
+
+    @property
+    def info(self) -> MeshInfo:
+        """Counts and state, as they are now."""
+        with self.grid._lock:
+            i = self._raw_info()
+        return MeshInfo(i.slot, i.user_data, i.vertex_count, i.tet_count, i.enabled_tet_count, bool(i.enabled),
+                        bool(i.flags & _c.MeshFlags.COPY_POSITIONS), bool(i.flags & _c.MeshFlags.BORROW_TETS),
+                        bool(i.has_transform))
+
+    @property
+    def user_data(self) -> int:
+        """The number that the mesh was added with."""
+        number = ctypes.c_uint64()
+        with self.grid._lock:
+            vox.vox_mesh_user_data(self.grid._pointer, self.id, number)
+        return number.value
+
+    # ---- positions ----
+
+    @property
+    def positions(self) -> Optional[NDArray[Any]]:
+        """The array that the mesh borrows. If the mesh has positions of its own: the library's memory, writable. While
+        such an array lives, what would end its memory raises BufferError (remove, new positions, clear, close). None if
+        the mesh has no positions. Write to it in place (`mesh.positions[:] = moved`), or set it to have another array
+        borrowed."""
+        grid = self.grid
+        with grid._lock:
+            kept = grid._kept.get(self.id)
+            info = self._raw_info()
+            if kept is not None and kept[0] is not None:
+                return kept[0].array
+            if not info.positions:
+                return None if info.vertex_count else np.empty((0, 3), np.float32)
+            own = bool(info.flags & _c.MeshFlags.COPY_POSITIONS)  # else those of a body of a voxtet.sim
+            address = ctypes.c_void_p(info.positions)
+            if own:
+                vox.vox_mesh_map_positions(grid._pointer, self.id, address, ctypes.c_uint64())
+            kind = np.dtype(np.float64 if info.position_format == _c.Format.DOUBLE3 else np.float32)
+            flat = borrow_of(address.value or 0, 3 * info.vertex_count, kind.itemsize, np.ndarray, kind, grid._handle,
+                             grid._exports_of(self.id), writable=own)
+            mapped: NDArray[Any] = flat.reshape(-1, 3)
+            return mapped
+
+    @positions.setter
+    def positions(self, positions: Any) -> None:
+        grid = self.grid
+        new = rows(positions, "positions")
+        with grid._lock:
+            info = self._raw_info()
+            if new.length != info.vertex_count:
+                raise InvalidArgumentError(f"there are {new.length} positions for the {info.vertex_count} vertices of mesh "
+                                           f"{self.id}")
+            same = (info.positions, info.position_format, info.position_byte_stride) == new[1:4]
+            if same and info.flags & _c.MeshFlags.COPY_POSITIONS:
+                return  # mesh.positions += ... : its own already
+            grid._refuse_positions(self.id, "new positions")
+            vox.vox_mesh_bind_strided_positions(grid._pointer, self.id, new.address, new.format, new.stride, new.component)
+            grid._keep(self.id, positions=new)
+
+    @property
+    def transform(self) -> NDArray[np.float64]:
+        """The affine map of the positions, three rows of four numbers. Set it to such an array, to one of (4, 4) with the
+        last row 0 0 0 1, or to None for no transform."""
+        with self.grid._lock:
+            return np.array(self._raw_info().transform[:]).reshape(3, 4)
+
+    @transform.setter
+    def transform(self, transform: Optional[ArrayLike]) -> None:
+        numbers = None if transform is None else matrix(transform, "transform")
+        with self.grid._lock:
+            vox.vox_mesh_set_transform(self.grid._pointer, self.id, numbers)
+
+    def mark_moved(self) -> None:
+        """Makes the next step process the mesh even if it is at rest."""
+        with self.grid._lock:
+            vox.vox_mesh_mark_moved(self.grid._pointer, self.id)
+
+    # ---- what it collides with ----
+
+    @property
+    def filter(self) -> Filter:
+        """What the mesh does not collide with."""
+        with self.grid._lock:
+            f = sized(_c.vox_filter)
+            vox.vox_mesh_filter(self.grid._pointer, self.id, f)
+        return Filter(f.group, f.category, f.mask, bool(f.self_collision), f.self_rings, f.self_rest_distance,
+                      f.penetration_mask)
+
+    @filter.setter
+    def filter(self, filter: Filter) -> None:
+        if not isinstance(filter, Filter):
+            raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
+        struct = filter._struct()
+        with self.grid._lock:
+            vox.vox_mesh_set_filter(self.grid._pointer, self.id, struct)
+
+    @property
+    def enabled(self) -> bool:
+        """Whether the mesh takes part in the following steps."""
+        return self.info.enabled
+
+    @enabled.setter
+    def enabled(self, enabled: bool) -> None:
+        number = switch(enabled, "enabled")
+        with self.grid._lock:
+            vox.vox_mesh_set_enabled(self.grid._pointer, self.id, number)
+
+    # ---- results ----
+
+    @property
+    def contacts(self) -> Contacts:
+        """Contacts of the last step in which the mesh takes part on either side, pair by pair."""
+        return self.grid.contacts_of(self)
+
+    @property
+    def readings(self) -> Readings:
+        """The prepared readings of these contacts."""
+        return self.grid.readings_of(self)
+
+    # ---- tetrahedra and vertices ----
+
+    @property
+    def tets(self) -> NDArray[np.uint32]:
+        """A copy of the corners of all tetrahedra, (n, 4), with those that are disabled or removed."""
+        return self._tets()[0]
+
+    @property
+    def tets_enabled(self) -> NDArray[np.bool_]:
+        """For each tetrahedron, whether it is there: neither disabled nor removed."""
+        return self._tets()[1]
+
+    def _tets(self) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
+        with self.grid._lock:
+            count = self._raw_info().tet_count
+            corners, enabled = np.empty((count, 4), np.uint32), np.empty(count, np.bool_)
+            vox.vox_mesh_copy_tets(self.grid._pointer, self.id, corners.ctypes.data, enabled.ctypes.data, count,
+                                   ctypes.c_uint64())
+        return corners, enabled
+
+    def set_tets_enabled(self, tets: ArrayLike, enabled: bool) -> None:
+        """Turns tetrahedra off, or on again."""
+        which, number = indices(tets, "tets"), switch(enabled, "enabled")
+        with self.grid._lock:
+            vox.vox_mesh_set_tets_enabled(self.grid._pointer, self.id, which.ctypes.data, len(which), number)
+            self._own_tets()
+
+    def replace_tets(self, tets: ArrayLike, corners: ArrayLike) -> None:
+        """Gives tetrahedra other corners, (n, 4)."""
+        which, new = indices(tets, "tets"), indices(corners, "corners", 4)
+        if len(which) != len(new):
+            raise InvalidArgumentError(f"there are {len(which)} tets and the corners of {len(new)}")
+        with self.grid._lock:
+            vox.vox_mesh_replace_tets(self.grid._pointer, self.id, which.ctypes.data, len(which), new.ctypes.data)
+            self._own_tets()
+
+    def append_tets(self, corners: ArrayLike) -> int:
+        """Adds tetrahedra with these corners, (n, 4). Returns the index of the first."""
+        new, first = indices(corners, "corners", 4), ctypes.c_uint32()
+        with self.grid._lock:
+            vox.vox_mesh_append_tets(self.grid._pointer, self.id, new.ctypes.data, len(new), first)
+            self._own_tets()
+        return first.value
+
+    def remove_tets(self, tets: ArrayLike) -> None:
+        """Removes tetrahedra. The others keep their indices."""
+        which = indices(tets, "tets")
+        with self.grid._lock:
+            vox.vox_mesh_remove_tets(self.grid._pointer, self.id, which.ctypes.data, len(which))
+            self._own_tets()
+
+    def append_vertices(self, positions: Any = None, *, copies_of: Optional[ArrayLike] = None,
+                        rest_positions: Any = None) -> int:
+        """Adds vertices, and returns the index of the first. For a mesh that borrows its positions: `positions` is an array
+        of all positions, those of the vertices it has first, and is borrowed from now on. For a mesh with positions of
+        its own: those of the new vertices, copied, or None to copy them from the vertices `copies_of`."""
+        grid = self.grid
+        desc = described(_c.vox_vertices_desc)
+        of = None if copies_of is None else indices(copies_of, "copies_of")
+        rest = NOTHING if rest_positions is None else copied_rows(rest_positions, "rest_positions")
+        with grid._lock:
+            info = self._raw_info()
+            own = bool(info.flags & _c.MeshFlags.COPY_POSITIONS)
+            borrowed = not own and positions is not None
+            new = NOTHING if positions is None else rows(positions, "positions") if borrowed else \
+                copied_rows(positions, "positions")
+            if positions is not None and info.positions and new.format != info.position_format:
+                raise TypeError(f"positions have the dtype {array_of(positions, 'positions').dtype}; those of the mesh have "
+                                "another")
+            counts = [n for n in (None if positions is None else new.length - (info.vertex_count if borrowed else 0),
+                                  None if of is None else len(of), None if rest_positions is None else rest.length)
+                      if n is not None]
+            if not counts or min(counts) != max(counts) or counts[0] < 0:
+                raise InvalidArgumentError(f"mesh {self.id} of {info.vertex_count} vertices cannot get {counts} new ones, by "
+                                           "positions, copies_of and rest_positions")
+            desc.count = counts[0]
+            desc.positions, desc.position_byte_stride = new.address, new.stride
+            desc.position_component_byte_stride = new.component
+            desc.copies_of = None if of is None else of.ctypes.data
+            desc.rest_positions, desc.rest_position_byte_stride = rest.address, rest.stride
+            desc.rest_position_component_byte_stride = rest.component
+            grid._refuse_positions(self.id, "new vertices")
+            first = ctypes.c_uint32()
+            vox.vox_mesh_append_vertices(grid._pointer, self.id, desc, first)
+            if borrowed:
+                grid._keep(self.id, positions=new)
+        return first.value
+
+    def remove_vertices(self, vertices: ArrayLike) -> None:
+        """Removes vertices that belong to no tetrahedron any more. The others keep their indices."""
+        which = indices(vertices, "vertices")
+        with self.grid._lock:
+            vox.vox_mesh_remove_vertices(self.grid._pointer, self.id, which.ctypes.data, len(which))
+
+    def set_topology(self, positions: Any, tets: Optional[ArrayLike] = None, *, vertex_count: Optional[int] = None,
+                     copy: bool = False, rest_positions: Any = None, borrow_tets: bool = False) -> None:
+        """Replaces tetrahedra, vertices and positions, as if the mesh had been added with these. Its id, tag, filter and
+        transform stay. With positions None and as many vertices as before, it keeps its positions."""
+        new = Topology(positions, tets, vertex_count, copy, rest_positions, borrow_tets)
+        grid = self.grid
+        with grid._lock:
+            before = self._raw_info()
+            if positions is None and vertex_count is None:
+                new.desc.vertex_count = before.vertex_count
+            keeps = positions is None and new.desc.vertex_count == before.vertex_count
+            if not keeps:
+                grid._refuse_positions(self.id, "new positions")
+            vox.vox_mesh_set_topology(grid._pointer, self.id, new.desc)
+            kept, borrowed_tets = new.kept()
+            if keeps:
+                kept = grid._kept.get(self.id, (None, None))[0]
+            grid._keep(self.id, positions=kept, tets=borrowed_tets)
+
+    def _own_tets(self) -> None:
+        """After an edit: tetrahedra that were borrowed have been copied."""
+        kept = self.grid._kept.get(self.id)
+        if kept is not None and kept[1] is not None and not self._raw_info().flags & _c.MeshFlags.BORROW_TETS:
+            self.grid._keep(self.id, tets=None)
+
+    def remove(self) -> None:
+        """Removes the mesh from its grid."""
+        self.grid.remove(self)

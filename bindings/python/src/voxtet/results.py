@@ -1,0 +1,341 @@
+"""Results of a step as structured arrays: copies that are the caller's own, or borrowed memory of the library."""
+
+from __future__ import annotations
+
+import ctypes
+import weakref
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _c
+from ._library import vox
+from .errors import InvalidStateError
+
+if TYPE_CHECKING:
+    from .grid import Grid
+
+
+class Records(np.ndarray[Any, Any]):
+    """A structured array whose fields are attributes as well: `contacts.tet` is `contacts["tet"]`, without a copy."""
+
+    def __getitem__(self, key: Any) -> Any:
+        found = super().__getitem__(key)
+        return found.view(np.ndarray) if isinstance(key, str) else found
+
+    def __getattr__(self, name: str) -> Any:
+        if name in (self.dtype.names or ()):
+            return self[name]
+        raise AttributeError(f"{type(self).__name__} of {self.dtype} has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(self.dtype.names or ())]
+
+
+def record_type(struct: str) -> np.dtype[Any]:
+    """The dtype of a struct of the library. Single elements have their fields as attributes, too."""
+    return np.dtype((np.record, _c.dtypes[struct]))
+
+
+class Contacts(Records):
+    """Contacts of a step, sorted by (mesh_a, vertex, mesh_b, tet): the vertex of mesh_a is in the tetrahedron of mesh_b."""
+
+    mesh_a: NDArray[np.uint32]
+    vertex: NDArray[np.uint32]
+    mesh_b: NDArray[np.uint32]
+    tet: NDArray[np.uint32]
+    barycentric: NDArray[np.float32]
+
+
+class Penetrations(Records):
+    """How deep each vertex is in another body, and which way leads out. `state` is a PenetrationState."""
+
+    mesh_a: NDArray[np.uint32]
+    vertex: NDArray[np.uint32]
+    mesh_b: NDArray[np.uint32]
+    state: NDArray[np.int32]
+    contact: NDArray[np.uint64]
+    depth: NDArray[np.float32]
+    direction: NDArray[np.float32]
+
+
+class Depths(Records):
+    """Depth and direction in double."""
+
+    depth: NDArray[np.float64]
+    direction: NDArray[np.float64]
+
+
+class Pairs(Records):
+    """Meshes that touch, and where their contacts are in `Grid.pair_contacts`."""
+
+    mesh_a: NDArray[np.uint32]
+    mesh_b: NDArray[np.uint32]
+    user_data_a: NDArray[np.uint64]
+    user_data_b: NDArray[np.uint64]
+    first: NDArray[np.uint64]
+    a_in_b: NDArray[np.uint64]
+    b_in_a: NDArray[np.uint64]
+
+
+class TouchEvents(Records):
+    """Pairs of meshes that began to touch, still touch, or ended. `kind` is a Touch."""
+
+    mesh_a: NDArray[np.uint32]
+    mesh_b: NDArray[np.uint32]
+    user_data_a: NDArray[np.uint64]
+    user_data_b: NDArray[np.uint64]
+    kind: NDArray[np.int32]
+    pair: NDArray[np.uint32]
+
+
+class ContactEvents(Records):
+    """Vertices that entered a mesh or left it. `kind` is a Touch."""
+
+    mesh_a: NDArray[np.uint32]
+    vertex: NDArray[np.uint32]
+    mesh_b: NDArray[np.uint32]
+    kind: NDArray[np.int32]
+
+
+class Readings(Records):
+    """What responding to, drawing or reporting contacts needs. `known` are ReadingFlags: which parts are there."""
+
+    contact: NDArray[np.uint64]
+    known: NDArray[np.uint32]
+    state: NDArray[np.int32]
+    depth: NDArray[np.float32]
+    direction: NDArray[np.float32]
+    position: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    surface_position: NDArray[np.float64]
+    barycentric: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    triangle: NDArray[np.uint32]
+    user_data_a: NDArray[np.uint64]
+    user_data_b: NDArray[np.uint64]
+
+
+class Touches(NamedTuple):
+    """The touch events of a step in three parts."""
+
+    began: TouchEvents
+    persisted: TouchEvents
+    ended: TouchEvents
+
+
+class Passages(NamedTuple):
+    """The events of single vertices of a step in two parts."""
+
+    began: ContactEvents
+    ended: ContactEvents
+
+
+class View(NamedTuple):
+    """How to get one kind of array: the function that gives a view, the view's type, and what its elements become."""
+
+    function: Any
+    struct: Any
+    records: Any
+    dtype: np.dtype[Any]
+    of_readings: bool
+
+
+def _view(function: str, struct: str, records: type[Records], element: str, of_readings: bool = False) -> View:
+    return View(getattr(vox, function), getattr(_c, struct), records, record_type(element), of_readings)
+
+
+CONTACTS = _view("vox_grid_contacts", "vox_contact_view", Contacts, "vox_contact")
+PENETRATIONS = _view("vox_grid_penetrations", "vox_penetration_view", Penetrations, "vox_penetration")
+DEPTHS = _view("vox_grid_depths", "vox_depth_view", Depths, "vox_depth")
+PAIRS = _view("vox_grid_pairs", "vox_pair_view", Pairs, "vox_pair")
+TOUCHES = _view("vox_grid_touch_events", "vox_touch_view", TouchEvents, "vox_touch_event")
+PASSAGES = _view("vox_grid_contact_events", "vox_contact_event_view", ContactEvents, "vox_contact_event")
+READINGS = _view("vox_grid_readings", "vox_reading_view", Readings, "vox_reading", of_readings=True)
+READING_DEPTHS = _view("vox_grid_reading_depths", "vox_depth_view", Depths, "vox_depth", of_readings=True)
+INTERIORS = View(vox.vox_grid_contact_interiors, _c.vox_interior_view, np.ndarray, np.dtype(np.bool_), False)
+
+INDICES = View(None, None, np.ndarray, np.dtype(np.uint32), False)
+
+_BYTE = np.dtype(np.uint8)
+# ctypes makes a type for each length, which takes longer than all the rest: lengths are rounded up, and cut to size by a
+# memoryview.
+_SPANS = [ctypes.c_char * (1 << bits) for bits in range(62)]
+
+_new = np.ndarray.__new__
+_from_buffer: Any = ctypes.c_char.from_buffer
+
+
+def copy_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype[Any]) -> Any:
+    """An array of the caller's own."""
+    if count == 0:
+        return _new(records, 0, dtype)
+    size = dtype.itemsize
+    if stride != size:
+        return borrow_of(address, count, stride, records, dtype, None).copy()
+    memory = np.empty(count * size, _BYTE)
+    ctypes.memmove(ctypes.byref(_from_buffer(memory)), address, count * size)
+    return _new(records, count, dtype, memory)
+
+
+class Exports:
+    """Which borrowed arrays are alive."""
+
+    __slots__ = ("_full", "_references")
+
+    def __init__(self) -> None:
+        self._references: list[weakref.ref[Any]] = []
+        self._full = 16  # when to drop those that are dead
+
+    def __bool__(self) -> bool:
+        return bool(self._references)
+
+    def add(self, exporter: Any) -> None:
+        if len(self._references) >= self._full:
+            self._references = [r for r in self._references if r() is not None]
+            self._full = 2 * len(self._references) + 16
+        self._references.append(weakref.ref(exporter))
+
+    def refuse(self, what: str) -> None:
+        """Raises BufferError if one is alive."""
+        self._references = [r for r in self._references if r() is not None]
+        if self._references:
+            raise BufferError(f"{what} would end borrowed memory that is in use: leave the `with grid.borrowed()`, and delete "
+                              "its arrays and their slices or copy them")
+
+
+def borrow_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype[Any], owner: Any,
+              exports: Optional[Exports] = None, writable: bool = False) -> Any:
+    """An array over the library's memory. It, its slices and its fields keep `owner` alive, and are listed in `exports`
+    as long as they live."""
+    if count == 0:
+        return _new(records, 0, dtype)
+    size = (count - 1) * stride + dtype.itemsize
+    exporter = _SPANS[size.bit_length()].from_address(address)
+    exporter.owner = owner  # type: ignore[attr-defined]
+    if exports is not None:
+        exports.add(exporter)
+    memory = memoryview(exporter)[:size]
+    if not writable:
+        memory = memory.toreadonly()
+    if stride == dtype.itemsize:
+        return np.frombuffer(memory, dtype).view(records)
+    return _new(records, count, dtype, np.frombuffer(memory, _BYTE), 0, (stride,))
+
+
+class Results:
+    """What a step found: of a grid as copies, in a `with grid.borrowed()` as borrowed memory."""
+
+    def _source(self) -> Grid:
+        raise NotImplementedError
+
+    def _make(self, view: View, address: int, count: int, stride: int) -> Any:
+        """The array; called with the grid's lock held."""
+        raise NotImplementedError
+
+    def _array(self, view: View) -> Any:
+        grid = self._source()
+        with grid._lock:
+            out = view.struct()
+            view.function(grid._pointer, out)
+            return self._make(view, out.data, out.count, out.byte_stride)
+
+    @property
+    def contacts(self) -> Contacts:
+        """The contacts of the last step; none before the first, after a failed one and after a clear."""
+        return self._array(CONTACTS)  # type: ignore[no-any-return]
+
+    @property
+    def interiors(self) -> NDArray[np.bool_]:
+        """For each contact, whether the vertex is in the interior of the tetrahedron (and not on its boundary); exact."""
+        return self._array(INTERIORS)  # type: ignore[no-any-return]
+
+    @property
+    def penetrations(self) -> Penetrations:
+        """The penetrations of the last step. Raises InvalidStateError for a grid without them."""
+        return self._array(PENETRATIONS)  # type: ignore[no-any-return]
+
+    @property
+    def depths(self) -> Depths:
+        """Depth and direction of each penetration in double."""
+        return self._array(DEPTHS)  # type: ignore[no-any-return]
+
+    @property
+    def pairs(self) -> Pairs:
+        """The pairs of meshes that touched in the last step."""
+        return self._array(PAIRS)  # type: ignore[no-any-return]
+
+    @property
+    def pair_contacts(self) -> NDArray[np.uint32]:
+        """The index of each contact, pair by pair: those of a pair begin at `pair.first`, first `a_in_b` vertices of
+        mesh_a, then `b_in_a` of mesh_b."""
+        grid = self._source()
+        with grid._lock:
+            pairs, contacts = PAIRS.struct(), CONTACTS.struct()
+            PAIRS.function(grid._pointer, pairs)
+            CONTACTS.function(grid._pointer, contacts)
+            return self._make(INDICES, pairs.contacts, contacts.count, 4)  # type: ignore[no-any-return]
+
+    @property
+    def events(self) -> Touches:
+        """Pairs that began to touch in the last step, that still touch, and that ended."""
+        grid = self._source()
+        with grid._lock:
+            view = TOUCHES.struct()
+            TOUCHES.function(grid._pointer, view)
+            events = self._make(TOUCHES, view.data, view.count, view.byte_stride)
+        middle = view.began + view.persisted
+        return Touches(events[:view.began], events[view.began:middle], events[middle:])
+
+    @property
+    def contact_events(self) -> Passages:
+        """Vertices that entered a mesh in the last step, and that left one. For a grid with contact_events=True."""
+        grid = self._source()
+        with grid._lock:
+            view = PASSAGES.struct()
+            PASSAGES.function(grid._pointer, view)
+            events = self._make(PASSAGES, view.data, view.count, view.byte_stride)
+        return Passages(events[:view.began], events[view.began:])
+
+
+class _Token:
+    """Stands for an open `with grid.borrowed()`."""
+
+
+class Borrowed(Results):
+    """Results of a step without a copy, by `with grid.borrowed() as results`. While it is open or an array of it lives (also
+    a slice or a field), whatever would end the memory raises BufferError: step, clear, reserve, flags, close."""
+
+    def __init__(self, grid: Grid) -> None:
+        self._grid = grid
+        self._token: Optional[_Token] = None
+
+    def _source(self) -> Grid:
+        if self._token is None:
+            raise InvalidStateError("borrowed results are there inside of `with grid.borrowed() as results` only")
+        return self._grid
+
+    def _make(self, view: View, address: int, count: int, stride: int) -> Any:
+        grid = self._grid
+        exports = grid._borrowed_readings if view.of_readings else grid._borrowed
+        return borrow_of(address, count, stride, view.records, view.dtype, grid._handle, exports)
+
+    @property
+    def readings(self) -> Readings:
+        """The readings that `Grid.prepare_readings` made last."""
+        return self._array(READINGS)  # type: ignore[no-any-return]
+
+    @property
+    def reading_depths(self) -> Depths:
+        """Depth and direction of these readings in double."""
+        return self._array(READING_DEPTHS)  # type: ignore[no-any-return]
+
+    def __enter__(self) -> Borrowed:
+        with self._grid._lock:
+            self._token = _Token()
+            self._grid._borrowed.add(self._token)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._token = None

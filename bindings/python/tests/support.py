@@ -1,0 +1,49 @@
+"""What the tests share: bodies, and grids of them."""
+
+import gc
+import unittest
+
+import numpy as np
+
+import voxtet
+
+TET = np.array([[0, 1, 2, 3]], np.uint32)
+
+
+def box(cells=4, at=(0, 0, 0), dtype=np.float32):
+    """A cube of side 1 of cells**3 cubes, each split into five tetrahedra."""
+    n = cells + 1
+    grid = np.stack(np.meshgrid(*[np.arange(n)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    positions = np.ascontiguousarray(grid / cells + np.asarray(at, float), dtype)
+    fives = [[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(1, 1, 0), (1, 0, 0), (0, 1, 0), (1, 1, 1)],
+             [(1, 0, 1), (1, 0, 0), (0, 0, 1), (1, 1, 1)], [(0, 1, 1), (0, 1, 0), (0, 0, 1), (1, 1, 1)],
+             [(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)]]
+    tets = []
+    for corner in np.ndindex(cells, cells, cells):
+        mirrored = sum(corner) % 2
+        for five in fives:
+            tets.append([np.dot(np.add(corner, np.bitwise_xor(c, (mirrored, 0, 0))), (n * n, n, 1)) for c in five])
+    return positions, np.array(tets, np.uint32)
+
+
+def two_boxes(cells=4, dtype=np.float32):
+    """Positions of two cubes that overlap at a corner, and the tetrahedra of each."""
+    a, tets = box(cells, dtype=dtype)
+    return a, (a + np.array([0.61, 0.52, 0.43], dtype)).astype(dtype), tets
+
+
+class GridCase(unittest.TestCase):
+    """With a grid of two cubes that touch, `self.a` and `self.b`, not stepped yet."""
+
+    options = {}
+
+    def setUp(self):
+        self.first, self.second, self.tets = two_boxes()
+        self.grid = voxtet.Grid(**self.options)
+        self.a = self.grid.add(self.first, self.tets, tag="a", user_data=7)
+        self.b = self.grid.add(self.second, self.tets, tag="b", user_data=2**63)
+        self.addCleanup(self.end)
+
+    def end(self):
+        gc.collect()
+        self.grid.close()
