@@ -13,7 +13,7 @@ from . import _c
 from ._arguments import NOTHING, U32, U64, Rows, array_of, copied_rows, indices, integer, matrix, real, rows, switch
 from ._library import described, sized, vox
 from .errors import InvalidArgumentError
-from .results import Contacts, Exports, Readings, borrow_of
+from .results import Contacts, Lease, Readings, borrow_of
 
 if TYPE_CHECKING:
     from .grid import Grid
@@ -181,8 +181,8 @@ class Mesh:
             if own:
                 vox.vox_mesh_map_positions(grid._pointer, self.id, address, ctypes.c_uint64())
             kind = np.dtype(np.float64 if info.position_format == _c.Format.DOUBLE3 else np.float32)
-            flat = borrow_of(address.value or 0, 3 * info.vertex_count, kind.itemsize, np.ndarray, kind, grid._handle,
-                             grid._exports_of(self.id), writable=own)
+            flat = borrow_of(address.value or 0, 3 * info.vertex_count, kind.itemsize, np.ndarray, kind,
+                             Lease(grid._handle, grid._exports_of(self.id)), writable=own)
             mapped: NDArray[Any] = flat.reshape(-1, 3)
             return mapped
 

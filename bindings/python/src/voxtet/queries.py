@@ -184,13 +184,13 @@ class QueryView(Queries):
         self._handle: Optional[Handle] = handle
 
     @property
-    def _lock(self) -> _Held:  # type: ignore[override]
+    def _lock(self) -> _Held:
         if self._handle is None:
             raise InvalidStateError("the query view is closed")
         return _Held(self._handle)
 
     @property
-    def _pointer(self) -> Optional[int]:
+    def _pointer(self) -> Optional[int]:  # type: ignore[override]
         handle = self._handle
         return None if handle is None else handle.pointer
 
