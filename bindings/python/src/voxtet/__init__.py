@@ -1,5 +1,9 @@
 """Exact contacts between deforming tetrahedral meshes, on a voxel grid that chooses its cell size itself."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from ._c import (AreaReading, CostModel, Engine, GridFlags, Hash, PenetrationState, ReadingFlags, Result, Side, SizeReading,
                  Storage, Touch)
 from ._library import vox as _vox
@@ -7,9 +11,23 @@ from .errors import (BudgetError, FileError, FormatError, InternalError, Invalid
                      InvalidMeshError, InvalidStateError, LimitError, MissingFileError, NonFiniteError, OutOfMemoryError,
                      UnsupportedError, VoxError)
 from .grid import Counters, Failure, Grid, Profile, contacts_of_all, step_all
+from .locate import Located, Locator, locate
 from .mesh import Filter, Mesh, MeshInfo
 from .queries import ClosestHits, FacetHits, PointHits, QueryView, TetHits
 from .results import Borrowed, ContactEvents, Contacts, Depths, Pairs, Passages, Penetrations, Readings, TouchEvents, Touches
+from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Terms, calibrate, minimise, predict, set_weights,
+                      suggest_cell_size, weights, zone_distance)
+
+if TYPE_CHECKING:
+    from . import io, sim
 
 __version__: str = _vox.vox_version_string().decode()
 build_info: str = _vox.vox_build_info().decode()
+
+
+def __getattr__(name: str) -> Any:
+    """voxtet.io and voxtet.sim are libraries of their own, loaded when they are first used."""
+    if name in ("io", "sim"):
+        import importlib
+        return importlib.import_module("." + name, __name__)
+    raise AttributeError(f"module 'voxtet' has no attribute {name!r}")

@@ -19,6 +19,7 @@ from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .queries import Queries, QueryView, hits_of
 from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of
+from .suggest import Suggestion, suggest_for_grid
 
 Log = Callable[[int, str], Any]
 _KEEP: Any = object()
@@ -517,6 +518,23 @@ class Grid(Queries, Results):
         with self._lock:
             vox.vox_grid_take_query_view(self._pointer, view)
         return QueryView(Handle(view.value or 0, vox.vox_query_view_release))
+
+    # ---- cell size and pictures ----
+
+    def suggest_cell_size(self, model: Union[str, _c.CostModel, None] = None, **options: Any) -> Suggestion:
+        """As voxtet.suggest_cell_size for the meshes of the grid, from samples. Without a model, that of its engine."""
+        return suggest_for_grid(self, model, options)
+
+    def plot(self, plotter: Any = None, *, opacity: float = 0.5, contacts: bool = True, penetrations: bool = True,
+             **options: Any) -> Any:
+        """Adds bodies, contacts and penetrations to a plotter of pyvista, or to a new one made with `options`, and returns
+        it: `grid.plot().show()`."""
+        from .plot import plot
+        return plot(self, plotter, opacity=opacity, contacts=contacts, penetrations=penetrations, **options)
+
+    def show(self, **options: Any) -> Any:
+        """Shows the grid with pyvista."""
+        return self.plot().show(**options)
 
     # ---- measurements ----
 

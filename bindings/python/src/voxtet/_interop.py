@@ -1,0 +1,42 @@
+"""Positions and tetrahedra of the meshes of other packages, by what they have, so that none of them is imported."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+_VTK_TETRA = 10
+
+
+def arrays_of(mesh: Any, tets: Any = None) -> tuple[Any, Any, Optional[NDArray[Any]]]:
+    """Positions, tets, and for a mesh of cells of many kinds, the index of the cell that each tetrahedron is."""
+    if tets is not None:
+        return mesh, tets, None
+    if hasattr(mesh, "positions") and hasattr(mesh, "tets"):  # voxtet.io.MeshData, a Mesh of a grid, a body of a sim
+        return mesh.positions, mesh.tets, None
+    if hasattr(mesh, "celltypes") and hasattr(mesh, "points"):  # pyvista.UnstructuredGrid
+        cells = np.flatnonzero(mesh.celltypes == _VTK_TETRA)
+        found = mesh.cells_dict.get(_VTK_TETRA, np.empty((0, 4), np.int64))
+        return np.asarray(mesh.points), found, None if len(cells) == mesh.n_cells else cells
+    if hasattr(mesh, "cells_dict") and hasattr(mesh, "points"):  # meshio.Mesh
+        return _three_columns(mesh.points), mesh.cells_dict.get("tetra", np.empty((0, 4), np.int64)), None
+    raise TypeError(f"a mesh of type {type(mesh).__name__} is not known; give positions and tets, or a mesh of pyvista, meshio "
+                    "or voxtet.io")
+
+
+def triangles_of(mesh: Any) -> tuple[Any, Any]:
+    """Positions and triangles of a surface."""
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces") and not hasattr(mesh, "cells_dict"):  # trimesh.Trimesh
+        return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces)
+    if hasattr(mesh, "regular_faces"):  # pyvista.PolyData
+        surface = mesh if mesh.is_all_triangles else mesh.triangulate()
+        return np.asarray(surface.points), np.asarray(surface.regular_faces)
+    if hasattr(mesh, "cells_dict") and "triangle" in mesh.cells_dict:
+        return _three_columns(mesh.points), mesh.cells_dict["triangle"]
+    raise TypeError(f"{type(mesh).__name__} is no surface of triangles")
+
+
+def _three_columns(points: Any) -> Any:
+    return points if points.dtype in (np.float32, np.float64) else points.astype(np.float64)

@@ -1,0 +1,49 @@
+"""Pictures of a grid with pyvista: bodies, contacts, and which way leads out of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
+
+from ._c import GridFlags
+from .grid import Grid
+from .io import boundary
+
+if TYPE_CHECKING:
+    import pyvista
+
+_COLOURS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377")
+
+
+def plot(grid: Grid, plotter: Optional[pyvista.Plotter] = None, *, opacity: float = 0.5, contacts: bool = True,
+         penetrations: bool = True, **options: Any) -> pyvista.Plotter:
+    """As `Grid.plot`."""
+    import pyvista
+    if plotter is None:
+        plotter = pyvista.Plotter(**options)
+    positions = {}
+    for number, mesh in enumerate(grid):
+        points = mesh.positions
+        if points is None or not mesh.enabled:
+            continue
+        matrix = mesh.transform
+        points = positions[mesh.id] = points @ matrix[:, :3].T + matrix[:, 3]
+        tets = mesh.tets[mesh.tets_enabled]
+        colour = _COLOURS[number % len(_COLOURS)]
+        if len(tets):
+            faces = np.insert(boundary(tets).astype(np.int64), 0, 3, axis=1)
+            plotter.add_mesh(pyvista.PolyData(points, faces.ravel()), color=colour, opacity=opacity, show_edges=True)
+        elif len(points):
+            plotter.add_mesh(pyvista.PolyData(points), color=colour, point_size=4)
+    found = grid.contacts
+    known = np.isin(found.mesh_a, list(positions))
+    if contacts and known.any():
+        at = np.array([positions[c.mesh_a][c.vertex] for c in found[known]])
+        plotter.add_mesh(pyvista.PolyData(at), color="red", point_size=8, render_points_as_spheres=True)
+    if penetrations and grid.flags & GridFlags.PENETRATIONS:
+        deep = [p for p in grid.penetrations if p.mesh_a in positions and p.depth > 0]
+        if deep:
+            at = np.array([positions[p.mesh_a][p.vertex] for p in deep])
+            plotter.add_arrows(at, np.array([p.direction * p.depth for p in deep]), mag=1, color="black")
+    return plotter

@@ -1,0 +1,295 @@
+"""Deformable bodies that fall, collide and rest (vox_sim): small and stable, for experiments and examples.
+
+>>> import voxtet.io, voxtet.sim
+>>> ball = voxtet.io.make_ball(0.5, 0.25)
+>>> with voxtet.sim.Sim() as sim:
+...     body = sim.add(ball.positions + [0, 0, 0.6], ball.tets, youngs_modulus=1e5)
+...     for frame in range(30):
+...         sim.step(1 / 60)
+...     low = body.positions[:, 2].min()
+>>> bool(-0.05 < low < 0.05)
+True
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Iterator, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _c
+from ._arguments import DOUBLES, U32, copied_rows, indices, integer, real, switch, vector
+from ._library import Handle, described, load_part, sized
+from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
+from .grid import Grid, Log
+from .results import Lease, borrow_of
+
+_sim = load_part("vox_sim")
+_DOUBLE = np.dtype(np.float64)
+
+
+class Energies(NamedTuple):
+    """Energy and motion of a body, or of all that are not fixed (vox_sim_energies)."""
+
+    kinetic: float
+    potential: float
+    elastic: float
+    mass: float
+    momentum: tuple[float, float, float]
+    centre: tuple[float, float, float]
+    max_speed: float
+
+
+class Counts(NamedTuple):
+    """What a simulation has, and what it did (vox_sim_counts)."""
+
+    bodies: int
+    vertices: int
+    tets: int
+    edges: int
+    volumes: int
+    flat_tets: int
+    inverted_tets: int
+    raised_masses: int
+    softened: int
+    steps: int
+    substeps: int
+    detections: int
+    clamped_steps: int
+    penetrations: int
+    floor_contacts: int
+    step_ns: int
+    detect_ns: int
+    solve_ns: int
+
+
+class _SimGrid(Grid):
+    """The grid of a simulation, which closes it."""
+
+    def close(self) -> None:
+        if self._pointer is not None:
+            raise InvalidStateError("the grid belongs to a simulation, which closes it")
+
+    def clear(self) -> None:
+        raise InvalidStateError("the grid belongs to a simulation: remove its bodies instead")
+
+    def __reduce__(self) -> Any:
+        raise TypeError("the grid of a simulation cannot be pickled; its snapshot() can")
+
+
+def _positions(value: Any, name: str, count: Optional[int] = None) -> NDArray[np.float64]:
+    rows = copied_rows(value, name)
+    if count is not None and rows.length != count:
+        raise InvalidArgumentError(f"there are {rows.length} {name} for {count} vertices")
+    return np.ascontiguousarray(rows.array, np.float64)
+
+
+class Body:
+    """A body of a simulation, from `Sim.add`."""
+
+    __slots__ = ("id", "sim", "tag")
+
+    def __init__(self, sim: Sim, id: int, tag: Any) -> None:
+        self.sim = sim
+        self.id = id
+        self.tag = tag
+
+    def __index__(self) -> int:
+        return self.id
+
+    def __repr__(self) -> str:
+        return f"<voxtet.sim.Body {self.id}>"
+
+    def _array(self, name: str, width: int, dtype: Any = _DOUBLE) -> Any:
+        sim = self.sim
+        with sim._lock:
+            view = _c.vox_sim_body_view()
+            _sim.vox_sim_body_get(sim._pointer, self.id, view)
+            lease = Lease(sim._handle, sim.grid._exports_of(self.id))
+            count = view.tet_count if name == "tets" else view.vertex_count
+            flat = borrow_of(getattr(view, name), count * width, dtype.itemsize, np.ndarray, dtype, lease)
+        return flat.reshape(-1, width) if width > 1 else flat
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """The positions, (n, 3): the simulation's own memory, read-only. Every step changes what is in it; copy it to keep a
+        state. While such an array lives, the body cannot be removed nor the simulation closed (BufferError)."""
+        return self._array("positions", 3)  # type: ignore[no-any-return]
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """The velocities, as `positions`."""
+        return self._array("velocities", 3)  # type: ignore[no-any-return]
+
+    @property
+    def masses(self) -> NDArray[np.float64]:
+        """The masses of the vertices, as `positions`."""
+        return self._array("masses", 1)  # type: ignore[no-any-return]
+
+    @property
+    def tets(self) -> NDArray[np.uint32]:
+        """The corners of the tetrahedra, (m, 4), as `positions`."""
+        return self._array("tets", 4, np.dtype(np.uint32))  # type: ignore[no-any-return]
+
+    def set_state(self, positions: Optional[ArrayLike] = None, velocities: Optional[ArrayLike] = None) -> None:
+        """Sets positions and velocities, (n, 3); what is None stays."""
+        sim = self.sim
+        with sim._lock:
+            view = _c.vox_sim_body_view()
+            _sim.vox_sim_body_get(sim._pointer, self.id, view)
+            p = None if positions is None else _positions(positions, "positions", view.vertex_count)
+            v = None if velocities is None else _positions(velocities, "velocities", view.vertex_count)
+            _sim.vox_sim_body_set_state(sim._pointer, self.id, None if p is None else p.ctypes.data,
+                                        None if v is None else v.ctypes.data)
+
+    def accelerate(self, acceleration: ArrayLike) -> None:
+        """Accelerates all particles of the body from now on, in addition to gravity."""
+        numbers = vector(acceleration, "acceleration")
+        with self.sim._lock:
+            _sim.vox_sim_body_set_acceleration(self.sim._pointer, self.id, numbers)
+
+    @property
+    def energy(self) -> Energies:
+        """Energy and motion of this body."""
+        return self.sim._energy(self.id)
+
+    def remove(self) -> None:
+        """Removes the body from the simulation."""
+        self.sim.remove(self)
+
+
+class Sim:
+    """Bodies, and the grid they collide in. Arguments are those of vox_sim_desc. floor: a normal and an offset, or None."""
+
+    def __init__(self, *, substeps: int = 10, detect_every: int = 1, gravity: ArrayLike = (0, 0, -9.81),
+                 max_time_step: float = 1 / 30, floor: Optional[tuple[ArrayLike, float]] = ((0, 0, 1), 0.0),
+                 friction: float = 0.5, contact_compliance: float = 0.0, max_push_speed: float = 1.0,
+                 contact_slop: float = -1.0, workers: int = 1, cell_size: float = 0.0, log: Optional[Log] = None) -> None:
+        self._pointer: Optional[int] = None
+        grid = _SimGrid.__new__(_SimGrid)
+        grid_desc, desc = described(_c.vox_grid_desc), described(_c.vox_sim_desc, _sim)
+        grid._prepare(grid_desc, workers, grid_desc.byte_budget, 0, log)
+        grid_desc.cell_size = real(cell_size, "cell_size")
+        desc.substeps = integer(substeps, "substeps", 0, U32)
+        desc.detect_every = integer(detect_every, "detect_every", 0, U32)
+        desc.gravity = vector(gravity, "gravity")
+        desc.floor_normal = DOUBLES() if floor is None else vector(floor[0], "the floor's normal")
+        desc.floor_offset = 0.0 if floor is None else real(floor[1], "the floor's offset")
+        for name, value in (("max_time_step", max_time_step), ("friction", friction), ("contact_slop", contact_slop),
+                            ("contact_compliance", contact_compliance), ("max_push_speed", max_push_speed)):
+            setattr(desc, name, real(value, name))
+        desc.grid = ctypes.pointer(grid_desc)
+        if log is not None:
+            desc.log.write = grid_desc.log.write
+        pointer, inside = ctypes.c_void_p(), ctypes.c_void_p()
+        _sim.vox_sim_create(desc, pointer)
+        self._handle: Optional[Handle] = Handle(pointer.value or 0, _sim.vox_sim_destroy, grid_desc.log.write)
+        self._pointer = pointer.value
+        _sim.vox_sim_grid(self._pointer, inside)
+        grid._hold(self._handle)
+        grid._pointer = inside.value
+        self.grid: Grid = grid  # contacts and penetrations of the last detection
+        self._bodies: dict[int, Any] = {}
+
+    @property
+    def _lock(self) -> Any:
+        return self.grid._lock  # one for both
+
+    def close(self) -> None:
+        """Frees the simulation with its grid. Twice does nothing. Raises BufferError while arrays of bodies or borrowed results
+        are in use."""
+        if self._pointer is None:
+            return
+        grid = self.grid
+        with self._lock:
+            grid._refuse("close")
+            for exports in grid._mapped.values():
+                exports.refuse("close")
+            self._pointer = self._handle = None
+            grid._forget()
+
+    def __enter__(self) -> Sim:
+        with self._lock:
+            return self
+
+    def __exit__(self, kind: Any, *_: object) -> None:
+        try:
+            self.close()
+        except BufferError:
+            if kind is None:
+                raise
+
+    def step(self, time_step: float) -> None:
+        """Moves everything forward. Other Python threads run meanwhile."""
+        seconds = real(time_step, "time_step")
+        with self._lock:
+            self.grid._refuse("step")
+            _sim.vox_sim_step(self._pointer, seconds)
+
+    def add(self, positions: ArrayLike, tets: ArrayLike, *, rest_positions: Optional[ArrayLike] = None,
+            velocities: Optional[ArrayLike] = None, density: float = 1000.0, youngs_modulus: float = 1e6,
+            bulk_modulus: float = 1e6, damping: float = 0.01, fixed: bool = False, self_collision: bool = False,
+            user_data: int = 0, tag: Any = None) -> Body:
+        """Adds a body. All arrays are copied."""
+        desc = described(_c.vox_sim_body_desc, _sim)
+        p, t = _positions(positions, "positions"), indices(tets, "tets", 4)
+        rest = None if rest_positions is None else _positions(rest_positions, "rest_positions", len(p))
+        speed = None if velocities is None else _positions(velocities, "velocities", len(p))
+        desc.positions, desc.vertex_count, desc.tets, desc.tet_count = p.ctypes.data, len(p), t.ctypes.data, len(t)
+        desc.rest_positions = None if rest is None else rest.ctypes.data
+        desc.velocities = None if speed is None else speed.ctypes.data
+        for name, value in (("density", density), ("youngs_modulus", youngs_modulus), ("bulk_modulus", bulk_modulus),
+                            ("damping", damping)):
+            setattr(desc, name, real(value, name))
+        desc.flags = (switch(fixed, "fixed") * _c.SimBodyFlags.FIXED
+                      | switch(self_collision, "self_collision") * _c.SimBodyFlags.SELF_COLLISION)
+        desc.user_data = integer(user_data, "user_data")
+        body = ctypes.c_uint32()
+        with self._lock:
+            _sim.vox_sim_body_insert(self._pointer, desc, body)
+            self._bodies[body.value] = tag
+            if tag is not None:
+                self.grid._tags[body.value] = tag
+        return Body(self, body.value, tag)
+
+    def remove(self, body: Union[Body, int]) -> None:
+        """Removes a body."""
+        if isinstance(body, Body) and body.sim is not self:
+            raise InvalidHandleError(f"body {body.id} is of another simulation")
+        id = integer(body, "body", 0, U32)
+        with self._lock:
+            self.grid._refuse_positions(id, "removal of the body")
+            _sim.vox_sim_body_remove(self._pointer, id)
+            self._bodies.pop(id, None)
+            self.grid._tags.pop(id, None)
+
+    @property
+    def bodies(self) -> list[Body]:
+        """All bodies, in the order in which they were added."""
+        with self._lock:
+            return [Body(self, id, tag) for id, tag in self._bodies.items()]
+
+    def __iter__(self) -> Iterator[Body]:
+        return iter(self.bodies)
+
+    def _energy(self, id: int) -> Energies:
+        out = sized(_c.vox_sim_energies)
+        with self._lock:
+            _sim.vox_sim_energy(self._pointer, id, out)
+        values = (getattr(out, name) for name in Energies._fields)
+        return Energies._make(tuple(v) if isinstance(v, ctypes.Array) else v for v in values)
+
+    @property
+    def energy(self) -> Energies:
+        """Energy and motion of all bodies that are not fixed."""
+        return self._energy(0)
+
+    @property
+    def counts(self) -> Counts:
+        """What the simulation has, and what it did."""
+        out = sized(_c.vox_sim_counts)
+        with self._lock:
+            _sim.vox_sim_counters(self._pointer, out)
+        return Counts._make(getattr(out, name) for name in Counts._fields)
