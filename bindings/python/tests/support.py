@@ -23,7 +23,10 @@ def box(cells=4, at=(0, 0, 0), dtype=np.float32):
         mirrored = sum(corner) % 2
         for five in fives:
             tets.append([np.dot(np.add(corner, np.bitwise_xor(c, (mirrored, 0, 0))), (n * n, n, 1)) for c in five])
-    return positions, np.array(tets, np.uint32)
+    tets = np.array(tets, np.uint32)
+    inverted = np.linalg.det(grid[tets[:, 1:]] - grid[tets[:, :1]]) < 0
+    tets[inverted] = tets[inverted][:, [0, 2, 1, 3]]
+    return positions, tets
 
 
 def two_boxes(cells=4, dtype=np.float32):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import enum
+import numbers
 import operator
 from typing import Any, NamedTuple, Optional, TypeVar
 
@@ -38,12 +39,10 @@ def integer(value: Any, name: str, low: int = 0, high: int = U64) -> int:
 
 def real(value: Any, name: str) -> float:
     """A float. The library checks its range."""
-    if isinstance(value, (str, bytes, bytearray)):
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
         raise TypeError(f"{name} is of type {type(value).__name__}; it must be a number")
     try:
         return float(value)
-    except TypeError:
-        raise TypeError(f"{name} is of type {type(value).__name__}; it must be a number") from None
     except OverflowError:
         raise InvalidArgumentError(f"{name} is too large for a double") from None
 

@@ -1,0 +1,216 @@
+"""Files, bodies and the simulation. Skipped where the libraries for them were not built."""
+
+import gc
+import os
+import pickle
+import tempfile
+import unittest
+
+import numpy as np
+
+import voxtet
+from support import box
+
+try:
+    import voxtet.io
+    import voxtet.sim
+except ImportError as missing:
+    raise unittest.SkipTest(str(missing))
+
+from voxtet import _c
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.positions, self.tets = box(2, dtype=np.float64)
+        self.data = voxtet.io.MeshData(self.positions, self.tets)
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_arrays(self):
+        np.testing.assert_array_equal(self.data.positions, self.positions)
+        np.testing.assert_array_equal(self.data.tets, self.tets)
+        self.assertEqual(self.data.triangles.shape, (0, 3))
+        self.assertFalse(self.data.positions.flags.writeable)
+        kept = self.data.positions[1:]
+        self.data = None
+        gc.collect()
+        np.testing.assert_array_equal(kept, self.positions[1:])
+
+    def test_save_and_load(self):
+        for name in ("body.msh", "body.vtu", "bödy \u2713.msh"):
+            for binary in (False, True):
+                path = self.path(name)
+                voxtet.io.save(self.data, path, binary=binary)
+                again = voxtet.io.load(path)
+                np.testing.assert_array_equal(again.positions, self.positions)
+                np.testing.assert_array_equal(again.tets, self.tets)
+        self.assertIn("VTK", again.format + "VTK")
+        self.assertEqual(again.report.tets, len(self.tets))
+        self.assertEqual(again.warnings, [])
+
+    def test_memory(self):
+        for format in ("msh_22", "msh_41", "vtu"):
+            content = voxtet.io.write(self.data, format, point_data={"x": self.positions[:, 0], "p": self.positions},
+                                      cell_data={"n": np.arange(len(self.tets))})
+            again = voxtet.io.read(content, "any." + format[:3])
+            np.testing.assert_array_equal(again.tets, self.tets)
+        self.assertIn(b'Name="p"', content)
+        files = {"a.node": b"4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "a.ele": b"1 4 0\n0 0 1 2 3\n"}
+        self.assertEqual(len(voxtet.io.read(files).tets), 1)
+
+    def test_errors(self):
+        with self.assertRaises(FileNotFoundError) as caught:
+            voxtet.io.load(self.path("nothing.msh"))
+        self.assertEqual(caught.exception.filename, self.path("nothing.msh"))
+        self.assertIsInstance(caught.exception, voxtet.VoxError)
+        self.assertGreater(caught.exception.errno, 0)
+        with self.assertRaises(OSError) as caught:
+            voxtet.io.save(self.data, self.path("no/such/folder.msh"))
+        with self.assertRaises(voxtet.FormatError):
+            voxtet.io.read(b"$MeshFormat\n4.1 0 8\nnonsense", "a.msh")
+        with self.assertRaises(ValueError):
+            voxtet.io.load("a\0b")
+        with self.assertRaises(NotImplementedError):
+            voxtet.io.save(self.data, self.path("body.xyz"))
+        for wrong in ({"x": [1, 2]}, {"x": np.zeros((len(self.positions), 2))}, {'"': self.positions[:, 0]}):
+            with self.assertRaises(ValueError):
+                voxtet.io.write(self.data, "vtu", point_data=wrong)
+        with self.assertRaises(TypeError):
+            voxtet.io.write(self.data, "vtu", point_data={"x": ["a"] * len(self.positions)})
+        with self.assertRaises(TypeError):
+            voxtet.io.load(3.5)
+        with self.assertRaises(voxtet.InvalidMeshError):
+            voxtet.io.MeshData(self.positions, [[0, 1, 2, 999]])
+
+    def test_pickle(self):
+        again = pickle.loads(pickle.dumps(self.data))
+        np.testing.assert_array_equal(again.tets, self.tets)
+
+    def test_bodies(self):
+        made = [voxtet.io.make_lattice_ball(1000, 1), voxtet.io.make_ball(1, .3), voxtet.io.make_torus(2, .5, .3),
+                voxtet.io.make_capsule(.5, 1, .3), voxtet.io.make_cylinder(.5, 1, .3), voxtet.io.make_box(1, 2, 3, .5)]
+        for data in made:
+            self.assertEqual(data.report.inverted_tets, 0)
+            self.assertGreater(voxtet.io.quality(data).min_dihedral, 0)
+        with self.assertRaises(ValueError):
+            voxtet.io.make_ball(-1, 1)
+
+    def test_tetrahedralize(self):
+        ball = voxtet.io.make_ball(1, 0.3)
+        surface = voxtet.io.MeshData(ball.positions, None, voxtet.io.boundary(ball.tets))
+        seen = []
+        filled = voxtet.io.tetrahedralize(surface, 0.2, progress=seen.append)
+        self.assertGreater(len(filled.tets), 100)
+        self.assertEqual((seen[0] >= 0, seen[-1] <= 1, seen), (True, True, sorted(seen)))
+        self.assertLess(voxtet.io.quality(filled, surface).hausdorff, 0.2)
+        with self.assertRaises(voxtet.InvalidStateError):
+            voxtet.io.tetrahedralize(surface, 0.2, progress=lambda fraction: True)
+
+        def interrupted(fraction):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            voxtet.io.tetrahedralize(surface, 0.2, progress=interrupted)
+        with self.assertRaises(voxtet.LimitError):
+            voxtet.io.tetrahedralize(surface, 0.1, max_tets=10)
+        self.assertGreater(len(voxtet.io.tetrahedralize(surface, 0.3, kind="cubes").tets), 10)
+
+    def test_boundary(self):
+        facets = voxtet.io.boundary(self.tets)
+        self.assertEqual(len(facets), 2 * 6 * 4)
+        a, b, c = (self.positions[facets[:, i]] for i in range(3))
+        self.assertAlmostEqual(abs(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6), 1)
+
+    def test_fields_are_those_of_the_library(self):
+        for kind, struct in ((voxtet.io.Report, _c.vox_io_report), (voxtet.io.Quality, _c.vox_io_quality),
+                             (voxtet.sim.Energies, _c.vox_sim_energies), (voxtet.sim.Counts, _c.vox_sim_counts)):
+            self.assertEqual(list(kind._fields), [n for n, *_ in struct._fields_ if n not in ("struct_size", "reserved")])
+
+
+class Simulation(unittest.TestCase):
+    def setUp(self):
+        self.positions, self.tets = box(2, (0, 0, 0.05), dtype=np.float64)
+        self.sim = voxtet.sim.Sim()
+        self.body = self.sim.add(self.positions, self.tets, tag="box", youngs_modulus=1e5)
+
+    def test_falls_and_rests(self):
+        above = self.sim.add(self.positions + [0.1, 0.1, 1.1], self.tets, tag="above")
+        for _ in range(60):
+            self.sim.step(1 / 60)
+        z = self.body.positions[:, 2]
+        self.assertTrue(-0.05 < z.min() < 0.05)
+        self.assertGreater(above.positions[:, 2].mean(), z.mean() + 0.5)
+        self.assertEqual(self.sim.counts.steps, 60)
+        self.assertGreater(self.sim.energy.mass, 0)
+        self.assertEqual({self.sim.grid[c.mesh_a].tag for c in self.sim.grid.contacts} - {"box", "above"}, set())
+        self.assertEqual([b.tag for b in self.sim], ["box", "above"])
+        np.testing.assert_array_equal(self.sim.grid[self.body].positions, self.body.positions.astype(np.float32))
+
+    def test_state(self):
+        self.body.set_state(velocities=np.tile([1.0, 0, 0], (len(self.positions), 1)))
+        self.body.accelerate([0, 0, 9.81])
+        self.sim.step(0.02)
+        np.testing.assert_allclose(self.body.positions, self.positions + [0.02, 0, 0], atol=1e-4)
+        self.assertAlmostEqual(self.body.energy.max_speed, 1, 2)
+        self.assertEqual(self.body.velocities.shape, self.positions.shape)
+        self.assertEqual(self.body.masses.shape, (len(self.positions),))
+        np.testing.assert_array_equal(self.body.tets, self.tets)
+        with self.assertRaises(ValueError):
+            self.body.set_state(self.positions[:-1])
+        with self.assertRaises(voxtet.NonFiniteError):
+            self.body.set_state(np.full_like(self.positions, np.nan))
+
+    def test_views_hold_the_body(self):
+        view = self.body.positions[:, 0]
+        for change in (self.body.remove, self.sim.close):
+            with self.assertRaises(BufferError):
+                change()
+        before = view.copy()
+        self.body.set_state(self.positions + 1)
+        np.testing.assert_array_equal(view, before + 1)
+        del view
+        self.body.remove()
+        with self.assertRaises(LookupError):
+            self.body.positions
+        self.sim.close()
+        self.sim.close()
+        for use in (lambda: self.sim.step(0.1), lambda: self.sim.add(self.positions, self.tets), lambda: self.sim.counts,
+                    lambda: self.body.positions, lambda: self.sim.grid.contacts):
+            with self.assertRaises(voxtet.InvalidStateError):
+                use()
+
+    def test_borrowed_contacts_hold_the_step(self):
+        self.sim.add(self.positions + 0.3, self.tets)
+        self.sim.step(0.01)
+        with self.sim.grid.borrowed() as r:
+            self.assertGreater(len(r.contacts), 0)
+            with self.assertRaises(BufferError):
+                self.sim.step(0.01)
+        self.sim.step(0.01)
+
+    def test_arrays_outlive_it(self):
+        positions, grid = self.body.positions, self.sim.grid
+        self.sim = self.body = None
+        gc.collect()
+        np.testing.assert_array_equal(positions, self.positions)
+        grid.step()
+        for refused in (grid.close, grid.clear):
+            with self.assertRaises(voxtet.InvalidStateError):
+                refused()
+
+    def test_arguments(self):
+        for wrong in ({"substeps": 0}, {"gravity": [0, 0]}, {"friction": -1}, {"floor": ([0, 0, 1], np.nan)}):
+            with self.assertRaises(ValueError):
+                voxtet.sim.Sim(**wrong)
+        voxtet.sim.Sim(floor=None, detect_every=0, log=print).close()
+        for wrong in ({"density": 0}, {"velocities": self.positions[:1]}, {"user_data": -1}):
+            with self.assertRaises(ValueError):
+                self.sim.add(self.positions, self.tets, **wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,119 @@
+"""Cell sizes, and the method for any algorithm."""
+
+import math
+import unittest
+
+import numpy as np
+
+import voxtet
+from support import GridCase, box
+from voxtet import _c
+
+
+class Suggestions(GridCase):
+    def test_suggestion(self):
+        for model in ("paper", "reference", "fast", voxtet.CostModel.FAST):
+            s = voxtet.suggest_cell_size([(self.first, self.tets), (self.second, self.tets)], model=model)
+            self.assertLess(0, s.zone[0])
+            self.assertTrue(s.zone[0] <= s.cell_size <= s.zone[1])
+            self.assertEqual(len(s.curve), 64)
+            self.assertTrue((np.diff(s.curve.cell_size) > 0).all())
+            self.assertAlmostEqual(s.terms.cost.sum() / s.predicted_cost, 1, 6)
+            self.assertAlmostEqual(s.terms.share.sum(), 1, 6)
+            self.assertTrue(all(s.terms.name))
+            self.assertEqual(s.stats.tets, 2 * len(self.tets))
+            self.assertGreater(s.rules.mean_edge, 0)
+            self.assertIn("cell size", repr(s))
+
+    def test_arguments(self):
+        both = voxtet.suggest_cell_size([(self.first, self.tets), (self.second, self.tets)], zone_loss=0.1)
+        self.assertEqual(both.stats.tets, 2 * len(self.tets))
+        narrow = voxtet.suggest_cell_size(self.first, self.tets, zone_loss=0.01)
+        self.assertLess(narrow.zone[1] - narrow.zone[0], both.zone[1] - both.zone[0])
+        voxtet.suggest_cell_size(self.first, self.tets, size_reading="box_side", area_reading="tet_facets", storage="dense",
+                                 model="reference", byte_budget=10**9, self_collision=True)
+        with self.assertRaises(TypeError):
+            voxtet.suggest_cell_size(self.first, self.tets, zone=0.1)
+        with self.assertRaises(TypeError):
+            voxtet.suggest_cell_size([self.first])
+        for wrong in ({"model": "quick"}, {"p_nc": 2}, {"zone_loss": -1}, {"resolution": math.nan}):
+            with self.assertRaises(ValueError):
+                voxtet.suggest_cell_size(self.first, self.tets, **wrong)
+        with self.assertRaises(ValueError):
+            voxtet.suggest_cell_size(self.first, self.tets[:0])
+
+    def test_of_a_grid(self):
+        self.grid.step()
+        self.assertEqual(self.grid.suggest_cell_size().model, voxtet.CostModel.FAST)
+        s = self.grid.suggest_cell_size("paper", zone_loss=0.2)
+        self.assertEqual(s.model, voxtet.CostModel.PAPER)
+        with self.assertRaises(ValueError):
+            self.grid.suggest_cell_size(zone_loss=0.2)
+
+    def test_prediction(self):
+        s = voxtet.suggest_cell_size(self.first, self.tets)
+        p = voxtet.predict(s.cell_size, self.first, self.tets)
+        self.assertAlmostEqual(p.cost, s.predicted_cost)
+        self.assertAlmostEqual(p.terms.cost.sum(), p.cost)
+        with self.assertRaises(ValueError):
+            voxtet.predict(-1, self.first, self.tets)
+
+    def test_weights(self):
+        shipped = voxtet.weights()
+        try:
+            self.assertEqual(set(voxtet.calibrate()), set(shipped))
+            mine = {name: 2 * value for name, value in shipped.items()}
+            voxtet.set_weights(mine)
+            self.assertEqual(voxtet.weights(), mine)
+            with self.assertRaises(ValueError):
+                voxtet.set_weights({**mine, "fast_bin_vertex": -1})
+            with self.assertRaises(ValueError):
+                voxtet.set_weights({"fast_bin_vertex": 1})
+        finally:
+            voxtet.set_weights(None)
+        self.assertEqual(voxtet.weights(), shipped)
+
+    def test_stats_and_rules_are_the_librarys(self):
+        self.assertEqual(list(voxtet.Stats._fields), [n for n, *_ in _c.vox_geometry_stats._fields_])
+        self.assertEqual(list(voxtet.Rules._fields), [n for n, *_ in _c.vox_cell_size_rules._fields_])
+
+
+class Minimise(unittest.TestCase):
+    def test_function_and_terms(self):
+        for cost in (lambda d: (1 / d + 1) ** 3 * d**2, [(1, -1), (3, 0), (3, 1), (1, 2)]):
+            m = voxtet.minimise(cost, 0.01, 100, zone_loss=0.1)
+            self.assertAlmostEqual(m.cell_size, 0.5, 2)
+            self.assertTrue(m.zone[0] < m.cell_size < m.zone[1])
+            self.assertEqual(len(m.curve), 64)
+            repr(m)
+
+    def test_exceptions_pass(self):
+        for kind in (KeyError, KeyboardInterrupt, SystemExit):
+            calls = []
+
+            def cost(size):
+                calls.append(size)
+                raise kind("mine")
+
+            with self.assertRaises(kind):
+                voxtet.minimise(cost, 1, 2)
+            self.assertEqual(len(calls), 1)
+        with self.assertRaises(TypeError):
+            voxtet.minimise(lambda size: "text" + 1, 1, 2)
+
+    def test_wrong(self):
+        for low, high in ((0, 1), (2, 1), (1, math.inf), (math.nan, 1)):
+            with self.assertRaises(ValueError):
+                voxtet.minimise([(1, 1)], low, high)
+        with self.assertRaises(ValueError):
+            voxtet.minimise(lambda size: math.nan, 1, 2)
+
+    def test_zone_distance(self):
+        self.assertEqual(voxtet.zone_distance(10, 5, 10, 20), 0)
+        self.assertEqual(voxtet.zone_distance(20, 5, 10, 20), 1)
+        with self.assertRaises(ValueError):
+            voxtet.zone_distance(1, 5, 4, 20)
+
+
+if __name__ == "__main__":
+    unittest.main()
