@@ -18,6 +18,8 @@ LANGUAGES = {
     "cpp": ["include/vox/*.hpp"],
     "csharp": ["bindings/csharp/Runtime/[!N]*.cs"],  # all but Native.g.cs
     "rust": ["bindings/rust/voxtet/src/*.rs"],
+    "python": ["bindings/python/src/voxtet/[!_]*.py", "bindings/python/src/voxtet/__init__.py",
+               "bindings/python/src/voxtet/_library.py"],  # all but _c.py
 }
 HEADERS = ["vox.h", "vox_io.h", "vox_sim.h"]
 

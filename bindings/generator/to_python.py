@@ -11,12 +11,13 @@ BEGIN = """
 import enum
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t,
                     c_uint8, c_uint32, c_uint64, c_void_p)
+from typing import Any
 
 from numpy import dtype
 """.split("\n")
 END = '''
 
-def declare(library, name, check=None):
+def declare(library: Any, name: str, check: Any = None) -> None:
     """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
     of those in CHECKED."""
     for function, (result, parameters) in FUNCTIONS[name].items():
@@ -115,14 +116,14 @@ class Python:
         for e in sections(self.api, "enums"):
             lines += ["", "", f"class {pascal(e['name'])}(enum.{'IntFlag' if e['flags'] else 'IntEnum'}):"]
             lines += [f"    {name} = {value}" for name, value, _ in short_values(e)]
-        lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.", "dtypes = {}", "", ""]
+        lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.", "dtypes: dict[str, Any] = {}", "", ""]
         for c in sections(self.api, "callbacks"):
             lines.append(f"{c['name']} = {self.function_type(c)}")
         lines.append("")
         whole = whole_structs(self.api)
         for s in sections(self.api, "structs"):
             lines += self.struct(s, whole)
-        lines += ["# Of each library: name, type of the result, types of the parameters.", "FUNCTIONS = {"]
+        lines += ["# Of each library: name, type of the result, types of the parameters.", "FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {"]
         for part in self.api["headers"]:
             lines.append(f'    "{part["name"]}": {{')
             for f in part["functions"]:

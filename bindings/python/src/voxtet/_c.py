@@ -3,6 +3,7 @@
 import enum
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t,
                     c_uint8, c_uint32, c_uint64, c_void_p)
+from typing import Any
 
 from numpy import dtype
 
@@ -155,7 +156,7 @@ class SimBodyFlags(enum.IntFlag):
 
 
 # Of structs without pointers: for arrays over the library's memory.
-dtypes = {}
+dtypes: dict[str, Any] = {}
 
 
 vox_task = CFUNCTYPE(None, c_uint64, c_uint64, c_uint32, c_void_p)
@@ -1259,7 +1260,7 @@ dtypes["vox_time_fit"] = dtype({
 
 
 # Of each library: name, type of the result, types of the parameters.
-FUNCTIONS = {
+FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
     "vox": {
         "vox_result_string": (c_char_p, (c_int32,)),
         "vox_last_error": (c_char_p, ()),
@@ -1564,7 +1565,7 @@ CHECKED = {
 }
 
 
-def declare(library, name, check=None):
+def declare(library: Any, name: str, check: Any = None) -> None:
     """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
     of those in CHECKED."""
     for function, (result, parameters) in FUNCTIONS[name].items():

@@ -17,7 +17,7 @@ from ._arguments import U32, Rows, choice, integer, real, switch
 from ._library import Handle, described, sized, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
-from .queries import Queries, QueryView, hits_of
+from .queries import OF_GRIDS, Queries, QueryView, hits_of
 from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of
 from .suggest import Suggestion, suggest_for_grid
 
@@ -161,7 +161,7 @@ class Grid(Queries, Results):
     vertex 3 of a in tet 0 of b
     """
 
-    _prefix = "vox_grid_query_"
+    _questions = OF_GRIDS
 
     def __init__(self, cell_size: float = 0.0, *, workers: int = 1, engine: str = "auto", storage: str = "auto",
                  hash: str = "mixed", world: Optional[tuple[ArrayLike, ArrayLike]] = None, byte_budget: int = 4 << 30,
@@ -425,8 +425,7 @@ class Grid(Queries, Results):
         """The mesh with an id, e.g. of a contact."""
         id = self._id(mesh)
         with self._lock:
-            if not vox.vox_mesh_is_valid(self._pointer, id):
-                raise InvalidHandleError(f"{id} is no mesh of the grid")
+            vox.vox_mesh_user_data(self._pointer, id, ctypes.c_uint64())
         return Mesh(self, id)
 
     def set_pair_enabled(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int], enabled: bool) -> None:
@@ -454,18 +453,17 @@ class Grid(Queries, Results):
     def _make(self, view: results.View, address: int, count: int, stride: int) -> Any:
         return copy_of(address, count, stride, view.records, view.dtype)
 
-    def _copied(self, function: str, records: Any, dtype: Any, *ids: int) -> Any:
-        call = getattr(vox, function)
+    def _copied(self, call: Any, records: Any, dtype: Any, *ids: int) -> Any:
         with self._lock:
             return hits_of(lambda to, room, count: call(self._pointer, *ids, to, room, count), records, dtype, 64)
 
     def contacts_of(self, mesh: Union[Mesh, int]) -> Contacts:
         """Contacts of the last step in which the mesh is on either side, pair by pair."""
-        return self._copied("vox_mesh_copy_contacts", Contacts, _DTYPE_CONTACT, self._id(mesh))  # type: ignore[no-any-return]
+        return self._copied(vox.vox_mesh_copy_contacts, Contacts, _DTYPE_CONTACT, self._id(mesh))  # type: ignore[no-any-return]
 
     def contacts_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Contacts:
         """Contacts of the last step between two meshes, or of one with itself."""
-        return self._copied("vox_pair_copy_contacts", Contacts, _DTYPE_CONTACT,  # type: ignore[no-any-return]
+        return self._copied(vox.vox_pair_copy_contacts, Contacts, _DTYPE_CONTACT,  # type: ignore[no-any-return]
                             self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
 
     # ---- readings ----
@@ -498,11 +496,11 @@ class Grid(Queries, Results):
 
     def readings_of(self, mesh: Union[Mesh, int]) -> Readings:
         """The prepared readings of `contacts_of(mesh)`."""
-        return self._copied("vox_mesh_copy_readings", Readings, _DTYPE_READING, self._id(mesh))  # type: ignore[no-any-return]
+        return self._copied(vox.vox_mesh_copy_readings, Readings, _DTYPE_READING, self._id(mesh))  # type: ignore[no-any-return]
 
     def readings_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Readings:
         """The prepared readings of `contacts_between(mesh_a, mesh_b)`."""
-        return self._copied("vox_pair_copy_readings", Readings, _DTYPE_READING,  # type: ignore[no-any-return]
+        return self._copied(vox.vox_pair_copy_readings, Readings, _DTYPE_READING,  # type: ignore[no-any-return]
                             self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
 
     # ---- queries ----
@@ -538,21 +536,21 @@ class Grid(Queries, Results):
 
     # ---- measurements ----
 
-    def _number(self, function: str, kind: Any) -> Any:
-        out = kind()
+    def _number(self, call: Any) -> int:
+        out = ctypes.c_uint64()
         with self._lock:
-            getattr(vox, function)(self._pointer, out)
+            call(self._pointer, out)
         return out.value
 
     @property
     def epoch(self) -> int:
         """Number of steps, clears, reserves and changes of the flags so far."""
-        return self._number("vox_grid_epoch", ctypes.c_uint64)  # type: ignore[no-any-return]
+        return self._number(vox.vox_grid_epoch)
 
     @property
     def hash(self) -> int:
         """A hash of the contacts, the same on every machine and with every setting."""
-        return self._number("vox_grid_hash", ctypes.c_uint64)  # type: ignore[no-any-return]
+        return self._number(vox.vox_grid_hash)
 
     @property
     def counters(self) -> Counters:

@@ -323,40 +323,40 @@ def quality(mesh: Any, surface: Any = None) -> Quality:
     return _tuple(Quality, out)  # type: ignore[no-any-return]
 
 
-def _made(function: str, *numbers: Any) -> MeshData:
+def _made(function: Any, *numbers: Any) -> MeshData:
     pointer = ctypes.c_void_p()
-    getattr(_io, function)(*numbers, pointer)
+    function(*numbers, pointer)
     return MeshData._of(pointer)
 
 
 def make_lattice_ball(tet_count: int, radius: float) -> MeshData:
     """A ball of about so many tetrahedra, on a lattice of cubes."""
-    return _made("vox_io_make_lattice_ball", integer(tet_count, "tet_count"), real(radius, "radius"))
+    return _made(_io.vox_io_make_lattice_ball, integer(tet_count, "tet_count"), real(radius, "radius"))
 
 
 def make_ball(radius: float, cell: float) -> MeshData:
     """A ball around the origin, of good tetrahedra with edges of about `cell`."""
-    return _made("vox_io_make_ball", real(radius, "radius"), real(cell, "cell"))
+    return _made(_io.vox_io_make_ball, real(radius, "radius"), real(cell, "cell"))
 
 
 def make_torus(radius: float, tube_radius: float, cell: float) -> MeshData:
     """A torus around the z axis; radius: from the axis to the middle of the tube."""
-    return _made("vox_io_make_torus", real(radius, "radius"), real(tube_radius, "tube_radius"), real(cell, "cell"))
+    return _made(_io.vox_io_make_torus, real(radius, "radius"), real(tube_radius, "tube_radius"), real(cell, "cell"))
 
 
 def make_capsule(radius: float, length: float, cell: float) -> MeshData:
     """A capsule along the z axis; length: between the centres of the round ends."""
-    return _made("vox_io_make_capsule", real(radius, "radius"), real(length, "length"), real(cell, "cell"))
+    return _made(_io.vox_io_make_capsule, real(radius, "radius"), real(length, "length"), real(cell, "cell"))
 
 
 def make_cylinder(radius: float, length: float, cell: float) -> MeshData:
     """A cylinder along the z axis."""
-    return _made("vox_io_make_cylinder", real(radius, "radius"), real(length, "length"), real(cell, "cell"))
+    return _made(_io.vox_io_make_cylinder, real(radius, "radius"), real(length, "length"), real(cell, "cell"))
 
 
 def make_box(size_x: float, size_y: float, size_z: float, cell: float) -> MeshData:
     """An exact box of cubes with edges of about `cell`, split into five tetrahedra each."""
-    return _made("vox_io_make_box", real(size_x, "size_x"), real(size_y, "size_y"), real(size_z, "size_z"),
+    return _made(_io.vox_io_make_box, real(size_x, "size_x"), real(size_y, "size_y"), real(size_z, "size_z"),
                  real(cell, "cell"))
 
 

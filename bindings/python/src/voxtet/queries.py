@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import TYPE_CHECKING, Any, Callable, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,6 +71,26 @@ _RAY_HIT = record_type("vox_ray_hit")
 _FACET_HIT = record_type("vox_facet_hit")
 
 
+class Questions(NamedTuple):
+    """The library's functions, for grids or for views."""
+
+    point: Any
+    points: Any
+    box: Any
+    closest_points: Any
+    ray: Any
+    ray_hits: Any
+    ray_any: Any
+
+
+OF_GRIDS = Questions(vox.vox_grid_query_point, vox.vox_grid_query_points, vox.vox_grid_query_box,
+                     vox.vox_grid_query_closest_points, vox.vox_grid_query_ray, vox.vox_grid_query_ray_hits,
+                     vox.vox_grid_query_ray_any)
+OF_VIEWS = Questions(vox.vox_query_view_point, vox.vox_query_view_points, vox.vox_query_view_box,
+                     vox.vox_query_view_closest_points, vox.vox_query_view_ray, vox.vox_query_view_ray_hits,
+                     vox.vox_query_view_ray_any)
+
+
 def hits_of(call: Callable[[int, int, Any], Any], records: Any, dtype: np.dtype[Any], guess: int) -> Any:
     """What a function finds that writes as many hits as there is room for, and says how many there are."""
     count = ctypes.c_uint64()
@@ -86,7 +106,7 @@ class Queries:
     """The questions, of a grid as it was at the last `prepare_queries`, or of a QueryView. `mask`: only meshes whose
     filter's category has a bit in common. `excluded`: a mesh that takes no part."""
 
-    _prefix: str  # of the library's functions
+    _questions: Questions
     _pointer: Optional[int]
     _lock: Any
 
@@ -100,11 +120,11 @@ class Queries:
         with self._lock:
             if np.shape(points_) == (3,):
                 one = vector(points_, "points")
-                call = getattr(vox, self._prefix + "point")
+                call = self._questions.point
                 return hits_of(lambda hits, room, count: call(self._pointer, one, mask, hits, room, count),  # type: ignore
                                PointHits, _POINT_HIT, 8)
             many = points(points_)
-            call = getattr(vox, self._prefix + "points")
+            call = self._questions.points
             return hits_of(lambda hits, room, count: call(  # type: ignore[no-any-return]
                 self._pointer, many.address, many.format, many.stride, many.length, mask, hits, room, count),
                 PointHits, _POINT_HIT, many.length + 8)
@@ -112,7 +132,7 @@ class Queries:
     def query_box(self, low: ArrayLike, high: ArrayLike, mask: int = ALL) -> TetHits:
         """All tetrahedra whose bounding box meets the box from `low` to `high`; exact. Corners may be infinite."""
         low_, high_, mask = vector(low, "low"), vector(high, "high"), integer(mask, "mask")
-        call = getattr(vox, self._prefix + "box")
+        call = self._questions.box
         with self._lock:
             return hits_of(lambda hits, room, count: call(  # type: ignore[no-any-return]
                 self._pointer, low_, high_, mask, hits, room, count), TetHits, _TET_HIT, 64)
@@ -128,7 +148,7 @@ class Queries:
         hits = np.empty(many.length, _CLOSEST_HIT)
         with self._lock:
             desc.excluded = self._excluded(excluded)
-            getattr(vox, self._prefix + "closest_points")(self._pointer, desc, hits.ctypes.data)
+            self._questions.closest_points(self._pointer, desc, hits.ctypes.data)
         return hits.view(ClosestHits)
 
     def query_ray(self, start: ArrayLike, end: ArrayLike, mask: int = ALL) -> np.record:
@@ -138,14 +158,14 @@ class Queries:
         hits = np.empty(1, _RAY_HIT)
         out = _c.vox_ray_hit.from_buffer(hits.view(np.uint8).data)
         with self._lock:
-            getattr(vox, self._prefix + "ray")(self._pointer, start_, end_, mask, out)
+            self._questions.ray(self._pointer, start_, end_, mask, out)
         return hits[0]  # type: ignore[no-any-return]
 
     def query_ray_hits(self, start: ArrayLike, end: ArrayLike, mask: int = ALL,
                        excluded: Union[Mesh, int, None] = None) -> FacetHits:
         """All facets of surfaces on the segment."""
         start_, end_, mask = vector(start, "start"), vector(end, "end"), integer(mask, "mask")
-        call = getattr(vox, self._prefix + "ray_hits")
+        call = self._questions.ray_hits
         with self._lock:
             without = self._excluded(excluded)
             return hits_of(lambda hits, room, count: call(  # type: ignore[no-any-return]
@@ -157,7 +177,7 @@ class Queries:
         start_, end_, mask = vector(start, "start"), vector(end, "end"), integer(mask, "mask")
         any_ = ctypes.c_uint32()
         with self._lock:
-            getattr(vox, self._prefix + "ray_any")(self._pointer, start_, end_, mask, self._excluded(excluded), any_)
+            self._questions.ray_any(self._pointer, start_, end_, mask, self._excluded(excluded), any_)
         return bool(any_.value)
 
 
@@ -178,7 +198,7 @@ class QueryView(Queries):
     """The meshes of a grid at one moment, from `Grid.query_view`. It never changes, any number of threads may ask it at
     once, also while the grid steps, and it outlives the grid."""
 
-    _prefix = "vox_query_view_"
+    _questions = OF_VIEWS
 
     def __init__(self, handle: Handle) -> None:
         self._handle: Optional[Handle] = handle

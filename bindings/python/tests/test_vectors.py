@@ -1,0 +1,203 @@
+"""The vectors that every language replays (bindings/vectors): the same results, bit for bit."""
+
+import json
+import os
+import unittest
+
+import numpy as np
+
+import voxtet
+
+FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "vectors")
+
+
+def hash_of(array):
+    """Of the 32-bit words of an array, where -0 counts as 0."""
+    content = np.ascontiguousarray(array).tobytes()
+    words = np.frombuffer(content + b"\0" * (-len(content) % 4), "<u4")
+    value = 0xcbf29ce484222325
+    for word in words.tolist():
+        value = ((value ^ (0 if word == 0x80000000 else word)) * 0x100000001b3) & (2**64 - 1)
+    return f"{value:016x}"
+
+
+def counted(array):
+    return [len(array), hash_of(array)]
+
+
+def flags_of(number):
+    return {"penetrations": bool(number & 1), "contact_events": bool(number & 2), "skip_bad_meshes": bool(number & 4)}
+
+
+@unittest.skipUnless(os.path.exists(FOLDER), "the vectors are not beside the tests")
+class Vectors(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        with open(os.path.join(FOLDER, "vectors.json"), encoding="utf-8") as file:
+            cls.script = json.load(file)
+        cls.bytes = np.fromfile(os.path.join(FOLDER, "vectors.bin"), np.uint8)
+
+    def array(self, offset, dtype, count, width=1):
+        found = np.frombuffer(self.bytes, dtype, count * width, offset)
+        return found.reshape(count, width) if width > 1 else found
+
+    def positions(self, call):
+        return self.array(call["positions"], "<f8" if call["format"] else "<f4", call["vertices"], 3)
+
+    def filter(self, call):
+        numbers = {key: float(value) if key == "self_rest_distance" else int(value) for key, value in call["filter"].items()}
+        return voxtet.Filter(**{**numbers, "self_collision": bool(numbers["self_collision"])})
+
+    # ---- a method for each call; what it returns is compared ----
+
+    def create(self, call):
+        self.grid = voxtet.Grid(call["cell_size"], **flags_of(call["flags"]))
+
+    def insert(self, call):
+        tets = self.array(call["tets"], "<u4", call["tet_count"], 4)
+        mesh = self.grid.add(self.positions(call), tets, copy=True, user_data=int(call["user_data"]),
+                             filter=self.filter(call) if "filter" in call else None)
+        return {"mesh": mesh.id}
+
+    def move(self, call):
+        self.grid[call["mesh"]].positions = self.positions(call)
+
+    def step(self, call):
+        self.grid.step()
+
+    def results(self, call):
+        grid = self.grid
+        found = {"hash": f"{grid.hash:016x}", "epoch": grid.epoch, "contacts": counted(grid.contacts),
+                 "interior": int(grid.interiors.sum()), "pairs": counted(grid.pairs), "pair_contacts": counted(grid.pair_contacts),
+                 "touches": counted(np.concatenate(grid.events)),
+                 "touches_began_persisted_ended": [len(part) for part in grid.events]}
+        if "penetrations" in call:
+            found.update(penetrations=counted(grid.penetrations), depths=counted(grid.depths))
+        if "contact_events" in call:
+            found.update(contact_events=counted(np.concatenate(grid.contact_events)),
+                         contact_events_began_ended=[len(part) for part in grid.contact_events])
+        with grid.borrowed() as r:
+            self.assertEqual((counted(r.contacts), counted(r.pair_contacts)), (found["contacts"], found["pair_contacts"]))
+        return found
+
+    def readings(self, call):
+        return {"readings": counted(self.grid.readings())}
+
+    def prepare_queries(self, call):
+        self.grid.prepare_queries()
+
+    def asked(self, ask):
+        """Of the grid and of a view."""
+        found = counted(ask(self.grid))
+        with self.grid.query_view() as view:
+            self.assertEqual(counted(ask(view)), found)
+        return {"hits": found}
+
+    def query_points(self, call):
+        points = self.array(call["points"], "<f8", call["count"], 3)
+        return self.asked(lambda grid: grid.query_points(points))
+
+    def query_closest_points(self, call):
+        points = self.array(call["points"], "<f8", call["count"], 3)
+        return self.asked(lambda grid: grid.query_closest(points))
+
+    def query_ray(self, call):
+        return self.asked(lambda grid: np.array([grid.query_ray(call["from"], call["to"])]))
+
+    def query_ray_hits(self, call):
+        return self.asked(lambda grid: grid.query_ray_hits(call["from"], call["to"]))
+
+    def query_box(self, call):
+        return self.asked(lambda grid: grid.query_box(call["min"], call["max"]))
+
+    def meshes(self, call):
+        found = []
+        for mesh in self.grid:
+            info = mesh.info
+            flags = mesh.filter.self_collision | info.owns_positions << 1 | info.borrows_tets << 2
+            found.append({"mesh": mesh.id, "user_data": str(mesh.user_data), "vertices": info.vertex_count,
+                          "tet_count": info.tet_count, "enabled_tets": info.enabled_tet_count, "enabled": int(info.enabled),
+                          "flags": flags, "format": int(mesh.positions.dtype == np.float64), "tets": hash_of(mesh.tets)})
+        return {"meshes": found}
+
+    def set_transform(self, call):
+        self.grid[call["mesh"]].transform = self.array(call["matrix"], "<f8", 12).reshape(3, 4)
+
+    def set_filter(self, call):
+        self.grid[call["mesh"]].filter = self.filter(call)
+
+    def set_enabled(self, call):
+        self.grid[call["mesh"]].enabled = bool(call["enabled"]) if call["enabled"] < 2 else call["enabled"]
+
+    def set_pair_enabled(self, call):
+        self.grid.set_pair_enabled(call["mesh_a"], call["mesh_b"], bool(call["enabled"]))
+
+    def set_flags(self, call):
+        if call["flags"] > 7:
+            raise TypeError("such flags have no name in Python")
+        self.grid.set_flags(**flags_of(call["flags"]))
+
+    def remove(self, call):
+        self.grid.remove(call["mesh"])
+
+    def clear(self, call):
+        self.grid.clear()
+
+    def append_copies(self, call):
+        of = self.array(call["copies_of"], "<u4", call["count"])
+        return {"first": self.grid[call["mesh"]].append_vertices(copies_of=of)}
+
+    def replace_tets(self, call):
+        self.grid[call["mesh"]].replace_tets(self.array(call["indices"], "<u4", call["count"]),
+                                             self.array(call["corners"], "<u4", call["count"], 4))
+
+    def append_tets(self, call):
+        return {"first": self.grid[call["mesh"]].append_tets(self.array(call["corners"], "<u4", call["count"], 4))}
+
+    def set_tets_enabled(self, call):
+        self.grid[call["mesh"]].set_tets_enabled(self.array(call["indices"], "<u4", call["count"]), bool(call["enabled"]))
+
+    def remove_tets(self, call):
+        self.grid[call["mesh"]].remove_tets(self.array(call["indices"], "<u4", call["count"]))
+
+    def save(self, call):
+        snapshot = self.grid.snapshot()
+        return {"size": len(snapshot), "hash": hash_of(np.frombuffer(snapshot, np.uint8))}
+
+    def load(self, call):
+        self.grid = voxtet.Grid.from_snapshot(self.array(call["bytes"], np.uint8, call["size"]))
+
+    def suggest(self, call):
+        meshes = [(self.positions({**m, "format": 0}), self.array(m["tets"], "<u4", m["tet_count"], 4)) for m in call["meshes"]]
+        s = voxtet.suggest_cell_size(meshes, model=voxtet.CostModel(call["model"]))
+        found = {"cell_size": s.cell_size, "zone_min": s.zone[0], "zone_max": s.zone[1], "predicted_cost": s.predicted_cost,
+                 "mean_edge": s.stats.mean_edge, "curve_count": len(s.curve)}
+        for name, value in found.items():
+            self.assertAlmostEqual(value / call[name], 1, delta=1e-6)
+
+    def test_all(self):
+        self.assertEqual(self.script["abi"], voxtet._c.VOX_ABI_VERSION)
+        calls, refused = 0, 0
+        for scene in self.script["scenes"]:
+            for number, call in enumerate(scene["calls"]):
+                with self.subTest(scene=scene["name"], number=number, call=call["call"]):
+                    calls += 1
+                    if "fails" not in call:
+                        found = getattr(self, call["call"])(call)
+                        self.assertEqual(found or {}, {key: call[key] for key in found or {}})
+                        continue
+                    refused += 1
+                    # What a bool or a name cannot say is refused before it reaches the library.
+                    unsayable = call["call"] == "set_enabled" and call["enabled"] > 1 or call.get("flags", 0) > 7
+                    with self.assertRaises(TypeError if unsayable else voxtet.VoxError) as caught:
+                        getattr(self, call["call"])(call)
+                    if not unsayable:
+                        self.assertEqual((caught.exception.code, str(caught.exception)), (call["fails"], call["text"]))
+        self.assertGreater(calls, 200)
+        self.assertGreater(refused, 5)
+
+
+if __name__ == "__main__":
+    unittest.main()
