@@ -1,0 +1,299 @@
+// Replays bindings/vectors through vox.hpp: the same results as in every other language.
+#include <vox/vox.hpp>
+
+#include <algorithm>
+#include <cinttypes>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/suite.h" // last: Check has a macro called fail
+
+namespace {
+
+using nlohmann::json;
+using vox::span;
+
+std::string digits_of(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return text;
+}
+
+// As bindings/vectors/README.md has it; the last word is filled with zeros.
+std::string hash_words(const void* data, std::size_t size) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (std::size_t i = 0; i < size; i += 4) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, static_cast<const char*>(data) + i, std::min<std::size_t>(4, size - i));
+        hash = (hash ^ (word == 0x80000000u ? 0 : word)) * 0x100000001b3u;
+    }
+    return digits_of(hash);
+}
+
+// [how many, the hash of their words], of a vector, span or view.
+template <class R>
+json summary(const R& items) {
+    std::vector<std::decay_t<decltype(*items.begin())>> copies(items.begin(), items.end());
+    return {copies.size(), hash_words(copies.data(), copies.size() * sizeof copies[0])};
+}
+
+std::uint64_t bits(const json& text) { return std::stoull(text.get<std::string>()); }
+
+vox_filter filter_of(const json& fields) {
+    vox_filter filter = vox_default_filter();
+    filter.group = fields["group"];
+    filter.category = bits(fields["category"]);
+    filter.mask = bits(fields["mask"]);
+    filter.self_collision = fields["self_collision"];
+    filter.self_rings = fields["self_rings"];
+    filter.self_rest_distance = fields["self_rest_distance"];
+    filter.penetration_mask = bits(fields["penetration_mask"]);
+    return filter;
+}
+
+class replay {
+public:
+    explicit replay(std::string arrays) : arrays_(std::move(arrays)) {}
+
+    // Makes a call, and compares what it gives.
+    void run(const json& call, const std::string& scene) {
+        place_ = scene + ": " + call.dump();
+        std::string text = "nothing";
+        int code = VOX_OK;
+        try {
+            make(call);
+        } catch (const vox::error& error) {
+            code = error.result();
+            text = error.what();
+        }
+        ck_assert_msg(code == call.value("fails", int{VOX_OK}) && text == call.value("text", "nothing"),
+                      "%d, %s: %s", code, text.c_str(), place_.c_str());
+    }
+
+private:
+    std::string arrays_;
+    vox::grid grid_;
+    std::string place_;
+
+    void check(const json& call, const char* name, const json& found) const {
+        ck_assert_msg(call.at(name) == found, "%s is %s: %s", name, found.dump().c_str(), place_.c_str());
+    }
+
+    template <class T>
+    std::vector<T> array(const json& offset, const json& count) const {
+        std::vector<T> items(count.get<std::size_t>());
+        std::memcpy(items.data(), arrays_.data() + offset.get<std::size_t>(), items.size() * sizeof(T));
+        return items;
+    }
+    using point = std::array<double, 3>;
+    using corners = std::array<std::uint32_t, 4>;
+    std::vector<std::uint32_t> indices(const json& call, const char* name) const {
+        return array<std::uint32_t>(call[name], call["count"]);
+    }
+
+    template <class T>
+    void insert(const json& call) {
+        const auto positions = array<std::array<T, 3>>(call["positions"], call["vertices"]);
+        const auto tets = array<corners>(call["tets"], call["tet_count"]);
+        vox_mesh_desc desc = vox::describe(positions, tets);
+        vox_filter filter;
+        desc.flags |= VOX_MESH_COPY_POSITIONS;
+        desc.user_data = bits(call["user_data"]);
+        if (call.contains("filter")) desc.filter = &(filter = filter_of(call["filter"]));
+        check(call, "mesh", grid_.insert(desc));
+    }
+
+    template <class T>
+    void move(const json& call) {
+        const auto positions = array<std::array<T, 3>>(call["positions"], call["vertices"]);
+        const auto mapped = grid_.map_positions<T>(call["mesh"]);
+        ck_assert_uint_eq(mapped.size(), positions.size());
+        std::copy(positions.begin(), positions.end(), mapped.begin());
+    }
+
+    void make(const json& call) {
+        const std::string name = call["call"];
+        const vox_mesh mesh = call.value("mesh", vox_mesh{VOX_NULL_MESH});
+        const auto at = [&](const char* corner) { return call[corner].get<point>(); };
+        if (name == "create") {
+            vox_grid_desc desc = vox_default_grid_desc();
+            desc.flags = call["flags"];
+            desc.cell_size = call["cell_size"];
+            grid_ = vox::grid(desc);
+        } else if (name == "insert") {
+            call["format"] == 1 ? insert<double>(call) : insert<float>(call);
+        } else if (name == "move") {
+            call["format"] == 1 ? move<double>(call) : move<float>(call);
+        } else if (name == "step") {
+            grid_.step();
+        } else if (name == "results") {
+            results(call);
+        } else if (name == "readings") {
+            grid_.prepare_readings();
+            check(call, "readings", summary(grid_.readings()));
+        } else if (name == "prepare_queries") {
+            grid_.prepare_queries();
+        } else if (name == "query_points") {
+            const auto points = array<point>(call["points"], call["count"]);
+            check(call, "hits", summary(grid_.query_points(points)));
+            check(call, "hits", summary(grid_.take_query_view().query_points(points)));
+        } else if (name == "query_closest_points") {
+            const auto points = array<point>(call["points"], call["count"]);
+            check(call, "hits", summary(grid_.query_closest_points(points)));
+        } else if (name == "query_ray") {
+            check(call, "hits", summary(std::array{grid_.query_ray(at("from"), at("to"))}));
+        } else if (name == "query_ray_hits") {
+            check(call, "hits", summary(grid_.query_ray_hits(at("from"), at("to"))));
+        } else if (name == "query_box") {
+            check(call, "hits", summary(grid_.query_box(at("min"), at("max"))));
+        } else if (name == "meshes") {
+            meshes(call);
+        } else if (name == "set_transform") {
+            grid_.set_transform(mesh, array<std::array<double, 12>>(call["matrix"], 1)[0]);
+        } else if (name == "set_filter") {
+            grid_.set_filter(mesh, filter_of(call["filter"]));
+        } else if (name == "set_enabled") {
+            grid_.set_enabled(mesh, call["enabled"] == 1);
+        } else if (name == "set_pair_enabled") {
+            grid_.set_pair_enabled(call["mesh_a"], call["mesh_b"], call["enabled"] == 1);
+        } else if (name == "set_flags") {
+            grid_.set_flags(call["flags"]);
+        } else if (name == "remove") {
+            grid_.remove(mesh);
+        } else if (name == "clear") {
+            grid_.clear();
+        } else if (name == "set_tets_enabled") {
+            grid_.set_tets_enabled(mesh, indices(call, "indices"), call["enabled"] == 1);
+        } else if (name == "remove_tets") {
+            grid_.remove_tets(mesh, indices(call, "indices"));
+        } else if (name == "append_copies") {
+            const auto copies_of = indices(call, "copies_of");
+            vox_vertices_desc desc = vox_default_vertices_desc();
+            desc.count = copies_of.size();
+            desc.copies_of = copies_of.data();
+            check(call, "first", grid_.append_vertices(mesh, desc));
+        } else if (name == "replace_tets") {
+            grid_.replace_tets(mesh, indices(call, "indices"),
+                               array<corners>(call["corners"], call["count"]));
+        } else if (name == "append_tets") {
+            check(call, "first", grid_.append_tets(mesh, array<corners>(call["corners"], call["count"])));
+        } else if (name == "save") {
+            const std::vector<std::byte> bytes = grid_.save();
+            check(call, "size", bytes.size());
+            check(call, "hash", hash_words(bytes.data(), bytes.size()));
+        } else if (name == "load") {
+            grid_ = vox::grid::load(array<std::byte>(call["bytes"], call["size"]));
+        } else if (name == "suggest") {
+            suggest(call);
+        } else {
+            ck_abort_msg("a call that is not known: %s", place_.c_str());
+        }
+    }
+
+    // What only a flag prepares is refused without it.
+    template <class F>
+    void check_prepared(const json& call, const char* name, F&& read) const {
+        try {
+            const json found = summary(read());
+            check(call, name, found);
+        } catch (const vox::error& error) {
+            ck_assert_msg(!call.contains(name) && error.result() == VOX_ERROR_INVALID_STATE, "%s: %s: %s",
+                          name, error.what(), place_.c_str());
+        }
+    }
+
+    void results(const json& call) const {
+        check(call, "hash", digits_of(grid_.hash()));
+        check(call, "epoch", grid_.epoch());
+        check(call, "contacts", summary(grid_.contacts()));
+        std::uint64_t interior = 0;
+        for (std::uint8_t inside : grid_.interiors()) interior += inside;
+        check(call, "interior", interior);
+        std::vector<std::uint32_t> pair_contacts;
+        for (const vox_pair& pair : grid_.pairs())
+            for (std::uint32_t contact : grid_.pairs().contacts(pair)) pair_contacts.push_back(contact);
+        check(call, "pairs", summary(grid_.pairs()));
+        check(call, "pair_contacts", summary(pair_contacts));
+        const auto touches = grid_.touch_events();
+        check(call, "touches", summary(touches));
+        check(call, "touches_began_persisted_ended",
+              {touches.began().size(), touches.persisted().size(), touches.ended().size()});
+        check_prepared(call, "penetrations", [&] { return grid_.penetrations(); });
+        check_prepared(call, "depths", [&] { return grid_.depths(); });
+        check_prepared(call, "contact_events", [&] { return grid_.contact_events(); });
+        if (!call.contains("contact_events")) return;
+        const auto events = grid_.contact_events();
+        check(call, "contact_events_began_ended", {events.began().size(), events.ended().size()});
+    }
+
+    void meshes(const json& call) const {
+        json found = json::array();
+        for (vox_mesh mesh : grid_.meshes()) {
+            const vox_mesh_info info = grid_.info(mesh);
+            const auto tets = grid_.tets_of(mesh);
+            found.push_back({{"mesh", mesh},
+                             {"user_data", std::to_string(grid_.user_data(mesh))},
+                             {"vertices", info.vertex_count},
+                             {"tet_count", info.tet_count},
+                             {"enabled_tets", info.enabled_tet_count},
+                             {"enabled", info.enabled},
+                             {"flags", info.flags},
+                             {"format", info.position_format},
+                             {"tets", hash_words(tets.data(), tets.size() * sizeof(corners))}});
+        }
+        check(call, "meshes", found);
+    }
+
+    void suggest(const json& call) const {
+        std::vector<std::vector<std::array<float, 3>>> positions;
+        std::vector<std::vector<corners>> tets;
+        for (const json& mesh : call["meshes"]) {
+            positions.push_back(array<std::array<float, 3>>(mesh["positions"], mesh["vertices"]));
+            tets.push_back(array<corners>(mesh["tets"], mesh["tet_count"]));
+        }
+        std::vector<vox_mesh_desc> meshes;
+        for (std::size_t i = 0; i < tets.size(); ++i) meshes.push_back(vox::describe(positions[i], tets[i]));
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        desc.model = call["model"];
+        const vox_suggestion found = vox::suggest_cell_size(meshes, desc);
+        const std::pair<const char*, double> values[] = {
+            {"cell_size", found.cell_size},
+            {"zone_min", found.zone_min},
+            {"zone_max", found.zone_max},
+            {"predicted_cost", found.predicted_cost},
+            {"mean_edge", found.stats.mean_edge},
+            {"curve_count", static_cast<double>(vox::curve(found).size())}};
+        for (const auto& [name, value] : values)
+            ck_assert_msg(std::abs(value - call[name].get<double>()) <= 1e-6 * std::abs(value),
+                          "%s is %.9g: %s", name, value, place_.c_str());
+    }
+};
+
+std::string contents_of(const std::string& name) {
+    std::ifstream file(VECTORS "/" + name, std::ios::binary);
+    ck_assert_msg(file.is_open(), "there is no %s", name.c_str());
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+START_TEST(the_same_as_in_every_language) {
+    const json script = json::parse(contents_of("vectors.json"));
+    ck_assert_uint_eq(script["abi"].get<std::uint32_t>(), vox::abi_version());
+    replay all(contents_of("vectors.bin"));
+    int calls = 0;
+    for (const json& scene : script["scenes"])
+        for (const json& call : scene["calls"]) {
+            if (call.value("enabled", 0) > 1) continue; // a bool is no such number
+            all.run(call, scene["name"]);
+            ++calls;
+        }
+    ck_assert_int_gt(calls, 300);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("vectors in C++");
+    tcase_add_each(add_case(suite, "all"), the_same_as_in_every_language);
+    return run_suite(suite);
+}
