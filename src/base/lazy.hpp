@@ -48,36 +48,42 @@ class Rare {
     static_assert(std::is_nothrow_constructible_v<T, std::pmr::memory_resource*>);
 
 public:
-    explicit Rare(std::pmr::memory_resource* memory) noexcept : memory_(memory) {}
-    Rare(Rare&& other) noexcept : memory_(other.memory_), made_(std::exchange(other.made_, nullptr)) {}
+    Rare() noexcept = default;
+    Rare(Rare&& other) noexcept : made_(std::exchange(other.made_, nullptr)) {}
     Rare& operator=(Rare&& other) noexcept {
-        std::swap(memory_, other.memory_);
         std::swap(made_, other.made_);
         return *this;
     }
     ~Rare() {
         if (!made_) return;
-        made_->~T();
-        memory_->deallocate(made_, sizeof(T), alignof(T));
+        std::pmr::memory_resource* memory = made_->memory;
+        made_->~Made();
+        memory->deallocate(made_, sizeof(Made), alignof(Made));
     }
 
     const T& operator*() const noexcept {
         static const T empty(std::pmr::null_memory_resource());
-        return made_ ? *made_ : empty;
+        return made_ ? made_->value : empty;
     }
     const T* operator->() const noexcept { return &**this; }
 
     // To change it; null before it is made.
-    T* if_made() noexcept { return made_; }
+    T* if_made() noexcept { return made_ ? &made_->value : nullptr; }
     // Makes it, unless that is done. Throws what the memory throws.
-    T& make() {
-        if (!made_) made_ = ::new (memory_->allocate(sizeof(T), alignof(T))) T(memory_);
-        return *made_;
+    T& make(std::pmr::memory_resource* memory) {
+        if (!made_) made_ = ::new (memory->allocate(sizeof(Made), alignof(Made))) Made(memory);
+        return made_->value;
     }
 
 private:
-    std::pmr::memory_resource* memory_;
-    T* made_ = nullptr;
+    struct Made {
+        explicit Made(std::pmr::memory_resource* from) noexcept : memory(from), value(from) {}
+
+        std::pmr::memory_resource* memory;
+        T value;
+    };
+
+    Made* made_ = nullptr;
 };
 
 } // namespace vox

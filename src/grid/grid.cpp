@@ -85,7 +85,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
-      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), meshes_(&memory_),
+      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
+      meshes_(&memory_),
       bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_), interiors_(&memory_),
       left_out_(&memory_), penetrations_(&memory_),
@@ -102,7 +103,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
 
 // What the stages need of a mesh, unless it is there already. The topology comes first, as tiles use its
 // facets.
-void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) const {
+void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
+    if (mesh.may_share()) mesh.share(shared_tets_);
     if (needs_topology(mesh.filter())) mesh.make_topology();
     if (!fast_ || !mesh.has_positions()) return;
     mesh.make_tiles();

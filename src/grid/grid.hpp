@@ -106,7 +106,7 @@ private:
     bool needs_topology(const vox_filter& filter) const noexcept {
         return finds_penetrations() && filter.penetration_mask != 0;
     }
-    void prepare(vox::Mesh& mesh, vox::fast::MeshState& state) const;
+    void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
     void find_penetrations();
     void stop_finding_penetrations() noexcept;
     void require_penetrations() const;
@@ -149,6 +149,7 @@ private:
     double used_cell_size_;          // in the last step; before the first one the requested one
     vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
 
+    vox::SharedTets shared_tets_; // before the meshes that share them
     vox::MeshTable meshes_;
 
     // one step

@@ -38,7 +38,7 @@ void check_items(std::span<const std::uint32_t> items, std::size_t count, const 
 // ---- tetrahedra -----------------------------------------------------------------------------------
 
 void Mesh::check_tets(std::span<const std::uint32_t> tets) const {
-    check_items(tets, this->tets().size(), removed_, "tets");
+    check_items(tets, this->tets().size(), edits_->removed, "tets");
 }
 
 void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
@@ -46,24 +46,27 @@ void Mesh::check_corners(std::uint32_t tet, const Tet& corners) const {
         if (vertex >= vertex_count_)
             throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " names vertex %" PRIu32 " of %" PRIu32,
                                                        tet, vertex, vertex_count_));
-        if (removed_vertices_[vertex])
+        if (edits_->removed_vertices[vertex])
             throw Error(VOX_ERROR_INVALID_MESH,
                         format("tet %" PRIu32 " names vertex %" PRIu32 ", which was removed", tet, vertex));
     }
 }
 
 // Afterwards switch_off() cannot fail.
-void Mesh::reserve_off() {
+MeshEdits& Mesh::reserve_off() {
     own_tets();
-    off_.reserve(tets_.size());
-    if (given_.empty()) given_.assign(tets_.begin(), tets_.end());
+    MeshEdits& edits = edits_.make(memory());
+    edits.off.reserve(tets_.size());
+    if (edits.given.empty()) edits.given.assign(tets_.begin(), tets_.end());
+    return edits;
 }
 
 void Mesh::switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept {
-    if (off_[tet]) return;
+    MeshEdits& edits = *edits_.if_made();
+    if (edits.off[tet]) return;
     changes.push_back({tet, true, false, tets_[tet], {}});
-    tets_[tet] = hidden(tets_[tet]);
-    off_.add(tet);
+    prepared_->tets[tet] = hidden(tets_[tet]);
+    edits.off.add(tet);
 }
 
 void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
@@ -76,9 +79,9 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
 
     for (const std::uint32_t tet : tets) {
         if (!enabled) switch_off(tet, changes);
-        if (!enabled || !off_[tet]) continue;
-        tets_[tet] = given_[tet];
-        off_.remove(tet);
+        if (!enabled || !edits_->off[tet]) continue;
+        prepared_->tets[tet] = edits_->given[tet]; // the mesh's own, as one of them is off
+        edits_.if_made()->off.remove(tet);
         changes.push_back({tet, false, true, {}, tets_[tet]});
     }
     apply(changes);
@@ -89,12 +92,12 @@ void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(tets.size());
     if (tets.empty()) return;
-    reserve_off();
-    removed_.reserve(tets_.size());
+    MeshEdits& edits = reserve_off();
+    edits.removed.reserve(tets_.size());
 
     for (const std::uint32_t tet : tets) {
         switch_off(tet, changes);
-        removed_.add(tet);
+        edits.removed.add(tet);
     }
     apply(changes);
 }
@@ -104,13 +107,16 @@ void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet
     for (std::size_t i = 0; i < tets.size(); ++i) check_corners(tets[i], corners[i]);
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(tets.size());
-    if (!tets.empty()) own_tets();
+    if (tets.empty()) return;
+    std::pmr::vector<Tet>& own = own_tets();
+    MeshEdits* edits = edits_.if_made();
 
     for (std::size_t i = 0; i < tets.size(); ++i) {
         const std::uint32_t tet = tets[i];
-        if (!given_.empty()) given_[tet] = corners[i];
-        if (!off_[tet]) changes.push_back({tet, true, true, tets_[tet], corners[i]});
-        tets_[tet] = off_[tet] ? hidden(corners[i]) : corners[i];
+        const bool is_off = edits_->off[tet];
+        if (!edits_->given.empty()) edits->given[tet] = corners[i];
+        if (!is_off) changes.push_back({tet, true, true, tets_[tet], corners[i]});
+        own[tet] = is_off ? hidden(corners[i]) : corners[i];
     }
     apply(changes);
 }
@@ -122,16 +128,19 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
         check_corners(first + static_cast<std::uint32_t>(i), corners[i]);
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(corners.size());
-    own_tets();
-    const std::size_t count = tets_.size() + corners.size();
-    reserve_growing(tets_, count);
-    if (!given_.empty()) reserve_growing(given_, count);
+    std::pmr::vector<Tet>& own = own_tets();
+    const std::size_t count = own.size() + corners.size();
+    reserve_growing(own, count);
+    tets_ = own; // may have moved
+    MeshEdits* edits = edits_->given.empty() ? nullptr : edits_.if_made();
+    if (edits) reserve_growing(edits->given, count);
 
-    if (!given_.empty()) given_.insert(given_.end(), corners.begin(), corners.end());
+    if (edits) edits->given.insert(edits->given.end(), corners.begin(), corners.end());
     for (const Tet& tet : corners) {
-        changes.push_back({static_cast<std::uint32_t>(tets_.size()), false, true, {}, tet});
-        tets_.push_back(tet);
+        changes.push_back({static_cast<std::uint32_t>(own.size()), false, true, {}, tet});
+        own.push_back(tet);
     }
+    tets_ = own;
     apply(changes);
     return first;
 }
@@ -192,10 +201,11 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
         else
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
-        if (has_transform_) poses.transform = transform_.data(); // the rest pose is that of the collisions
+        if (has_transform_) poses.transform = transform_->rows.data(); // the rest pose is that of the collisions
         rest = rest_pose(poses, added);
     }
-    if (has_rest) self_filter_.make().rest.reserve_for(rest);
+    if (has_rest) self_filter_.make(memory()).rest.reserve_for(rest);
+    if (is_shared_) own_prepared(); // which is of as many vertices as before
     const std::size_t doubles = (count * size + sizeof(double) - 1) / sizeof(double);
     if (owns) reserve_growing(owned_, doubles);
 
@@ -213,28 +223,29 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
 }
 
 void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
-    check_items(vertices, vertex_count_, removed_vertices_, "vertices");
+    check_items(vertices, vertex_count_, edits_->removed_vertices, "vertices");
     if (vertices.empty()) return;
-    list_tets_of();
+    MeshEdits& edits = list_tets_of();
     for (const std::uint32_t v : vertices)
-        if (const std::span<const std::uint32_t> around = std::as_const(tets_of_)[v]; !around.empty())
+        if (const std::span<const std::uint32_t> around = std::as_const(edits.tets_of)[v]; !around.empty())
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("vertex %" PRIu32 " is a corner of tet %" PRIu32 ", which is on", v,
                                *std::min_element(around.begin(), around.end())));
-    removed_vertices_.reserve(vertex_count_);
+    edits.removed_vertices.reserve(vertex_count_);
 
     for (const std::uint32_t v : vertices) {
-        removed_vertices_.add(v);
-        remove_loose(tiled_.boundary, v);
+        edits.removed_vertices.add(v);
+        if (has_tiles_ && !is_shared_) remove_loose(prepared_->tiled.boundary, v); // else there is none
     }
 }
 
 void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
                          std::span<const std::uint64_t> removed_vertices) {
     const auto tets = static_cast<std::uint32_t>(this->tets().size());
-    removed_vertices_.reserve(vertex_count_);
+    MeshEdits& edits = edits_.make(memory());
+    edits.removed_vertices.reserve(vertex_count_);
     for (std::uint32_t v = 0; v < vertex_count_; ++v)
-        if (has_bit(removed_vertices, v)) removed_vertices_.add(v);
+        if (has_bit(removed_vertices, v)) edits.removed_vertices.add(v);
     for (std::uint32_t t = 0; t < tets; ++t) {
         if (!has_bit(off, t)) check_corners(t, given(t));
         if (!has_bit(off, t) && has_bit(removed, t))
@@ -243,32 +254,35 @@ void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std
     std::pmr::vector<TetChange> changes(memory());
     changes.reserve(tets);
     reserve_off();
-    removed_.reserve(tets);
+    edits.removed.reserve(tets);
     for (std::uint32_t t = 0; t < tets; ++t) {
         if (has_bit(off, t)) switch_off(t, changes);
-        if (has_bit(removed, t)) removed_.add(t);
+        if (has_bit(removed, t)) edits.removed.add(t);
     }
     invalidate_prepared();
 }
 
 // ---- what was prepared ----------------------------------------------------------------------------
 
-void Mesh::list_tets_of() {
-    if (has_tets_of_) return;
-    list_tets(tets(), off_.words(), vertex_count_, tets_of_);
-    has_tets_of_ = true;
+MeshEdits& Mesh::list_tets_of() {
+    MeshEdits& edits = edits_.make(memory());
+    if (!edits.has_tets_of) list_tets(tets(), edits.off.words(), vertex_count_, edits.tets_of);
+    edits.has_tets_of = true;
+    return edits;
 }
 
 void Mesh::invalidate_tiles() noexcept {
-    tiled_ = TiledMesh(memory());
+    if (prepared_ && !is_shared_) prepared_->tiled = TiledMesh(memory());
     has_tiles_ = false;
 }
 
 void Mesh::invalidate_prepared() noexcept {
-    tets_of_ = IndexLists(memory());
+    if (MeshEdits* edits = edits_.if_made()) {
+        edits->tets_of = IndexLists(memory());
+        edits->has_tets_of = false;
+    }
     drop_topology();
     if (SelfFilter* own = self_filter_.if_made()) own->rings = Rings(memory());
-    has_tets_of_ = false;
     has_rings_ = filter_.self_rings == 0;
     sample_.reset();
     invalidate_tiles();
@@ -278,21 +292,21 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
     if (changes.empty()) return;
     sample_.reset();
     const bool has_rings = has_rings_ && filter_.self_rings != 0;
-    if (!has_tets_of_ && !has_tiles_ && !has_topology_ && !has_rings) return;
+    const bool has_tets_of = edits_->has_tets_of;
+    if (!has_tets_of && !has_tiles_ && !has_topology_ && !has_rings) return;
     // Repairing so many takes longer than making all anew.
     if (changes.size() > tets_.size() / 8 + 64) return invalidate_prepared();
     try {
-        if (has_tets_of_)
-            apply_changes(changes, tets_of_);
-        else
-            list_tets_of();
-        if (has_tiles_ && !repair(tiled_, body(VOX_NULL_MESH), changes, tets_of_)) invalidate_tiles();
+        if (has_tets_of) apply_changes(changes, edits_.if_made()->tets_of);
+        const IndexLists& tets_of = list_tets_of().tets_of;
+        if (has_tiles_ && !repair(prepared_->tiled, body(VOX_NULL_MESH), changes, tets_of))
+            invalidate_tiles();
         if (has_topology_) {
             check_tet_count(tets_.size());
             ++topology_version_;
-            repair_topology(tets_, tets_of_, changes, topology_);
+            repair_topology(tets_, tets_of, changes, prepared_->topology);
         }
-        if (has_rings) self_filter_.make().rings.repair(tets_, tets_of_, changes, filter_.self_rings);
+        if (has_rings) self_filter_.make(memory()).rings.repair(tets_, tets_of, changes, filter_.self_rings);
     } catch (...) { // out of memory, as a rule
         invalidate_prepared();
     }
@@ -301,10 +315,12 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
 void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
-        if (has_tets_of_) tets_of_.resize(vertex_count_);
-        if (has_tiles_ && !vox::add_vertices(tiled_, count_before, vertex_count_)) invalidate_tiles();
-        if (has_topology_) add_vertices(vertex_count_, topology_);
-        if (has_rings_ && filter_.self_rings != 0) self_filter_.make().rings.add_vertices(vertex_count_);
+        if (edits_->has_tets_of) edits_.if_made()->tets_of.resize(vertex_count_);
+        if (has_tiles_ && !vox::add_vertices(prepared_->tiled, count_before, vertex_count_))
+            invalidate_tiles();
+        if (has_topology_) add_vertices(vertex_count_, prepared_->topology);
+        if (has_rings_ && filter_.self_rings != 0)
+            self_filter_.make(memory()).rings.add_vertices(vertex_count_);
     } catch (...) {
         invalidate_prepared();
     }
@@ -314,11 +330,11 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
 
 Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
     Mesh made(desc, view, filter_defaults(), memory());
-    made.set_transform(has_transform_ ? transform_.data() : nullptr);
+    made.set_transform(has_transform_ ? transform_->rows.data() : nullptr);
     if (!desc.positions && view.vertex_count == vertex_count_) {
         made.positions_ = positions_; // take_over() moves owned ones
         if (!desc.rest_positions && !self_filter_->rest.empty())
-            made.self_filter_.make().rest = self_filter_->rest;
+            made.self_filter_.make(memory()).rest = self_filter_->rest;
     }
     made.set_filter(filter_);
     return made;

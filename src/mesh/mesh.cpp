@@ -11,47 +11,87 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
-      owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), positions_(view.positions),
-      user_data_(desc.user_data), vertex_count_(view.vertex_count), filter_(filter_defaults()),
-      self_filter_(memory), exceptions_(memory) {
-    borrowed_ = view.tets;
+    : tets_(view.tets), owned_(memory), positions_(view.positions), user_data_(desc.user_data),
+      vertex_count_(view.vertex_count), filter_(filter_defaults()) {
     if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
         check_format_once(VOX_NULL_MESH);
         map_positions();
     }
     if (desc.rest_positions)
-        self_filter_.make().rest = rest_pose(
+        self_filter_.make(memory).rest = rest_pose(
             check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
                             desc.rest_position_component_byte_stride, vertex_count_, "rest_"),
             vertex_count_);
     set_filter(filter);
 }
 
-// Of borrowed tets a copy, for edits to change.
-void Mesh::own_tets() {
-    if (borrowed_.empty()) return;
-    tets_.assign(borrowed_.begin(), borrowed_.end());
-    borrowed_ = {};
+// For changes: what the mesh shares it lets go of, and keeps a copy of the tets unless they are borrowed.
+PreparedTets& Mesh::own_prepared() {
+    if (prepared_ && !is_shared_) return *prepared_;
+    auto made = std::allocate_shared<PreparedTets>(std::pmr::polymorphic_allocator<PreparedTets>(memory()),
+                                                   memory());
+    if (!is_shared_) return *(prepared_ = std::move(made));
+    const bool borrows = borrows_tets();
+    if (!borrows) {
+        made->tets.assign(tets_.begin(), tets_.end());
+        tets_ = made->tets;
+    }
+    prepared_ = std::move(made);
+    owns_tets_ = !borrows;
+    is_shared_ = has_tiles_ = false;
+    if (has_topology_) ++topology_version_;
+    has_topology_ = false;
+    return *prepared_;
+}
+
+// For changes: a copy of those that are borrowed or shared.
+std::pmr::vector<Tet>& Mesh::own_tets() {
+    PreparedTets& own = own_prepared();
+    if (owns_tets_) return own.tets;
+    own.tets.assign(tets_.begin(), tets_.end());
+    tets_ = own.tets;
+    owns_tets_ = true;
+    return own.tets;
+}
+
+void Mesh::share(SharedTets& shared) {
+    std::shared_ptr<PreparedTets> of_all = shared.find_or_add(tets_, vertex_count_);
+    if (owns_tets_) tets_ = of_all->tets;
+    prepared_ = std::move(of_all);
+    owns_tets_ = false;
+    is_shared_ = true;
 }
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    make_tiled_mesh(body(VOX_NULL_MESH), tiled_, has_topology_ ? &topology_ : nullptr);
-    has_tiles_ = true;
+    PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
+    if (!is_shared_ || !made.has_tiles)
+        make_tiled_mesh(body(VOX_NULL_MESH), made.tiled, has_topology_ ? &made.topology : nullptr);
+    made.has_tiles = has_tiles_ = true;
     ++tiles_version_;
 }
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    vox::make_topology(tets(), vertex_count_, topology_);
-    has_topology_ = true;
+    PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
+    if (!is_shared_ || !made.has_topology) vox::make_topology(tets(), vertex_count_, made.topology);
+    made.has_topology = has_topology_ = true;
     ++topology_version_;
 }
 
+const Topology& Mesh::topology() const noexcept {
+    static const Topology none(std::pmr::null_memory_resource());
+    return has_topology_ ? prepared_->topology : none;
+}
+
+const TiledMesh& Mesh::tiled() const noexcept {
+    static const TiledMesh none(std::pmr::null_memory_resource());
+    return has_tiles_ ? prepared_->tiled : none;
+}
+
 void Mesh::drop_topology() noexcept {
-    topology_ = Topology(memory());
+    if (prepared_ && !is_shared_) prepared_->topology = Topology(memory());
     has_topology_ = false;
     ++topology_version_;
 }
@@ -61,14 +101,14 @@ const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
         std::pmr::memory_resource* heap = std::pmr::new_delete_resource();
         const Body own = body(VOX_NULL_MESH);
-        return has_topology_ ? make_sample(own, topology_, heap) : make_sample(own, heap);
+        return has_topology_ ? make_sample(own, prepared_->topology, heap) : make_sample(own, heap);
     });
 }
 
 void Mesh::make_rings() {
     if (has_rings_) return;
     if (filter_.self_rings != 0)
-        self_filter_.make().rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
+        self_filter_.make(memory()).rings = Rings(tets(), vertex_count_, filter_.self_rings, memory());
     has_rings_ = true;
 }
 
@@ -105,9 +145,9 @@ void* Mesh::map_positions() {
     return owned_.data();
 }
 
-void Mesh::set_transform(const double* matrix) noexcept {
+void Mesh::set_transform(const double* matrix) {
+    if (matrix) std::copy_n(matrix, 12, transform_.make(memory()).rows.begin());
     has_transform_ = matrix != nullptr;
-    if (matrix) std::copy_n(matrix, transform_.size(), transform_.begin());
 }
 
 vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
@@ -117,11 +157,11 @@ vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
     info.user_data = user_data_;
     info.vertex_count = vertex_count_;
     info.tet_count = tet_count();
-    info.enabled_tet_count = tet_count() - off_.count();
+    info.enabled_tet_count = tet_count() - edits_->off.count();
     info.enabled = enabled_ ? 1 : 0;
     if (filter_.self_collision) info.flags |= VOX_MESH_SELF_COLLISION;
     if (owns_positions_) info.flags |= VOX_MESH_COPY_POSITIONS;
-    if (!borrowed_.empty()) info.flags |= VOX_MESH_BORROW_TETS;
+    if (borrows_tets()) info.flags |= VOX_MESH_BORROW_TETS;
     info.position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     if (positions_.data) {
         const std::size_t number = position_size() / 3;
@@ -137,7 +177,7 @@ vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
 
 Body Mesh::body(vox_mesh id) const noexcept {
     Positions positions = positions_;
-    if (has_transform_) positions.transform = transform_.data();
+    if (has_transform_) positions.transform = transform_->rows.data();
     return {.mesh_id = id,
             .vertex_count = vertex_count_,
             .positions = positions,
@@ -145,12 +185,12 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},
             .penetration_mask = filter_.penetration_mask,
-            .exceptions = exceptions_,
+            .exceptions = exceptions_->meshes,
             .self_filter =
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &*self_filter_ : nullptr,
-            .off = off_.words(),
-            .off_count = off_.count(),
-            .removed_vertices = removed_vertices_.words(),
+            .off = edits_->off.words(),
+            .off_count = edits_->off.count(),
+            .removed_vertices = edits_->removed_vertices.words(),
             .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
             .user_data = user_data_};
 }
@@ -164,15 +204,17 @@ void Mesh::set_filter(const vox_filter& filter) {
                         "yet and was inserted without rest_positions");
         rest = rest_pose(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
     }
-    if (filter.self_rings != 0 || filter.self_rest_distance > 0) self_filter_.make();
+    if (filter.self_rings != 0 || filter.self_rest_distance > 0) self_filter_.make(memory());
     Rings rings(memory());
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
     if (other_rings) rings = Rings(tets(), vertex_count_, filter.self_rings, memory());
+    // More is prepared of bodies with self-collision.
+    if (filter.self_collision && !filter_.self_collision && is_shared_) own_prepared();
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
         Body with_self = body(VOX_NULL_MESH);
         with_self.self_collision = true;
-        // More is prepared of bodies with self-collision.
-        make_tiled_mesh(with_self, tiled_, has_topology_ ? &topology_ : nullptr);
+        PreparedTets& own = own_prepared();
+        make_tiled_mesh(with_self, own.tiled, has_topology_ ? &own.topology : nullptr);
         ++tiles_version_;
     }
     if (SelfFilter* own = self_filter_.if_made()) {
@@ -191,14 +233,18 @@ RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const 
 }
 
 void Mesh::reserve_exception() {
-    if (exceptions_.size() == exceptions_.capacity()) exceptions_.reserve(2 * exceptions_.size() + 2);
+    std::pmr::vector<vox_mesh>& meshes = exceptions_.make(memory()).meshes;
+    if (meshes.size() == meshes.capacity()) meshes.reserve(2 * meshes.size() + 2);
 }
 
 void Mesh::add_exception(vox_mesh other) noexcept {
-    const auto place = std::lower_bound(exceptions_.begin(), exceptions_.end(), other);
-    if (place == exceptions_.end() || *place != other) exceptions_.insert(place, other);
+    std::pmr::vector<vox_mesh>& meshes = exceptions_.if_made()->meshes;
+    const auto place = std::lower_bound(meshes.begin(), meshes.end(), other);
+    if (place == meshes.end() || *place != other) meshes.insert(place, other);
 }
 
-void Mesh::remove_exception(vox_mesh other) noexcept { std::erase(exceptions_, other); }
+void Mesh::remove_exception(vox_mesh other) noexcept {
+    if (Exceptions* made = exceptions_.if_made()) std::erase(made->meshes, other);
+}
 
 } // namespace vox

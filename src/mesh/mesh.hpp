@@ -6,28 +6,38 @@
 #include "base/lazy.hpp"
 #include "base/scene.hpp"
 #include "mesh/filter.hpp"
+#include "mesh/prepared_tets.hpp"
 #include "mesh/sample.hpp"
-#include "mesh/tiled_mesh.hpp"
-#include "mesh/topology.hpp"
 
 #include <vox/vox.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
 namespace vox {
 
+// What edits make of a mesh.
+struct MeshEdits {
+    explicit MeshEdits(std::pmr::memory_resource* memory) noexcept
+        : given(memory), off(memory), removed(memory), removed_vertices(memory), tets_of(memory) {}
+
+    std::pmr::vector<Tet> given; // corners as given by the caller; empty while no tet is off
+    Bits off, removed;           // tets; those that are removed are off as well
+    Bits removed_vertices;
+    IndexLists tets_of; // the tets around each vertex, from the first edit on
+    bool has_tets_of = false;
+};
+
 class Mesh {
 public:
     // An empty slot's mesh.
     explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : tets_(memory), given_(memory), off_(memory), removed_(memory), removed_vertices_(memory),
-          owned_(memory), tets_of_(memory), topology_(memory), tiled_(memory), filter_(filter_defaults()),
-          self_filter_(memory), exceptions_(memory) {}
+        : owned_(memory), filter_(filter_defaults()) {}
     // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
     // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -36,9 +46,18 @@ public:
     Mesh(Mesh&&) noexcept = default;
     Mesh& operator=(Mesh&&) noexcept = default;
 
+    // Whether what is prepared of it can be shared with other meshes; once it is, it can not.
+    bool may_share() const noexcept {
+        return vertex_count_ <= SharedTets::most_vertices && tets_.size() <= SharedTets::most_tets &&
+               !tets_.empty() && !has_tiles_ && !has_topology_ && !is_shared_ && !filter_.self_collision &&
+               edits_->off.count() == 0;
+    }
+    // Takes it from `shared` until the next edit. Throws what the memory throws, and changes nothing then.
+    void share(SharedTets& shared);
+
     // Makes the topology, unless that is done.
     void make_topology();
-    const Topology& topology() const noexcept { return topology_; }
+    const Topology& topology() const noexcept;
     bool has_topology() const noexcept { return has_topology_; }
     // Grows when the topology is made, changed or dropped.
     std::uint32_t topology_version() const noexcept { return topology_version_; }
@@ -51,11 +70,11 @@ public:
 
     // Makes the tiles, unless that is done; needs positions.
     void make_tiles();
-    const TiledMesh& tiled() const noexcept { return tiled_; }
+    const TiledMesh& tiled() const noexcept;
     // Grows when the tiles are made anew; at least 1 once they are made.
     std::uint32_t tiles_version() const noexcept { return tiles_version_; }
     // Null before they are made.
-    const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &tiled_.tiles : nullptr; }
+    const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &prepared_->tiled.tiles : nullptr; }
 
     // Makes the rings of the filter, unless that is done.
     void make_rings();
@@ -94,8 +113,8 @@ public:
     bool is_format_checked() const noexcept { return format_checked_; }
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
 
-    // Three rows of four finite numbers; null: no transform.
-    void set_transform(const double* matrix) noexcept;
+    // Three rows of four finite numbers; null: no transform. Throws what the memory throws.
+    void set_transform(const double* matrix);
 
     bool has_positions() const noexcept { return vertex_count_ == 0 || positions_.data != nullptr; }
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
@@ -104,8 +123,10 @@ public:
     vox_mesh_info info(std::uint32_t slot) const noexcept;
 
     // Corners as given by the caller, also of a tet that is off.
-    const Tet& given(std::uint32_t tet) const noexcept { return given_.empty() ? tets()[tet] : given_[tet]; }
-    bool is_off(std::uint32_t tet) const noexcept { return off_[tet]; }
+    const Tet& given(std::uint32_t tet) const noexcept {
+        return edits_->given.empty() ? tets_[tet] : edits_->given[tet];
+    }
+    bool is_off(std::uint32_t tet) const noexcept { return edits_->off[tet]; }
 
     // Sets a checked filter. Where that needs a rest pose and there is none, it is copied from the positions.
     // Throws Error(INVALID_STATE or NON_FINITE) or what the memory throws, and changes nothing then.
@@ -120,7 +141,7 @@ public:
     void reserve_exception();
     void add_exception(vox_mesh other) noexcept;
     void remove_exception(vox_mesh other) noexcept;
-    std::span<const vox_mesh> exceptions() const noexcept { return exceptions_; }
+    std::span<const vox_mesh> exceptions() const noexcept { return exceptions_->meshes; }
 
     Body body(vox_mesh id) const noexcept;
 
@@ -134,43 +155,54 @@ private:
     RestPose rest_pose(const Positions& positions, std::uint32_t count) const;
 
     // Edits.
-    std::pmr::memory_resource* memory() const noexcept { return tets_.get_allocator().resource(); }
-    std::span<const Tet> tets() const noexcept { return borrowed_.empty() ? std::span(tets_) : borrowed_; }
+    std::pmr::memory_resource* memory() const noexcept { return owned_.get_allocator().resource(); }
+    std::span<const Tet> tets() const noexcept { return tets_; }
+    bool borrows_tets() const noexcept {
+        return !tets_.empty() && !(prepared_ && prepared_->tets.data() == tets_.data());
+    }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
     void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;
-    void own_tets();
-    void reserve_off();
-    void list_tets_of();
+    PreparedTets& own_prepared();
+    std::pmr::vector<Tet>& own_tets();
+    MeshEdits& reserve_off();
+    MeshEdits& list_tets_of();
     void apply(std::span<const TetChange> changes) noexcept;
     void apply_vertices(std::uint32_t count_before) noexcept;
     void invalidate_tiles() noexcept;
     void invalidate_prepared() noexcept;
 
-    std::span<const Tet> borrowed_; // the caller's tets; empty once the mesh has its own
-    std::pmr::vector<Tet> tets_;    // as the stages see them: those that are off name one vertex four times
-    std::pmr::vector<Tet> given_;   // corners as given by the caller; empty while no tet is off
-    Bits off_, removed_;            // tets; those that are removed are off as well
-    Bits removed_vertices_;
+    struct Transform {
+        explicit Transform(std::pmr::memory_resource*) noexcept {}
+        std::array<double, 12> rows{};
+    };
+    struct Exceptions {
+        explicit Exceptions(std::pmr::memory_resource* memory) noexcept : meshes(memory) {}
+        std::pmr::vector<vox_mesh> meshes;
+    };
+
+    // As the stages see them: those that are off name one vertex four times. The caller's, or in prepared_.
+    std::span<const Tet> tets_;
+    std::shared_ptr<PreparedTets> prepared_; // null while there is nothing to keep in it
+    Rare<MeshEdits> edits_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
-    IndexLists tets_of_;             // the tets around each vertex, from the first edit on
-    Topology topology_;
     Lazy<MeshSample> sample_;
-    TiledMesh tiled_;
     Positions positions_; // without the transform
-    std::array<double, 12> transform_{};
+    Rare<Transform> transform_;
     std::uint64_t user_data_ = 0;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
     std::uint32_t topology_version_ = 0;
     bool owns_positions_ = false; // may be true while there are no vertices yet
-    bool has_tets_of_ = false, has_topology_ = false, has_tiles_ = false, has_rings_ = false;
+    bool owns_tets_ = false;      // they are in prepared_, and it is this mesh's alone
+    bool is_shared_ = false;      // prepared_ is other meshes' as well: it must not be changed
+    bool has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
     bool format_checked_ = false; // that the positions are of their format
     bool enabled_ = true;
     vox_filter filter_;
     Rare<SelfFilter> self_filter_;
-    std::pmr::vector<vox_mesh> exceptions_;
+    Rare<Exceptions> exceptions_;
 };
 
 } // namespace vox

@@ -186,6 +186,7 @@ private:
 // lattice to the start of the next, say), so that the box of a block is no larger than it must be.
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     out.block_first.assign(1, 0);
+    if (vertex_count <= block_size) return out.block_first.push_back(vertex_count);
     const auto distance = [&](std::uint32_t v) { // squared, from the vertex before
         const Vec3f p = seen_from_first(positions, v - 1), q = seen_from_first(positions, v);
         const float x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
