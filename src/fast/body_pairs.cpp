@@ -98,17 +98,13 @@ private:
 
 // ---- order --------------------------------------------------------------------------------------------
 
-// The bits of a float in the order of its value; the two zeros are one.
-std::uint32_t ordered_bits(float value) noexcept {
-    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
-    return bits >> 31 ? ~bits : bits | 0x80000000u;
-}
+} // namespace
 
-// Sorts by the upper half: a radix sort, stable (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
-// `other` is a buffer.
+// A radix sort (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
 void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other) {
-    constexpr std::size_t few_items = 512; // are sorted faster by comparisons; their lower halves ascend
+    constexpr std::size_t few_items = 512; // are sorted faster by comparisons
     if (items.size() <= few_items) return std::sort(items.begin(), items.end());
+    if (std::is_sorted(items.begin(), items.end())) return;
     other.resize(items.size());
     constexpr int digit_bits = 11;
     constexpr std::size_t values = std::size_t{1} << digit_bits;
@@ -121,6 +117,8 @@ void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector
         items.swap(other);
     }
 }
+
+namespace {
 
 // The boxes that are not empty, by where they begin along an axis, then by index.
 void sort_boxes(std::span<const Box> boxes, int axis, PairBuffers& buffers) {

@@ -5,6 +5,7 @@
 #include "base/scene.hpp"
 #include "fast/step.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -57,5 +58,14 @@ struct PairBuffers {
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
                 std::pmr::vector<Pair>& pairs);
 inline constexpr std::size_t most_rule_classes = 32;
+
+// The bits of a float in the order of its value; the two zeros are one.
+inline std::uint32_t ordered_bits(float value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
+    return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts by the upper half items whose lower halves ascend. `other` is a buffer.
+void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other);
 
 } // namespace vox::fast

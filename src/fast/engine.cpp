@@ -56,7 +56,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
             body.orientation = &prepared[b].state->orientation.make(
                 prepared[b].state->last_positions.positions.get_allocator().resource());
         }
-        body.moved = !settings.carry;
+        body.moved = !settings.carry || prepared[b].moved;
     }
     fast::lay_out(step_, boxes_);
     workers_.grow(step_.worker_count());

@@ -49,6 +49,9 @@ public:
                 const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
 
+    // For the pairs of boxes that are looked for between steps: good until the next one.
+    fast::PairBuffers& pair_buffers() noexcept { return broad_phase_.pair_buffers; }
+
     // What the last step found, for the cost model: good until the next one, pointers and spans of the Step
     // excepted, which are no longer valid.
     const fast::Step& last_step() const noexcept { return step_; }

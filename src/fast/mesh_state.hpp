@@ -23,6 +23,9 @@ struct MeshState {
     // the memory throws; the next call completes what is missing then.
     void update(const TiledMesh& mesh, std::uint32_t version, std::uint32_t vertex_count);
 
+    // Whether update() was called for these tiles.
+    bool is_of(std::uint32_t version) const noexcept { return version_ == version; }
+
     // The next step takes the mesh for one that moved.
     void invalidate_positions() noexcept {
         for (LastPositions::Part& part : last_positions.parts) part.copied = false;
@@ -40,6 +43,7 @@ struct PreparedBody {
     const Tiles* tiles;
     const Boundary* boundary;
     MeshState* state;
+    bool moved = false; // known to have; else that is found by comparing positions
 };
 
 } // namespace vox::fast

@@ -87,7 +87,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
       meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), fast_engine_(&memory_), reference_(&memory_),
+      bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_), reference_(&memory_),
       topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_), interiors_(&memory_),
       left_out_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
@@ -385,7 +385,10 @@ void vox_grid::step() {
         throw;
     }
 
-    counters.meshes = static_cast<std::uint32_t>(bodies_.size());
+    counters.meshes = static_cast<std::uint32_t>(bodies_.size() + lone_.totals().bodies);
+    counters.vertices = lone_.totals().vertices;
+    counters.tets = lone_.totals().tets;
+    counters.moved_meshes += carry ? lone_.totals().moved : lone_.totals().bodies;
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size() - body.off_count;
@@ -406,7 +409,7 @@ void vox_grid::step() {
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     contacts_hold_ = fast_;
-    meshes_hold_ = fast_ && left_out_.empty();
+    meshes_hold_ = fast_ && left_out_.empty() && lone_.totals().bodies == 0;
     if (counters.unknown_penetrations > 0)
         warn("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
              llu(counters.unknown_penetrations), llu(counters.penetrations), llu(closest_budget_));
@@ -424,6 +427,7 @@ void vox_grid::forget_contacts() noexcept {
 // others already.
 void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
     const auto detect_once = [&] {
+        find_lone_bodies();
         gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);
@@ -472,13 +476,22 @@ vox_failure vox_grid::failure_of(vox_result result, vox_mesh id, std::uint32_t v
     return failure;
 }
 
+// The engine compares positions as they are, and so do these, only where it does not move the origin.
+void vox_grid::find_lone_bodies() {
+    const Vec3d& origin = fast_engine_.last_step().origin;
+    if (fast_ && origin.x == 0 && origin.y == 0 && origin.z == 0)
+        lone_.find(meshes_, fast_engine_.pair_buffers(), workers_);
+    else
+        lone_.forget();
+}
+
 void vox_grid::gather_bodies(vox_counters& counters) {
     counters.disabled_meshes = 0;
     left_out_.clear();
     bodies_.clear();
     topologies_.clear();
     prepared_.clear();
-    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+    const auto gather = [&](vox_mesh id, MeshSlot& slot, bool moved) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
         if (!mesh.is_enabled()) {
@@ -508,8 +521,11 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         }
         topologies_.push_back(&mesh.topology());
         slot.topology_version = mesh.topology_version();
-        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state});
-    });
+        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state, moved});
+    };
+    for (std::uint32_t s = 0; s < meshes_.slot_count(); ++s)
+        if (!lone_.is_lone(s) && meshes_.slot(s).live)
+            gather(make_id(s, meshes_.slot(s).generation), meshes_.slot(s), lone_.moved(s));
 }
 
 // Removed vertices make no contacts.

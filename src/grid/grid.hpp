@@ -9,6 +9,7 @@
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
 #include "grid/events.hpp"
+#include "grid/lone_bodies.hpp"
 #include "grid/mesh_table.hpp"
 #include "grid/readings.hpp"
 #include "query/queries.hpp"
@@ -112,6 +113,7 @@ private:
     void require_penetrations() const;
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
+    void find_lone_bodies();
     void gather_bodies(vox_counters& counters);
     void detect(bool& carry, vox_counters& counters, vox_profile& profile);
     void leave_out_bad_meshes();
@@ -155,6 +157,7 @@ private:
     // one step
     std::pmr::vector<vox::Body> bodies_;
     std::pmr::vector<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
+    vox::LoneBodies lone_;                               // which are not among the bodies
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage

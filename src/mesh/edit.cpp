@@ -235,7 +235,7 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         edits.removed_vertices.add(v);
-        if (has_tiles_ && !is_shared_) remove_loose(prepared_->tiled.boundary, v); // else there is none
+        if (has_tiles_ && prepared_ && !is_shared_) remove_loose(prepared_->tiled.boundary, v); // else there is none
     }
 }
 
@@ -316,9 +316,9 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
     sample_.reset();
     try {
         if (edits_->has_tets_of) edits_.if_made()->tets_of.resize(vertex_count_);
-        if (has_tiles_ && !vox::add_vertices(prepared_->tiled, count_before, vertex_count_))
+        if (has_tiles_ && !vox::add_vertices(own_prepared().tiled, count_before, vertex_count_))
             invalidate_tiles();
-        if (has_topology_) add_vertices(vertex_count_, prepared_->topology);
+        if (has_topology_) add_vertices(vertex_count_, own_prepared().topology);
         if (has_rings_ && filter_.self_rings != 0)
             self_filter_.make(memory()).rings.add_vertices(vertex_count_);
     } catch (...) {

@@ -13,7 +13,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
            std::pmr::memory_resource* memory)
     : tets_(view.tets), owned_(memory), positions_(view.positions), user_data_(desc.user_data),
       vertex_count_(view.vertex_count), filter_(filter_defaults()) {
-    if (!(desc.flags & VOX_MESH_BORROW_TETS)) own_tets();
+    if (!(desc.flags & VOX_MESH_BORROW_TETS) && !tets_.empty()) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
         check_format_once(VOX_NULL_MESH);
         map_positions();
@@ -65,29 +65,35 @@ void Mesh::share(SharedTets& shared) {
 
 void Mesh::make_tiles() {
     if (has_tiles_) return;
-    PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
-    if (!is_shared_ || !made.has_tiles)
-        make_tiled_mesh(body(VOX_NULL_MESH), made.tiled, has_topology_ ? &made.topology : nullptr);
-    made.has_tiles = has_tiles_ = true;
+    if (vertex_count_ > 0) {
+        PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
+        if (!is_shared_ || !made.has_tiles)
+            make_tiled_mesh(body(VOX_NULL_MESH), made.tiled, has_topology_ ? &made.topology : nullptr);
+        made.has_tiles = true;
+    }
+    has_tiles_ = true;
     ++tiles_version_;
 }
 
 void Mesh::make_topology() {
     if (has_topology_) return;
-    PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
-    if (!is_shared_ || !made.has_topology) vox::make_topology(tets(), vertex_count_, made.topology);
-    made.has_topology = has_topology_ = true;
+    if (!tets_.empty()) {
+        PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
+        if (!is_shared_ || !made.has_topology) vox::make_topology(tets(), vertex_count_, made.topology);
+        made.has_topology = true;
+    }
+    has_topology_ = true;
     ++topology_version_;
 }
 
 const Topology& Mesh::topology() const noexcept {
     static const Topology none(std::pmr::null_memory_resource());
-    return has_topology_ ? prepared_->topology : none;
+    return has_topology_ && prepared_ ? prepared_->topology : none;
 }
 
 const TiledMesh& Mesh::tiled() const noexcept {
     static const TiledMesh none(std::pmr::null_memory_resource());
-    return has_tiles_ ? prepared_->tiled : none;
+    return has_tiles_ && prepared_ ? prepared_->tiled : none;
 }
 
 void Mesh::drop_topology() noexcept {
@@ -101,7 +107,7 @@ const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
         std::pmr::memory_resource* heap = std::pmr::new_delete_resource();
         const Body own = body(VOX_NULL_MESH);
-        return has_topology_ ? make_sample(own, prepared_->topology, heap) : make_sample(own, heap);
+        return has_topology_ ? make_sample(own, topology(), heap) : make_sample(own, heap);
     });
 }
 
@@ -176,11 +182,9 @@ vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
 }
 
 Body Mesh::body(vox_mesh id) const noexcept {
-    Positions positions = positions_;
-    if (has_transform_) positions.transform = transform_->rows.data();
     return {.mesh_id = id,
             .vertex_count = vertex_count_,
-            .positions = positions,
+            .positions = positions(),
             .tets = tets(),
             .self_collision = filter_.self_collision != 0,
             .filter = {filter_.category, filter_.mask, filter_.group},

@@ -55,6 +55,8 @@ public:
     // Takes it from `shared` until the next edit. Throws what the memory throws, and changes nothing then.
     void share(SharedTets& shared);
 
+    bool is_shared() const noexcept { return is_shared_; }
+
     // Makes the topology, unless that is done.
     void make_topology();
     const Topology& topology() const noexcept;
@@ -74,7 +76,7 @@ public:
     // Grows when the tiles are made anew; at least 1 once they are made.
     std::uint32_t tiles_version() const noexcept { return tiles_version_; }
     // Null before they are made.
-    const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &prepared_->tiled.tiles : nullptr; }
+    const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &tiled().tiles : nullptr; }
 
     // Makes the rings of the filter, unless that is done.
     void make_rings();
@@ -111,6 +113,12 @@ public:
     // there are enough of them, and again when another format is bound.
     void check_format_once(vox_mesh id);
     bool is_format_checked() const noexcept { return format_checked_; }
+    // As they collide, where it has some.
+    Positions positions() const noexcept {
+        Positions positions = positions_;
+        if (has_transform_) positions.transform = transform_->rows.data();
+        return positions;
+    }
     std::size_t position_size() const noexcept { return positions_.doubles ? sizeof(Vec3d) : sizeof(Vec3f); }
 
     // Three rows of four finite numbers; null: no transform. Throws what the memory throws.
