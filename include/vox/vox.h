@@ -573,7 +573,7 @@ VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh,
  * these had been given as VOX_FORMAT_DOUBLE3. If they exceed the limits of that format, the step fails. `matrix` is any
  * affine map, three rows of four numbers, copied. Null (the default) means no transform. The transform stays when
  * other positions are bound.
- * Errors: INVALID_ARGUMENT (an element that is not finite). */
+ * Errors: INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform). */
 VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, VOX_OPTIONAL const double matrix[12]);
 
 /* ---- cutting and growing ---------------------------------------------------------------------- */

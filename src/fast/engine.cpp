@@ -47,6 +47,7 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
 void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                        const FastSettings& settings) {
     fast::begin_step(bodies, settings.workers, step_);
+    step_.others = settings.others;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         fast::StepBody& body = step_.of[b];
         body.tiles = prepared[b].tiles;
@@ -57,6 +58,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
                 prepared[b].state->last_positions.positions.get_allocator().resource());
         }
         body.moved = !settings.carry || prepared[b].moved;
+        body.compared = prepared[b].compared;
     }
     fast::lay_out(step_, boxes_);
     workers_.grow(step_.worker_count());

@@ -29,6 +29,7 @@ struct FastSettings {
     // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new
     // or gone excepted, and not after a step that failed.
     bool carry = false;
+    Box others = empty_box; // see Step
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.

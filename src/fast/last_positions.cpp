@@ -60,9 +60,10 @@ bool compare_exact(LastPositions& rest, std::size_t part, const Positions& posit
     });
 }
 
-bool take_in(LastPositions& rest, const Positions& positions, std::uint32_t count, const Box& box) {
-    rest.expect(positions.rounded());
-    if (positions.rounded()) return !compare_exact(rest, 0, positions, 0, count, box);
+bool take_in(LastPositions& rest, const Positions& positions, bool rounded, std::uint32_t count,
+             const Box& box) {
+    rest.expect(rounded);
+    if (rounded) return !compare_exact(rest, 0, positions, 0, count, box);
     if (!is_packed(positions)) return !copy_strided(rest, 0, positions, 0, count);
     return !compare_packed(rest, 0, reinterpret_cast<const float*>(positions.data), 0, count, box);
 }

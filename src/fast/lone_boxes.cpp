@@ -85,29 +85,25 @@ struct Rows {
 bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<std::uint8_t>& met) {
     const Sizes sizes = measure(boxes);
     met.assign(boxes.size(), 0);
-    // Rows for boxes of twice the mean size, or of more where many are larger.
-    std::size_t large_count = most_large + 1;
-    double factor = 1;
+    // Rows for boxes of twice the mean size, or of more where many are larger. Sorted by where they begin, then
+    // by row: sorting is stable.
+    std::pmr::vector<std::uint64_t>& items = buffers.corners;
     std::array<std::uint32_t, most_large> large;
-    while (large_count > most_large && factor < 16) {
-        factor *= 2;
-        const Rows rows(sizes, factor);
+    std::size_t large_count = most_large + 1;
+    Rows rows(sizes, 1);
+    for (double factor = 2; large_count > most_large && factor <= 16; factor *= 2) {
+        rows = Rows(sizes, factor);
+        items.clear();
         large_count = 0;
-        for (std::uint32_t i = 0; i < boxes.size() && large_count <= most_large; ++i)
-            if (!is_empty(boxes[i]) && is_large(boxes[i], rows.most_side)) {
-                if (large_count < most_large) large[large_count] = i;
-                ++large_count;
-            }
+        for (std::uint32_t i = 0; i < boxes.size() && large_count <= most_large; ++i) {
+            if (is_empty(boxes[i])) continue;
+            if (!is_large(boxes[i], rows.most_side))
+                items.push_back(std::uint64_t{ordered_bits(boxes[i].lo[rows.axis])} << 32 | i);
+            else if (++large_count <= most_large)
+                large[large_count - 1] = i;
+        }
     }
     if (large_count > most_large) return false;
-    const Rows rows(sizes, factor);
-
-    // By where they begin, then by row: sorting is stable.
-    std::pmr::vector<std::uint64_t>& items = buffers.corners;
-    items.clear();
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (!is_empty(boxes[i]) && !is_large(boxes[i], rows.most_side))
-            items.push_back(std::uint64_t{ordered_bits(boxes[i].lo[rows.axis])} << 32 | i);
     sort_by_upper_half(items, buffers.other_corners);
     const std::size_t count = items.size();
     std::pmr::vector<std::uint32_t>& order = buffers.order;

@@ -43,7 +43,8 @@ struct PreparedBody {
     const Tiles* tiles;
     const Boundary* boundary;
     MeshState* state;
-    bool moved = false; // known to have; else that is found by comparing positions
+    bool compared = false; // whether it moved is known, and its last positions are those of this step
+    bool moved = false;
 };
 
 } // namespace vox::fast

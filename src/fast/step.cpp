@@ -9,16 +9,21 @@ namespace {
 
 // Far from zero, floats are far apart. So bodies whose positions are rounded anyway are rounded relative to a
 // point among them. Zero where they are near enough to it, judged by a few vertices: it only matters for
-// speed.
-Vec3d choose_origin(std::span<const Body> bodies) {
+// speed. `others` is a box around those that are not among the bodies.
+Vec3d choose_origin(std::span<const Body> bodies, const Box& others) {
     constexpr std::uint32_t samples = 8;
     constexpr double far = 256; // sizes away
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double lo[3] = {infinity, infinity, infinity}, hi[3] = {-infinity, -infinity, -infinity};
+    if (!is_empty(others)) {
+        std::copy_n(others.lo, 3, lo);
+        std::copy_n(others.hi, 3, hi);
+    }
     for (const Body& body : bodies) {
         if (!body.positions.rounded()) continue;
-        for (std::uint32_t i = 0; i < std::min(samples, body.vertex_count); ++i) {
-            const Vec3d p = body.positions.exact(std::uint64_t{i} * body.vertex_count / samples);
+        const std::uint32_t count = std::min(samples, body.vertex_count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vec3d p = body.positions.exact(std::uint64_t{i} * body.vertex_count / count);
             const double x[3] = {p.x, p.y, p.z};
             for (int a = 0; a < 3; ++a) {
                 lo[a] = std::min(lo[a], x[a]);
@@ -45,12 +50,12 @@ void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most,
 void begin_step(std::span<const Body> bodies, Workers* workers, Step& step) {
     step.bodies = bodies;
     step.workers = workers;
+    step.others = empty_box;
     step.of.assign(bodies.size(), {});
 }
 
 void lay_out(Step& step, StepBoxes& boxes) {
-    step.origin = choose_origin(step.bodies);
-    const bool moved_origin = step.origin.x != 0 || step.origin.y != 0 || step.origin.z != 0;
+    step.origin = choose_origin(step.bodies, step.others);
     std::size_t blocks = 0, supers = 0, tiles = 0;
     step.block_pieces.clear();
     step.super_pieces.clear();
@@ -58,7 +63,7 @@ void lay_out(Step& step, StepBoxes& boxes) {
         StepBody& body = step.of[b];
         const std::uint32_t own_blocks = body.tiles->block_count(),
                             own_supers = body.tiles->super_tile_count();
-        body.rounded = moved_origin || step.bodies[b].positions.rounded();
+        body.rounded = step.moved_origin() || step.bodies[b].positions.rounded();
         body.first_block = static_cast<std::uint32_t>(blocks);
         body.first_super = static_cast<std::uint32_t>(supers);
         body.first_tile = static_cast<std::uint32_t>(tiles);

@@ -261,6 +261,7 @@ bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& b
         }
     Box* out = boxes.blocks.data() + body.first_block + piece.first;
     const bool finite = stream_boxes(body.positions, first, out, box);
+    if (body.compared) return finite;
     if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
     if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);
     return finite;

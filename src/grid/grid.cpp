@@ -427,7 +427,8 @@ void vox_grid::forget_contacts() noexcept {
 // others already.
 void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
     const auto detect_once = [&] {
-        find_lone_bodies();
+        if (fast_)
+            lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(), workers_);
         gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);
@@ -476,22 +477,13 @@ vox_failure vox_grid::failure_of(vox_result result, vox_mesh id, std::uint32_t v
     return failure;
 }
 
-// The engine compares positions as they are, and so do these, only where it does not move the origin.
-void vox_grid::find_lone_bodies() {
-    const Vec3d& origin = fast_engine_.last_step().origin;
-    if (fast_ && origin.x == 0 && origin.y == 0 && origin.z == 0)
-        lone_.find(meshes_, fast_engine_.pair_buffers(), workers_);
-    else
-        lone_.forget();
-}
-
 void vox_grid::gather_bodies(vox_counters& counters) {
     counters.disabled_meshes = 0;
     left_out_.clear();
     bodies_.clear();
     topologies_.clear();
     prepared_.clear();
-    const auto gather = [&](vox_mesh id, MeshSlot& slot, bool moved) {
+    const auto gather = [&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
         if (!mesh.is_enabled()) {
@@ -521,11 +513,12 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         }
         topologies_.push_back(&mesh.topology());
         slot.topology_version = mesh.topology_version();
-        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state, moved});
+        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
+                                 lone_.compared(slot_of(id)), lone_.moved(slot_of(id))});
     };
     for (std::uint32_t s = 0; s < meshes_.slot_count(); ++s)
         if (!lone_.is_lone(s) && meshes_.slot(s).live)
-            gather(make_id(s, meshes_.slot(s).generation), meshes_.slot(s), lone_.moved(s));
+            gather(make_id(s, meshes_.slot(s).generation), meshes_.slot(s));
 }
 
 // Removed vertices make no contacts.
@@ -539,7 +532,8 @@ void vox_grid::drop_removed_vertices() {
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
-    const FastSettings settings{.cell_size = requested_cell_size_, .workers = &workers_, .carry = carry};
+    const FastSettings settings{.cell_size = requested_cell_size_, .workers = &workers_, .carry = carry,
+                                .others = lone_.totals().rounded};
     fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
     if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();
 }

@@ -113,7 +113,6 @@ private:
     void require_penetrations() const;
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
-    void find_lone_bodies();
     void gather_bodies(vox_counters& counters);
     void detect(bool& carry, vox_counters& counters, vox_profile& profile);
     void leave_out_bad_meshes();

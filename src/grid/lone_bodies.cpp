@@ -29,7 +29,7 @@ bool add(Box& box, const Positions& positions, std::uint32_t count) noexcept {
 
 } // namespace
 
-void LoneBodies::look_at(MeshSlot& slot, std::size_t index) {
+void LoneBodies::look_at(MeshSlot& slot, std::size_t index, bool all_rounded) {
     Box& box = boxes_[index] = empty_box;
     slots_[index] = {};
     if (!slot.live || !slot.mesh.is_enabled() || !slot.mesh.has_positions()) return;
@@ -43,19 +43,20 @@ void LoneBodies::look_at(MeshSlot& slot, std::size_t index) {
     seen.is_small = add(box, positions, count);
     if (!seen.is_small) return; // the engine finds out what is wrong
     slot.body = MeshSlot::none; // unless it turns out to be one
-    seen.vertices = static_cast<std::uint16_t>(count);
-    seen.tets = static_cast<std::uint16_t>(slot.mesh.tet_count());
-    seen.moved = fast::take_in(slot.state.last_positions, positions, count, box);
+    seen.vertices = count & 15;
+    seen.tets = slot.mesh.tet_count() & 31;
+    seen.rounded = positions.rounded();
+    seen.moved = fast::take_in(slot.state.last_positions, positions, all_rounded || seen.rounded, count, box);
 }
 
-void LoneBodies::find(MeshTable& meshes, fast::PairBuffers& buffers, Workers& workers) {
+void LoneBodies::find(MeshTable& meshes, bool all_rounded, fast::PairBuffers& buffers, Workers& workers) {
     forget();
     const std::size_t count = meshes.slot_count();
     if (count < few_bodies) return;
     boxes_.resize(count);
     slots_.resize(count);
     workers.for_ranges(count, task_slots, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t s = begin; s < end; ++s) look_at(meshes.slot(s), s);
+        for (std::size_t s = begin; s < end; ++s) look_at(meshes.slot(s), s, all_rounded);
     });
     std::size_t small = 0, large_vertices = 0;
     for (std::size_t s = 0; s < count; ++s) {
@@ -75,6 +76,7 @@ void LoneBodies::find(MeshTable& meshes, fast::PairBuffers& buffers, Workers& wo
         totals_.vertices += seen.vertices;
         totals_.tets += seen.tets;
         totals_.moved += seen.moved;
+        if (seen.rounded) vox::add(totals_.rounded, boxes_[s]);
     }
 }
 

@@ -24,17 +24,17 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
 
 struct MeshSlot {
     explicit MeshSlot(std::pmr::memory_resource* memory, std::uint32_t last_generation = 0) noexcept
-        : mesh(memory), state(memory), generation(last_generation) {}
+        : mesh(memory), generation(last_generation), state(memory) {}
 
     Mesh mesh;
-    fast::MeshState state;                       // of the mesh, for the fast engine
-    std::shared_ptr<const QueryTets> query_tets; // of the mesh as it is now; null until queries need it
     std::uint32_t generation; // of the mesh that lives here, or of the last one that did; 0: there was none
     bool live = false;
     bool left_out = false; // for a coordinate, in the last step
     static constexpr std::uint32_t none = ~0u;
     std::uint32_t body = none;          // index in the last step; none when it took no part
     std::uint32_t topology_version = 0; // of the mesh in the last step
+    fast::MeshState state;              // of the mesh, for the fast engine
+    std::shared_ptr<const QueryTets> query_tets; // of the mesh as it is now; null until queries need it
 };
 
 class MeshTable {

@@ -11,8 +11,8 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : tets_(view.tets), owned_(memory), positions_(view.positions), user_data_(desc.user_data),
-      vertex_count_(view.vertex_count), filter_(filter_defaults()) {
+    : owned_(memory), filter_(filter_defaults()), user_data_(desc.user_data), positions_(view.positions),
+      tets_(view.tets), vertex_count_(view.vertex_count) {
     if (!(desc.flags & VOX_MESH_BORROW_TETS) && !tets_.empty()) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
         check_format_once(VOX_NULL_MESH);

@@ -189,28 +189,29 @@ private:
         std::pmr::vector<vox_mesh> meshes;
     };
 
-    // As the stages see them: those that are off name one vertex four times. The caller's, or in prepared_.
-    std::span<const Tet> tets_;
     std::shared_ptr<PreparedTets> prepared_; // null while there is nothing to keep in it
     Rare<MeshEdits> edits_;
     std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
     Lazy<MeshSample> sample_;
-    Positions positions_; // without the transform
-    Rare<Transform> transform_;
+    Rare<SelfFilter> self_filter_;
+    Rare<Exceptions> exceptions_;
+    vox_filter filter_;
     std::uint64_t user_data_ = 0;
+    // From here on what each step looks at.
+    Rare<Transform> transform_;
+    Positions positions_; // without the transform
+    // As the stages see them: those that are off name one vertex four times. The caller's, or in prepared_.
+    std::span<const Tet> tets_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t tiles_version_ = 0;
     std::uint32_t topology_version_ = 0;
-    bool owns_positions_ = false; // may be true while there are no vertices yet
     bool owns_tets_ = false;      // they are in prepared_, and it is this mesh's alone
     bool is_shared_ = false;      // prepared_ is other meshes' as well: it must not be changed
+    bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
     bool format_checked_ = false; // that the positions are of their format
     bool enabled_ = true;
-    vox_filter filter_;
-    Rare<SelfFilter> self_filter_;
-    Rare<Exceptions> exceptions_;
 };
 
 } // namespace vox
