@@ -52,6 +52,7 @@ bool compare_exact(LastPositions& rest, std::size_t part, const Positions& posit
 
 // Returns whether a body of one part moved since the last step, and keeps its finite positions for the next.
 // `box` is the box around them; `rounded` as in StepBody.
-bool take_in(LastPositions& rest, const Positions& positions, bool rounded, std::uint32_t count, const Box& box);
+bool take_in(LastPositions& rest, const Positions& positions, bool rounded, std::uint32_t count,
+             const Box& box);
 
 } // namespace vox::fast

@@ -1,7 +1,7 @@
 // Boxes are sorted into rows along one axis, by their low corners. A row is as high and as wide as the boxes
-// are, but for some large ones. So a box meets only boxes of its own row and of the eight around it; half of these
-// are looked at from the other side. The rows are swept together, in order: each has a place in each
-// of the rows around it, which only moves on. Large boxes are tested against all others.
+// are, but for some large ones. So a box meets only boxes of its own row and of the eight around it; half of
+// these are looked at from the other side. The rows are swept together, in order: each has a place in each of
+// the rows around it, which only moves on. Large boxes are tested against all others.
 #include "fast/lone_boxes.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace vox::fast {
 
 namespace {
 
-constexpr std::size_t most_large = 16;      // boxes that are tested against all others
-constexpr std::uint64_t most_met_tests = 64; // for each box, of those in rows
+constexpr std::size_t most_large = 16;        // boxes that are tested against all others
+constexpr std::uint64_t most_met_tests = 64;  // for each box, of those in rows
 constexpr std::uint32_t most_rows = 1u << 15; // along an axis
 
 struct Sizes {
@@ -85,8 +85,8 @@ struct Rows {
 bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<std::uint8_t>& met) {
     const Sizes sizes = measure(boxes);
     met.assign(boxes.size(), 0);
-    // Rows for boxes of twice the mean size, or of more where many are larger. Sorted by where they begin, then
-    // by row: sorting is stable.
+    // Rows for boxes of twice the mean size, or of more where many are larger. Sorted by where they begin,
+    // then by row: sorting is stable.
     std::pmr::vector<std::uint64_t>& items = buffers.corners;
     std::array<std::uint32_t, most_large> large;
     std::size_t large_count = most_large + 1;
@@ -129,13 +129,17 @@ bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::
         const float end = box.hi[rows.axis];
         const double begin = double{box.lo[rows.axis]} - reach;
         const std::uint32_t row = row_of(k);
-        for (std::size_t l = k + 1; l < count && row_of(l) == row && sorted[l].lo[rows.axis] <= end; ++l, ++tests)
+        for (std::size_t l = k + 1; l < count && row_of(l) == row && sorted[l].lo[rows.axis] <= end;
+             ++l, ++tests)
             if (overlap(box, sorted[l])) mark(k, l);
         for (int i = 0; i < 4; ++i) {
             const std::uint32_t other = row + to_next[i];
             std::size_t& l = place[i];
-            while (l < count && (row_of(l) < other || (row_of(l) == other && sorted[l].lo[rows.axis] < begin))) ++l;
-            for (std::size_t m = l; m < count && row_of(m) == other && sorted[m].lo[rows.axis] <= end; ++m, ++tests)
+            while (l < count &&
+                   (row_of(l) < other || (row_of(l) == other && sorted[l].lo[rows.axis] < begin)))
+                ++l;
+            for (std::size_t m = l; m < count && row_of(m) == other && sorted[m].lo[rows.axis] <= end;
+                 ++m, ++tests)
                 if (overlap(box, sorted[m])) mark(k, m);
         }
         if (tests > most_met_tests * (count + 1)) return false;

@@ -12,8 +12,7 @@
 namespace vox::fast {
 
 struct MeshState {
-    explicit MeshState(std::pmr::memory_resource* memory) noexcept
-        : last_positions(memory) {}
+    explicit MeshState(std::pmr::memory_resource* memory) noexcept : last_positions(memory) {}
 
     LastPositions last_positions;
     Rare<OrientationCache> orientation; // of bodies that winding numbers may be of use for

@@ -86,10 +86,9 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
-      meshes_(&memory_),
-      bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_), interiors_(&memory_),
-      left_out_(&memory_), penetrations_(&memory_),
+      meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
+      reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_),
+      interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
       events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
       query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
@@ -428,7 +427,8 @@ void vox_grid::forget_contacts() noexcept {
 void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
     const auto detect_once = [&] {
         if (fast_)
-            lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(), workers_);
+            lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(),
+                       workers_);
         gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);
@@ -513,7 +513,8 @@ void vox_grid::gather_bodies(vox_counters& counters) {
         }
         topologies_.push_back(&mesh.topology());
         slot.topology_version = mesh.topology_version();
-        if (fast_) prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
+        if (fast_)
+            prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
                                  lone_.compared(slot_of(id)), lone_.moved(slot_of(id))});
     };
     for (std::uint32_t s = 0; s < meshes_.slot_count(); ++s)
@@ -532,7 +533,9 @@ void vox_grid::drop_removed_vertices() {
 
 void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
-    const FastSettings settings{.cell_size = requested_cell_size_, .workers = &workers_, .carry = carry,
+    const FastSettings settings{.cell_size = requested_cell_size_,
+                                .workers = &workers_,
+                                .carry = carry,
                                 .others = lone_.totals().rounded};
     fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
     if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();

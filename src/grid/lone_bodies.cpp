@@ -8,9 +8,10 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t few_bodies = 64;        // small ones that are not worth looking for
-constexpr std::size_t most_large_vertices = 16; // for each small body: the boxes of large bodies are made twice
-constexpr std::size_t task_slots = 512;
+// So few small bodies are not worth looking for, and neither are they where there are more than so many
+// vertices of large bodies for each: the boxes of those are made twice.
+constexpr std::size_t few_bodies = 64, most_large_vertices = 16;
+constexpr std::size_t task_slots = 512; // are worth a task: some ten microseconds
 
 // False where a coordinate is not finite.
 bool add(Box& box, const Positions& positions, std::uint32_t count) noexcept {

@@ -1,5 +1,5 @@
-// Small bodies that meet no other one. A step looks at their positions and leaves them out of its stages, in which each
-// body costs as much as some hundred vertices.
+// Small bodies that meet no other one. A step looks at their positions and leaves them out of its stages, in
+// which each body costs as much as some hundred vertices.
 #pragma once
 
 #include "base/boxes.hpp"
@@ -16,12 +16,13 @@ namespace vox {
 
 class LoneBodies {
 public:
-    explicit LoneBodies(std::pmr::memory_resource* memory) noexcept : boxes_(memory), slots_(memory), met_(memory) {}
+    explicit LoneBodies(std::pmr::memory_resource* memory) noexcept
+        : boxes_(memory), slots_(memory), met_(memory) {}
 
-    // Looks at all meshes that take part in a step, and marks those that need not, by their slots; none where small
-    // bodies are few or that would take long. Takes in the positions of small bodies: whether they moved is known here,
-    // and no longer found by comparing them again.
-    // `all_rounded` if the engine is likely to round positions of all bodies (Step::origin).
+    // Looks at all meshes that take part in a step, and marks those that need not, by their slots; none where
+    // small bodies are few or that would take long. Takes in the positions of small bodies: whether they
+    // moved is known here, and no longer found by comparing them again. `all_rounded` if the engine is likely
+    // to round positions of all bodies (Step::origin).
     void find(MeshTable& meshes, bool all_rounded, fast::PairBuffers& buffers, Workers& workers);
     // None.
     void forget() noexcept {

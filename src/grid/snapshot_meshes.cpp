@@ -282,7 +282,8 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     }
     in.end();
     or_refuse(in, id, [&] {
-        if (rest != no_rest) mesh.self_filter_.make(&to.grid.memory_).rest = mesh.rest_pose(given, mesh.vertex_count());
+        if (rest != no_rest)
+            mesh.self_filter_.make(&to.grid.memory_).rest = mesh.rest_pose(given, mesh.vertex_count());
         check_filter(filter);
         mesh.set_filter(filter);
     });

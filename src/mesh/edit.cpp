@@ -201,7 +201,8 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
         else
             throw Error(VOX_ERROR_INVALID_STATE,
                         "the mesh has a rest distance: its new vertices need rest_positions, or positions");
-        if (has_transform_) poses.transform = transform_->rows.data(); // the rest pose is that of the collisions
+        if (has_transform_)
+            poses.transform = transform_->rows.data(); // the rest pose is that of the collisions
         rest = rest_pose(poses, added);
     }
     if (has_rest) self_filter_.make(memory()).rest.reserve_for(rest);
@@ -235,7 +236,8 @@ void Mesh::remove_vertices(std::span<const std::uint32_t> vertices) {
 
     for (const std::uint32_t v : vertices) {
         edits.removed_vertices.add(v);
-        if (has_tiles_ && prepared_ && !is_shared_) remove_loose(prepared_->tiled.boundary, v); // else there is none
+        if (has_tiles_ && prepared_ && !is_shared_)
+            remove_loose(prepared_->tiled.boundary, v); // else there is none
     }
 }
 

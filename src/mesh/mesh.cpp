@@ -29,8 +29,8 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
 // For changes: what the mesh shares it lets go of, and keeps a copy of the tets unless they are borrowed.
 PreparedTets& Mesh::own_prepared() {
     if (prepared_ && !is_shared_) return *prepared_;
-    auto made = std::allocate_shared<PreparedTets>(std::pmr::polymorphic_allocator<PreparedTets>(memory()),
-                                                   memory());
+    auto made =
+        std::allocate_shared<PreparedTets>(std::pmr::polymorphic_allocator<PreparedTets>(memory()), memory());
     if (!is_shared_) return *(prepared_ = std::move(made));
     const bool borrows = borrows_tets();
     if (!borrows) {

@@ -36,8 +36,7 @@ struct MeshEdits {
 class Mesh {
 public:
     // An empty slot's mesh.
-    explicit Mesh(std::pmr::memory_resource* memory) noexcept
-        : owned_(memory), filter_(filter_defaults()) {}
+    explicit Mesh(std::pmr::memory_resource* memory) noexcept : owned_(memory), filter_(filter_defaults()) {}
     // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
     // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,

@@ -7,7 +7,8 @@ namespace vox {
 
 // Takes itself off the list when the last mesh lets go of it.
 struct SharedTets::Shared final : PreparedTets, std::enable_shared_from_this<Shared> {
-    Shared(const Key& of, SharedTets& list) : PreparedTets(list.all_.get_allocator().resource()), list_(list) {
+    Shared(const Key& of, SharedTets& list)
+        : PreparedTets(list.all_.get_allocator().resource()), list_(list) {
         tets.assign(of.tets.begin(), of.tets.end());
         key = {tets, of.vertex_count};
     }
@@ -39,7 +40,8 @@ bool SharedTets::Before::operator()(const Shared* a, const Key& b) const noexcep
 std::shared_ptr<PreparedTets> SharedTets::find_or_add(std::span<const Tet> tets, std::uint32_t vertex_count) {
     const Key key{tets, vertex_count};
     if (const auto found = all_.find(key); found != all_.end()) return (*found)->shared_from_this();
-    const auto made = std::allocate_shared<Shared>(std::pmr::polymorphic_allocator<Shared>(all_.get_allocator().resource()), key, *this);
+    const auto made = std::allocate_shared<Shared>(
+        std::pmr::polymorphic_allocator<Shared>(all_.get_allocator().resource()), key, *this);
     all_.insert(made.get());
     made->is_listed = true;
     return made;

@@ -1,5 +1,5 @@
-// What is prepared of the tetrahedra of a mesh while they stay as they are. Small meshes whose tetrahedra are equal share it: a
-// scene of a million fragments has few different ones.
+// What is prepared of the tetrahedra of a mesh while they stay as they are. Small meshes whose tetrahedra are
+// equal share it: a scene of a million fragments has few different ones.
 #pragma once
 
 #include "base/scene.hpp"

@@ -1,5 +1,5 @@
-/* Many bodies of a few tetrahedra: they share what is prepared of them, and a step leaves out those that meet no other
- * one. Contacts, counters and errors are as if it did not. */
+/* Many bodies of a few tetrahedra: they share what is prepared of them, and a step leaves out those that meet
+ * no other one. Contacts, counters and errors are as if it did not. */
 #include <math.h>
 #include <string.h>
 
@@ -70,8 +70,9 @@ START_TEST(shared_memory_is_given_back) {
 }
 END_TEST
 
-/* Bodies that wander, rest, meet and part, are cut, grow, turn into doubles, and get transforms and filters, beside
- * large ones: the same contacts as from a grid that has forgotten all it knew, and as by the reference engine. */
+/* Bodies that wander, rest, meet and part, are cut, grow, turn into doubles, and get transforms and filters,
+ * beside large ones: the same contacts as from a grid that has forgotten all it knew, and as by the reference
+ * engine. */
 START_TEST(contacts_of_wandering_bodies) {
     enum { count = 400, steps = 60 };
     uint64_t random = 7;
@@ -123,12 +124,15 @@ START_TEST(contacts_of_wandering_bodies) {
                 if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 0));
                 if (kind == 1) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 1));
                 if (kind == 2) ck_ok(vox_mesh_set_transform(grids[g], meshes[g][i], step % 2 ? turn : NULL));
-                if (kind == 3 && !grown[i]) ck_ok(vox_mesh_append_vertices(grids[g], meshes[g][i], &more, &first));
+                if (kind == 3 && !grown[i])
+                    ck_ok(vox_mesh_append_vertices(grids[g], meshes[g][i], &more, &first));
                 if (kind == 4) ck_ok(vox_mesh_set_filter(grids[g], meshes[g][i], &filter));
                 if (kind == 5)
-                    ck_ok(vox_mesh_bind_positions(grids[g], meshes[g][i], as_doubles[i], VOX_FORMAT_DOUBLE3, 24));
+                    ck_ok(vox_mesh_bind_positions(grids[g], meshes[g][i], as_doubles[i], VOX_FORMAT_DOUBLE3,
+                                                  24));
                 if (kind == 6 && i != other)
-                    ck_ok(vox_grid_set_pair_enabled(grids[g], meshes[g][i], meshes[g][other], (uint32_t)step % 2));
+                    ck_ok(vox_grid_set_pair_enabled(grids[g], meshes[g][i], meshes[g][other],
+                                                    (uint32_t)step % 2));
                 if (kind == 7) ck_ok(vox_mesh_set_enabled(grids[g], meshes[g][i], (uint32_t)step % 2));
             }
             if (kind == 3) grown[i] = 1;
@@ -152,7 +156,8 @@ START_TEST(contacts_of_wandering_bodies) {
         ck_assert_uint_eq(found.penetrations, by_reference.penetrations);
         contacts += found.contacts;
         if (step % 4 == 2 && suite_engine == VOX_ENGINE_FAST) {
-            ck_assert_msg(found.moved_meshes == 0, "step %d: %llu moved", step, (unsigned long long)found.moved_meshes);
+            ck_assert_msg(found.moved_meshes == 0, "step %d: %llu moved", step,
+                          (unsigned long long)found.moved_meshes);
             ck_assert_uint_eq(found.carried_contacts, found.contacts);
             ++rested;
         }
@@ -223,8 +228,8 @@ START_TEST(bad_positions) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, bytes_of_a_body, shared_memory_is_given_back, contacts_of_wandering_bodies, coming_back,
-                   bad_positions);
+    tcase_add_each(tests, bytes_of_a_body, shared_memory_is_given_back, contacts_of_wandering_bodies,
+                   coming_back, bad_positions);
 }
 
 int main(void) {

@@ -262,6 +262,7 @@ END_TEST
 int main() {
     Suite* suite = suite_create("body_pairs");
     TCase* tests = add_case(suite, "body_pairs");
-    tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted, met_boxes_are_those_of_pairs, scaffold, one_place);
+    tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted,
+                   met_boxes_are_those_of_pairs, scaffold, one_place);
     return run_suite(suite);
 }
