@@ -177,7 +177,7 @@ vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
     }
     info.has_transform = has_transform_ ? 1 : 0;
     for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
-    if (has_transform_) std::copy(transform_.begin(), transform_.end(), info.transform);
+    if (has_transform_) std::copy(transform_->rows.begin(), transform_->rows.end(), info.transform);
     return info;
 }
 
