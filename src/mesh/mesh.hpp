@@ -6,8 +6,8 @@
 #include "base/lazy.hpp"
 #include "base/scene.hpp"
 #include "mesh/filter.hpp"
-#include "mesh/prepared_tets.hpp"
 #include "mesh/sample.hpp"
+#include "mesh/tiled_mesh.hpp"
 
 #include <vox/vox.h>
 
