@@ -1832,7 +1832,7 @@ extern "C" {
     /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE3. If
     /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
     /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
-    /// INVALID_ARGUMENT (an element that is not finite).
+    /// INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform).
     pub fn vox_mesh_set_transform(
         grid: *mut vox_grid,
         mesh: vox_mesh,
