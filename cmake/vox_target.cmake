@@ -51,7 +51,9 @@ function(vox_library name export_map)
   if(BUILD_SHARED_LIBS)
     target_compile_definitions(${name} PRIVATE VOX_BUILD)
     if(UNIX AND NOT APPLE AND NOT EMSCRIPTEN)
-      target_link_options(${name} PRIVATE LINKER:--version-script=${export_map} LINKER:--no-undefined)
+      # Never unloaded: threads, oneTBB's among them, may still be in it when a host that loaded it by name (Mono, a
+      # plug-in's) gives it back.
+      target_link_options(${name} PRIVATE LINKER:--version-script=${export_map} LINKER:--no-undefined LINKER:-z,nodelete)
       if(VOX_SANITIZE)
         # The sanitizer runtimes are resolved when a program starts, not when the library is linked.
         target_link_options(${name} PRIVATE LINKER:-z,undefs)

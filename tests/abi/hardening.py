@@ -1,6 +1,6 @@
 """usage: hardening.py READELF FILE FLAG...: what the flags, and those of the linker, have done to a library or
 program: read-only relocations, a stack that is not executable, calls of the stack protector and of fortified functions,
-landing pads at functions, and a program that exports nothing."""
+landing pads at functions, a program that exports nothing, and a library that is never unloaded."""
 import re
 import subprocess
 import sys
@@ -37,6 +37,8 @@ def main():
     if "-D_FORTIFY_SOURCE=2" in FLAGS:
         check(any(re.fullmatch(r"__\w+_chk", name) for name in imported),
               "no C function is fortified: none of __*_chk is called")
+    if not is_program:
+        check(re.search(r"FLAGS_1.*\bNODELETE\b", dynamic), "it can be unloaded under its threads: no NODELETE")
     if is_program:
         check(not exported, f"it exports {len(exported)} symbols: {' '.join(sorted(exported)[:5])} ...")
     # endbr64; bti c or paciasp
