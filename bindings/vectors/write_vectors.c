@@ -354,11 +354,14 @@ static void suggest(const scene* s, vox_cost_model model) {
     begin_call("suggest");
     field("model", "%d", (int)model);
     fprintf(script, ", \"meshes\": [");
-    for (uint32_t i = 0; i < s->count; ++i)
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const body* b = &s->bodies[i];
+        const uint64_t positions = store_positions(b, VOX_FORMAT_FLOAT3);
+        const uint64_t tets = store(b->tets, 16 * (size_t)b->tet_count);
         fprintf(script,
                 "%s{\"positions\": %" PRIu64 ", \"vertices\": %u, \"tets\": %" PRIu64 ", \"tet_count\": %u}",
-                i ? ", " : "", store_positions(&s->bodies[i], VOX_FORMAT_FLOAT3), s->bodies[i].vertex_count,
-                store(s->bodies[i].tets, 16 * (size_t)s->bodies[i].tet_count), s->bodies[i].tet_count);
+                i ? ", " : "", positions, b->vertex_count, tets, b->tet_count);
+    }
     fprintf(script, "]");
     expect(vox_suggest_cell_size(&desc, descs, s->count, &suggestion), "suggest");
     field("cell_size", "%.9g", suggestion.cell_size);
