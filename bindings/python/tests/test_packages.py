@@ -1,8 +1,9 @@
 """Meshes to and from other packages, and pictures. Each test is skipped where its package is not installed."""
 
-import importlib
+import importlib.util
 import os
 import unittest
+import warnings
 
 import numpy as np
 
@@ -50,12 +51,12 @@ class Packages(unittest.TestCase):
         grid = voxtet.io.to_pyvista(self.data)
         self.same(voxtet.io.from_pyvista(grid))
         self.assertGreaterEqual(voxtet.locate(self.positions, grid).tet.min(), 0)
-        surface = voxtet.io.from_pyvista(grid.extract_surface(algorithm=None) if "algorithm" in
-                                         pyvista.UnstructuredGrid.extract_surface.__code__.co_varnames
-                                         else grid.extract_surface())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # pyvista's, about a future default
+            surface = voxtet.io.from_pyvista(grid.extract_surface())
         self.assertEqual(len(surface.triangles), len(voxtet.io.boundary(self.tets)))
         self.assertGreater(len(voxtet.io.tetrahedralize(voxtet.io.to_pyvista(surface), 0.3).tets), 0)
-        cells = {pyvista.CellType.TRIANGLE: [[0, 1, 2]], pyvista.CellType.TETRA: self.tets.astype(int)}
+        cells = {pyvista.CellType.TRIANGLE: np.array([[0, 1, 2]]), pyvista.CellType.TETRA: self.tets.astype(int)}
         mixed = pyvista.UnstructuredGrid(cells, self.positions)
         located = voxtet.locate([[0.3, 0.4, 0.5], [5, 5, 5]], mixed)
         self.assertEqual(mixed.celltypes[located.tet[0]], pyvista.CellType.TETRA)

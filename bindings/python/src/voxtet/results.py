@@ -193,6 +193,7 @@ class Exports:
         return bool(self._references)
 
     def add(self, lease: Any) -> None:
+        """Notes one more, without keeping it."""
         if len(self._references) >= self._full:
             self._references = [r for r in self._references if r() is not None]
             self._full = 2 * len(self._references) + 16
