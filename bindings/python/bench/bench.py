@@ -1,0 +1,139 @@
+"""What Python costs over C, and point location beside VTK. Runs that are compared are interleaved, and the least times of many are
+taken, so that a busy machine changes little.
+
+usage: bench.py [calls] [locate] [scenes]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
+"""
+
+import ctypes
+import os
+import sys
+import time
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests"))
+from support import box  # noqa: E402
+
+import voxtet  # noqa: E402
+from voxtet import _library  # noqa: E402
+
+
+def least(functions, calls, rounds):
+    """Least microseconds of a call of each."""
+    best = [float("inf")] * len(functions)
+    clock = time.perf_counter_ns
+    for _ in range(rounds):
+        for i, function in enumerate(functions):
+            began = clock()
+            for _ in range(calls):
+                function()
+            best[i] = min(best[i], (clock() - began) / calls / 1000)
+    return best
+
+
+def c_loop(pointer):
+    """Microseconds of vox_grid_step within the library, without Python: its own measurement."""
+    profile = _library.sized(voxtet._c.vox_profile)
+    _library.vox.vox_grid_profile(pointer, profile)
+    return profile.step_ns / 1000
+
+
+def calls():
+    empty = voxtet.Grid()
+    raw = ctypes.CDLL(_library.vox._name).vox_grid_step
+    raw.argtypes = [ctypes.c_void_p]
+    nothing, ctypes_alone, step = least([lambda: None, lambda: raw(empty._pointer), lambda: empty.step()], 50, 3000)
+    inside = min(c_loop(empty._pointer) for _ in range(300) if not empty.step())
+    print(f"step of an empty grid: {step - nothing:.2f} us from Python, {ctypes_alone - nothing:.2f} by ctypes alone, "
+          f"{inside:.2f} within the library")
+    for cells in (2, 6, 12, 24):
+        positions, tets = box(cells)
+        grid = voxtet.Grid()
+        grid.add(positions, tets)
+        grid.add(positions + np.float32(0.31), tets)
+        grid.step()
+        count = len(grid.contacts)
+        with grid.borrowed() as results:
+            copied, borrowed, nothing = least([lambda: grid.contacts, lambda: results.contacts, lambda: None], 50, 1000)
+        print(f"contacts, {count}: copied {copied - nothing:.2f} us, which is {(copied - borrowed) * 1000 / count:.2f} ns each "
+              f"over borrowed {borrowed - nothing:.2f} us")
+
+
+def scenes():
+    """4096 scenes of two bodies of a thousand tetrahedra each, stepped from Python and in one call of C."""
+    positions, tets = box(6)
+    tets = tets[:1000]
+    grids = []
+    for i in range(4096):
+        grid = voxtet.Grid(penetrations=False)
+        grid.add(positions, tets, borrow_tets=True)
+        grid.add(positions + np.float32(0.5 + i % 7 * 0.01), tets, borrow_tets=True)
+        grids.append(grid)
+    pointers = (ctypes.c_void_p * len(grids))(*[grid._pointer for grid in grids])
+    step = ctypes.CDLL(_library.vox._name).vox_grids_step
+    step.argtypes = [ctypes.c_void_p, ctypes.c_uint64, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_void_p]
+
+    def moved():
+        positions[0, 0] += np.float32(1e-6)
+
+    def from_c():
+        moved()
+        step(pointers, len(grids), None, 1, None)
+
+    def from_python():
+        moved()
+        voxtet.step_all(grids, 1)
+
+    c, python = least([from_c, from_python], 1, 15)
+    print(f"4096 scenes: {c / 1000:.1f} ms in C, {python / 1000:.1f} ms from Python: {100 * (python / c - 1):+.1f} %")
+
+
+def locate():
+    import pyvista
+    import vtk
+    positions, tets = box(20, dtype=np.float64)
+    positions += np.random.default_rng(0).uniform(-.2, .2, positions.shape) / 20
+    grid = pyvista.UnstructuredGrid({10: tets.astype(np.int64)}, positions)
+    points = np.random.default_rng(1).uniform(0, 1, (300, 3))
+    locator = voxtet.Locator(positions, tets)
+    cells = vtk.vtkStaticCellLocator()
+    cells.SetDataSet(grid)
+    cells.BuildLocator()
+    few = points[:100]  # so that a call is shorter than what a busy machine gives in one go
+
+    def by_pyvista():
+        return np.array([grid.find_containing_cell(p) for p in few])
+
+    def by_vtk():
+        return np.array([cells.FindCell(p) for p in few])
+
+    def by_vtk_alone():
+        """The loop in C++: a probe of the points with this locator."""
+        probe = vtk.vtkProbeFilter()
+        probe.SetCellLocator(cells)
+        probe.SetInputData(pyvista.PolyData(points))
+        probe.SetSourceData(grid)
+        probe.Update()
+        return probe
+
+    ours, pv, static, probe = least([lambda: locator.locate(points), by_pyvista, by_vtk, by_vtk_alone], 1, 300)
+    ours, probe, pv, static = ours / len(points), probe / len(points), pv / len(few), static / len(few)
+    print(f"locate, {len(tets)} tets: {ours:.3f} us a point; find_containing_cell in a loop {pv:.1f} ({pv / ours:.0f} times), "
+          f"vtkStaticCellLocator.FindCell in a loop {static:.2f} ({static / ours:.1f} times), vtkProbeFilter with it {probe:.2f} "
+          f"({probe / ours:.1f} times)")
+    whole = least([lambda: voxtet.locate(points, positions, tets)], 1, 20)[0] / len(points)
+    print(f"with the preparation in each call: {whole:.3f} us a point")
+    # Points on facets: a quarter, a quarter, a half of corners that are multiples of 1/8.
+    positions, tets = box(8, dtype=np.float64)
+    facets = tets[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]].reshape(-1, 3)
+    points = np.einsum("fcx,c->fx", positions[facets], np.array([.25, .25, .5]))
+    own = np.repeat(np.arange(len(tets)), 4)
+    found = voxtet.locate(points, positions, tets).tet
+    beside = (np.sort(tets[found][:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]], axis=2) ==
+              np.sort(facets, axis=1)[:, None]).all(axis=2).any(axis=1)
+    print(f"points on facets: {np.count_nonzero((found < 0) | ~beside | (found > own))} of {len(points)} wrong")
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:] or ["calls", "locate", "scenes"]:
+        {"calls": calls, "locate": locate, "scenes": scenes}[name]()
