@@ -1,5 +1,5 @@
 """What Python costs over C, and point location beside VTK. Runs that are compared are interleaved, and the least times of many are
-taken, so that a busy machine changes little.
+taken, so that a busy machine changes little; for point location, of the processor time.
 
 usage: bench.py [calls] [locate] [scenes]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
 """
@@ -18,10 +18,9 @@ import voxtet  # noqa: E402
 from voxtet import _library  # noqa: E402
 
 
-def least(functions, calls, rounds):
+def least(functions, calls, rounds, clock=time.perf_counter_ns):
     """Least microseconds of a call of each."""
     best = [float("inf")] * len(functions)
-    clock = time.perf_counter_ns
     for _ in range(rounds):
         for i, function in enumerate(functions):
             began = clock()
@@ -94,12 +93,12 @@ def locate():
     positions, tets = box(20, dtype=np.float64)
     positions += np.random.default_rng(0).uniform(-.2, .2, positions.shape) / 20
     grid = pyvista.UnstructuredGrid({10: tets.astype(np.int64)}, positions)
-    points = np.random.default_rng(1).uniform(0, 1, (300, 3))
+    points = np.random.default_rng(1).uniform(0, 1, (20000, 3))
     locator = voxtet.Locator(positions, tets)
     cells = vtk.vtkStaticCellLocator()
     cells.SetDataSet(grid)
     cells.BuildLocator()
-    few = points[:100]  # so that a call is shorter than what a busy machine gives in one go
+    few = points[:5000]
 
     def by_pyvista():
         return np.array([grid.find_containing_cell(p) for p in few])
@@ -116,12 +115,13 @@ def locate():
         probe.Update()
         return probe
 
-    ours, pv, static, probe = least([lambda: locator.locate(points), by_pyvista, by_vtk, by_vtk_alone], 1, 300)
+    ours, pv, static, probe = least([lambda: locator.locate(points), by_pyvista, by_vtk, by_vtk_alone], 1, 12,
+                                    time.process_time_ns)
     ours, probe, pv, static = ours / len(points), probe / len(points), pv / len(few), static / len(few)
     print(f"locate, {len(tets)} tets: {ours:.3f} us a point; find_containing_cell in a loop {pv:.1f} ({pv / ours:.0f} times), "
           f"vtkStaticCellLocator.FindCell in a loop {static:.2f} ({static / ours:.1f} times), vtkProbeFilter with it {probe:.2f} "
           f"({probe / ours:.1f} times)")
-    whole = least([lambda: voxtet.locate(points, positions, tets)], 1, 20)[0] / len(points)
+    whole = least([lambda: voxtet.locate(points, positions, tets)], 1, 5, time.process_time_ns)[0] / len(points)
     print(f"with the preparation in each call: {whole:.3f} us a point")
     # Points on facets: a quarter, a quarter, a half of corners that are multiples of 1/8.
     positions, tets = box(8, dtype=np.float64)

@@ -98,7 +98,8 @@ def hits_of(call: Callable[[int, int, Any], Any], records: Any, dtype: np.dtype[
         hits = np.empty(guess, dtype)
         call(hits.ctypes.data, guess, count)
         if count.value <= guess:
-            return hits[:count.value].view(records) if count.value == guess else hits[:count.value].copy().view(records)
+            found = hits[:count.value]
+            return (found if 2 * count.value >= guess else found.copy()).view(records)
         guess = count.value
 
 
