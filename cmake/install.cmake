@@ -18,6 +18,8 @@ if(VOX_BUILD_SIM)
   install(FILES include/vox/vox_sim.h include/vox/vox_sim.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
 endif()
 install(EXPORT voxTargets NAMESPACE vox:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
+# With vox_DIR set to it, find_package takes a build folder too.
+export(EXPORT voxTargets NAMESPACE vox::)
 
 configure_package_config_file(cmake/voxConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)

@@ -1,0 +1,377 @@
+"""The plugin vox.contact in MuJoCo: python test_contact.py, with VOX_MUJOCO (the plugin) and VOX_TOOL (the tool vox, may be
+missing) in the environment; `check` does it. `python test_contact.py measure` prints what the plugin costs."""
+
+import copy
+import ctypes
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import mujoco
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PLUGIN = os.environ["VOX_MUJOCO"]
+TOOL = os.environ.get("VOX_TOOL", "")
+mujoco.mj_loadPluginLibrary(PLUGIN)
+LIBRARY = ctypes.CDLL(PLUGIN)  # its functions, and those of vox
+LIBRARY.vox_mujoco_grid.restype = ctypes.c_void_p
+SIDE = 0.2
+
+
+def flex(name, position, count=4, rest='', dof="full", side=SIDE):
+    return f"""<flexcomp name="{name}" type="grid" dim="3" count="{count} {count} {count}" dof="{dof}" mass="1" radius="0.001"
+        spacing="{side / (count - 1)} {side / (count - 1)} {side / (count - 1)}" pos="{position}" {rest}>
+        <contact contype="0" conaffinity="1" selfcollide="none"/>
+        {'' if 'rigid' in rest else '<elasticity young="5e4" poisson="0.2" damping="0.002"/>'}</flexcomp>"""
+
+
+def model(*bodies, gravity="0 0 -9.81", **config):
+    keys = "".join(f'<config key="{key}" value="{value}"/>' for key, value in config.items())
+    return mujoco.MjModel.from_xml_string(f"""<mujoco>
+        <option timestep="0.002" integrator="discrete" solver="CG" tolerance="1e-6" gravity="{gravity}"/>
+        <extension><plugin plugin="vox.contact"><instance name="contact">{keys}</instance></plugin></extension>
+        <worldbody><geom type="plane" size="2 2 .1"/>{"".join(bodies)}</worldbody>
+        <sensor><plugin name="found" plugin="vox.contact" instance="contact"/></sensor></mujoco>""")
+
+
+def overlapping(**config):
+    """Two bodies without gravity, far from the floor, one a little inside the other."""
+    return model(flex("low", "0 0 1"), flex("high", f".031 .017 {1 + 0.93 * SIDE}"), gravity="0 0 0", **config)
+
+
+class MeshInfo(ctypes.Structure):
+    """vox_mesh_info, up to its positions."""
+
+    _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 52), ("positions", ctypes.c_void_p)]
+
+
+def grid_of(data):
+    return ctypes.c_void_p(LIBRARY.vox_mujoco_grid(ctypes.c_void_p(data._address), 0))
+
+
+def grid_hash(data):
+    value = ctypes.c_uint64()
+    assert LIBRARY.vox_grid_hash(grid_of(data), ctypes.byref(value)) == 0
+    return value.value
+
+
+def vertices(m, d, name):
+    flex_id = mujoco.mj_name2id(m, mujoco.mjtObj.mjOBJ_FLEX, name)
+    first = m.flex_vertadr[flex_id]
+    return slice(first, first + m.flex_vertnum[flex_id])
+
+
+class TwoBodies(unittest.TestCase):
+    def test_they_fall_on_each_other_and_rest(self):
+        m = model(flex("low", f"0 0 {0.51 * SIDE}"), flex("high", f".031 .017 {1.8 * SIDE}"))
+        d = mujoco.MjData(m)
+        low, high = vertices(m, d, "low"), vertices(m, d, "high")
+        mass = m.body_mass[m.dof_bodyid]  # each vertex is a body with three sliders
+
+        def kinetic():
+            return 0.5 * float(mass @ d.qvel**2)
+
+        def height():
+            return float(m.body_mass[m.flex_vertbodyid] @ d.flexvert_xpos[:, 2])
+
+        mujoco.mj_step(m, d)
+        energy = kinetic() + 9.81 * height()
+        greatest = deepest = 0
+        for _ in range(400):
+            mujoco.mj_step(m, d)
+            greatest = max(greatest, kinetic() + 9.81 * height())
+            deepest = max(deepest, d.sensor("found").data[1])
+        self.assertLess(greatest, energy * 1.01)
+        count, depth = d.sensor("found").data
+        self.assertGreater(count, 0)
+        self.assertLess(deepest, 0.1 * SIDE)
+        self.assertLess(depth, 0.02 * SIDE)
+        self.assertLess(kinetic(), 1e-3)
+        gap = d.flexvert_xpos[high, 2].mean() - d.flexvert_xpos[low, 2].mean()
+        self.assertGreater(gap, 0.9 * SIDE)
+        self.assertLess(gap, 1.1 * SIDE)
+
+    def test_without_stiffness_they_fall_through_each_other(self):
+        m = model(flex("low", f"0 0 {0.51 * SIDE}"), flex("high", f".031 .017 {1.8 * SIDE}"), stiffness=0)
+        d = mujoco.MjData(m)
+        for _ in range(150):
+            mujoco.mj_step(m, d)
+        self.assertGreater(d.sensor("found").data[1], 0.2 * SIDE)
+        gap = d.flexvert_xpos[vertices(m, d, "high"), 2].mean() - d.flexvert_xpos[vertices(m, d, "low"), 2].mean()
+        self.assertLess(gap, 0.8 * SIDE)
+
+    def test_forces_keep_momentum_and_separate(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        d.qvel[:] = np.random.default_rng(1).normal(size=m.nv) * 0.01
+        mujoco.mj_forward(m, d)
+        with_plugin = d.qfrc_passive.copy()
+        m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        mujoco.mj_forward(m, d)
+        force = (with_plugin - d.qfrc_passive).reshape(-1, 3)  # dofs are those of the vertices, in their order
+        greatest = abs(force).sum()
+        self.assertGreater(greatest, 0)
+        self.assertLess(abs(force.sum(axis=0)).max(), 1e-12 * greatest)
+        self.assertLess(abs(np.cross(d.flexvert_xpos - d.flexvert_xpos[0], force).sum(axis=0)).max(), 1e-7 * greatest)
+        self.assertGreater(force[vertices(m, d, "high"), 2].sum(), 0)
+
+    def test_friction_is_that_of_the_flexes(self):
+        def pulls(friction):
+            m = overlapping()
+            m.flex_friction[:, 0] = friction
+            d = mujoco.MjData(m)
+            d.qvel.reshape(-1, 3)[vertices(m, d, "high"), 0] = 0.5
+            mujoco.mj_forward(m, d)
+            force = d.qfrc_passive.reshape(-1, 3)[vertices(m, d, "high")].sum(axis=0)
+            return force[0], force[2]
+        none, normal = pulls(0)
+        some, same = pulls(0.5)
+        self.assertAlmostEqual(normal, same, delta=0.2 * normal)
+        self.assertLess(some, none - 0.2 * normal)
+
+    def test_a_rigid_flex_gets_force_and_torque(self):
+        m = model(flex("soft", "0 0 1"), f'<body name="box" pos=".031 .017 {1 + 0.93 * SIDE}"><freejoint/>'
+                  '<geom size=".01" mass="1" contype="0" conaffinity="0"/>' + flex("hard", "0 0 0", rest='rigid="true"') + "</body>", gravity="0 0 0")
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        body = m.body("box")
+        free = m.jnt_dofadr[body.jntadr[0]]
+        soft = d.flexvert_xpos[vertices(m, d, "soft")]
+        sliders = d.qfrc_passive[:free].reshape(-1, 3)
+        force, torque = d.qfrc_passive[free:free + 3], d.xmat[body.id].reshape(3, 3) @ d.qfrc_passive[free + 3:free + 6]
+        self.assertGreater(force[2], 0)
+        self.assertLess(abs(sliders.sum(axis=0) + force).max(), 1e-10 * force[2])
+        angular = np.cross(soft - d.xpos[body.id], sliders).sum(axis=0) + torque
+        self.assertLess(abs(angular).max(), 1e-6 * force[2])
+
+
+class Contacts(unittest.TestCase):
+    def write(self, m, d, flex_id, name):
+        first, count = m.flex_vertadr[flex_id], m.flex_vertnum[flex_id]
+        tets = m.flex_elem[m.flex_elemdataadr[flex_id]:][:4 * m.flex_elemnum[flex_id]].reshape(-1, 4)
+        with open(name + ".node", "w") as out:
+            print(count, 3, 0, 0, file=out)
+            for i, p in enumerate(d.flexvert_xpos[first:first + count].tolist()):
+                print(i, *map(repr, p), file=out)
+        with open(name + ".ele", "w") as out:
+            print(len(tets), 4, 0, file=out)
+            for i, tet in enumerate(tets.tolist()):
+                print(i, *tet, file=out)
+        return name + ".node"
+
+    @unittest.skipUnless(os.path.exists(TOOL), "the tool vox is not built")
+    def test_they_are_those_of_the_command_line(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        for _ in range(3):
+            mujoco.mj_step(m, d)
+        mujoco.mj_forward(m, d)
+        with tempfile.TemporaryDirectory() as folder:
+            files = [self.write(m, d, i, os.path.join(folder, f"flex{i}")) for i in range(2)]
+            found = json.loads(subprocess.run([TOOL, "collide", "--double", "--json", *files], check=True,
+                                              capture_output=True, timeout=120).stdout)
+        self.assertGreater(found["contact_count"], 0)
+        self.assertEqual(f"{grid_hash(d):016x}", found["hash"])
+        count, depth = d.sensor("found").data
+        self.assertEqual(count, len(found["penetrations"]))
+        self.assertAlmostEqual(depth, max(p["depth"] for p in found["penetrations"]), places=6)
+
+    def test_positions_are_borrowed(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        grid, meshes, count = grid_of(d), (ctypes.c_uint32 * 2)(), ctypes.c_uint64()
+        LIBRARY.vox_grid_meshes(grid, meshes, ctypes.c_uint64(2), ctypes.byref(count))
+        self.assertEqual(count.value, 2)
+        for mesh, name in zip(meshes, ("low", "high")):
+            info = MeshInfo(struct_size=ctypes.sizeof(MeshInfo))
+            LIBRARY.vox_mesh_get_info(grid, mesh, ctypes.byref(info))
+            self.assertEqual(info.positions, d.flexvert_xpos[vertices(m, d, name)].ctypes.data)
+
+    def test_self_contact_is_found_where_it_is_asked_for(self):
+        for wanted in ("false", "true"):
+            m = model(flex("one", "0 0 1"), gravity="0 0 0", self=wanted, rings=1)
+            d = mujoco.MjData(m)
+            mujoco.mj_forward(m, d)
+            positions = d.flexvert_xpos
+            top, bottom = positions[:, 2] > 1.099, positions[:, 2] < 0.901
+            self.assertTrue(top.any() and bottom.any())
+            positions[top, 2] -= 0.19 - 0.02 * positions[top, 0]  # fold the top into what is below
+            mujoco.mj_passive(m, d)
+            self.assertEqual(grid_hash(d) != self.empty(), wanted == "true")
+
+    def empty(self):
+        m = model(flex("one", "0 0 1"), gravity="0 0 0")
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        return grid_hash(d)
+
+
+class Mistakes(unittest.TestCase):
+    def fails(test, pattern, *bodies, **config):  # `self` is a setting
+        with test.assertRaisesRegex(ValueError, "vox.contact: " + pattern):  # MuJoCo makes an mjData to compile a model
+            model(*(bodies or (flex("low", "0 0 1"),)), **config)
+
+    def test_of_numbers(self):
+        self.fails(r'stiffness = "soft" is not a number', stiffness="soft")
+        self.fails(r'stiffness = "1 2" is not a number', stiffness="1 2")
+        self.fails(r'timeconst = "nan" is not a number', timeconst="nan")
+        self.fails(r"timeconst = -1 is not a number in \[0, inf\]", timeconst="-1")
+        self.fails(r"damping = -0.5 is not a number in \[0, inf\]", damping="-0.5")
+        self.fails(r"self = 2 is not a whole number in \[0, 1\]", self="2")
+        self.fails(r"rings = 9 is not a whole number in \[0, 8\]", rings="9")
+        self.fails(r"rings = 1.5 is not a whole number in \[0, 8\]", rings="1.5")
+        self.fails(r"workers = 1e\+09 is not a whole number in \[0, 256\]", workers="1e9")
+        self.fails(r'self = "' + "x" * 100 + '" is not a number', self="x" * 5000)
+
+    def test_of_names(self):
+        self.fails(r'flexes names "nobody", but no flex of the model', flexes="low nobody")
+        with self.assertRaisesRegex(ValueError, "stifness"):
+            model(flex("low", "0 0 1"), stifness="1")
+
+    def test_of_models(self):
+        cloth = '<flexcomp name="cloth" type="grid" dim="2" count="3 3 1" spacing=".1 .1 .1" pos="0 0 1" mass="1"/>'
+        self.fails(r"the model has 1 flexes, but none of tetrahedra", cloth)
+        self.fails(r'flex "cloth" has dim 2', flex("low", "0 0 1"), cloth, flexes="cloth")
+        self.fails(r'the vertices of flex 0 "low" are interpolated', flex("low", "0 0 1", dof="trilinear"))
+        d = mujoco.MjData(model(flex("low", "0 0 1"), cloth))  # the cloth takes no part
+        self.assertEqual(d.sensor("found").data.tolist(), [0, 0])
+
+    def test_a_bad_position_is_reported_once_and_forgotten(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        mujoco.mj_forward(m, d)
+        count = d.sensor("found").data[0]
+        warnings = []
+        mujoco.set_mju_user_warning(warnings.append)
+        try:
+            for _ in range(3):
+                d.flexvert_xpos[7, 1] = np.nan
+                mujoco.mj_passive(m, d)
+            mujoco.mj_forward(m, d)
+        finally:
+            mujoco.set_mju_user_warning(None)
+        self.assertEqual(len(warnings), 1, warnings)
+        self.assertRegex(warnings[0], "vox.contact: no forces: .*vertex 7")
+        self.assertEqual(d.sensor("found").data[0], count)
+
+    def test_a_grid_of_nothing(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        self.assertIsNone(LIBRARY.vox_mujoco_grid(None, 0))
+        for instance in (-1, 1, 1 << 30):
+            self.assertIsNone(LIBRARY.vox_mujoco_grid(ctypes.c_void_p(d._address), instance))
+
+
+class SeveralData(unittest.TestCase):
+    @staticmethod
+    def run_to(m, start, steps, out, place):
+        d = mujoco.MjData(m)
+        d.qvel[:] = start
+        for _ in range(steps):
+            mujoco.mj_step(m, d)
+        out[place] = (d.qpos.copy(), grid_hash(d), d.sensor("found").data.copy())
+
+    def test_of_one_model_in_threads(self):
+        m = overlapping()
+        starts = [0.02 * i for i in range(4)]
+        alone, together = [None] * 4, [None] * 4
+        for i, start in enumerate(starts):
+            self.run_to(m, start, 20, alone, i)
+        threads = [threading.Thread(target=self.run_to, args=(m, start, 20, together, i)) for i, start in enumerate(starts)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for a, b in zip(alone, together):
+            np.testing.assert_array_equal(a[0], b[0])
+            self.assertEqual(a[1], b[1])
+            np.testing.assert_array_equal(a[2], b[2])
+
+    def test_a_copy_goes_on_alike_and_a_reset_begins_anew(self):
+        m = overlapping(workers=2)
+        d = mujoco.MjData(m)
+        for _ in range(5):
+            mujoco.mj_step(m, d)
+        twin = copy.copy(d)
+        for _ in range(5):
+            mujoco.mj_step(m, d)
+            mujoco.mj_step(m, twin)
+        np.testing.assert_array_equal(d.qpos, twin.qpos)
+        self.assertEqual(grid_hash(d), grid_hash(twin))
+        mujoco.mj_resetData(m, twin)
+        again = mujoco.MjData(m)
+        for _ in range(10):
+            mujoco.mj_step(m, twin)
+            mujoco.mj_step(m, again)
+        np.testing.assert_array_equal(twin.qpos, again.qpos)
+
+    def test_a_model_may_go_before_its_data(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        mujoco.mj_step(m, d)
+        twin = copy.deepcopy(m)
+        del m
+        mujoco.mj_step(twin, d)
+        self.assertGreater(d.sensor("found").data[0], 0)
+
+
+class Readme(unittest.TestCase):
+    def test_its_program_runs_and_rests(self):
+        with open(os.path.join(HERE, "README.md"), encoding="utf-8") as file:
+            text = file.read()
+        xml, = re.findall(r"```xml\n(.*?)```", text, re.S)
+        program, = re.findall(r"```python\n(.*?)```", text, re.S)
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "two_bodies.xml"), "w", encoding="utf-8") as out:
+                out.write(xml)
+            printed = subprocess.run([sys.executable, "-c", program.replace("libvox_mujoco.so", PLUGIN)], cwd=folder,
+                                     check=True, capture_output=True, text=True, timeout=500).stdout
+        count, depth = map(float, printed.split())
+        self.assertGreater(count, 0)
+        self.assertLess(depth, 0.002)
+
+
+def measure():
+    """Processor time of a step of two bodies of 20,250 tets, and of the plugin in it: the difference that it makes to
+    mj_passive, at positions that change. Least of several."""
+    m = model(flex("low", f"0 0 {0.51 * SIDE}", 16), flex("high", f".031 .017 {1.49 * SIDE}", 16))
+    d = mujoco.MjData(m)
+    mujoco.mj_forward(m, d)
+    print("tets", m.flex_elemnum.tolist(), "dofs", m.nv, flush=True)
+
+    def least(repeats, function, between=lambda: None):
+        times = []
+        for _ in range(repeats):
+            between()
+            began = time.thread_time()
+            function()
+            times.append(time.thread_time() - began)
+        return 1e3 * min(times)
+
+    step = least(5, lambda: mujoco.mj_step(m, d))
+    print("penetrations", d.sensor("found").data[0], "deepest", d.sensor("found").data[1], f"mj_step {step:.2f} ms", flush=True)
+    rng = np.random.default_rng(0)
+
+    def move():
+        d.flexvert_xpos[:] += rng.normal(size=d.flexvert_xpos.shape) * 1e-7
+
+    with_plugin = least(20, lambda: mujoco.mj_passive(m, d), move)
+    m.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    without = least(20, lambda: mujoco.mj_passive(m, d), move)
+    plugin = with_plugin - without
+    print(f"mj_step {step:.2f} ms, plugin {plugin:.3f} ms: {100 * plugin / step:.2f} % of it")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["measure"]:
+        measure()
+    else:
+        unittest.main()

@@ -1,0 +1,25 @@
+/* vox in MuJoCo: the plugin vox.contact (README.md), for C programs that want to read more than its forces
+ * and sensors give. Nothing here is needed to use the plugin. */
+#ifndef VOX_MUJOCO_H
+#define VOX_MUJOCO_H
+
+#include <mujoco/mujoco.h>
+#include <vox/vox.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The grid of plugin instance `instance` in `d`, whose last step saw d->flexvert_xpos as they were when
+ * passive forces were computed last: for its contacts, pairs, events and penetrations. Mesh by mesh it has
+ * the flexes that take part, in the order of the model; vox_mesh_user_data is the id of the flex. It belongs
+ * to the plugin and lives as long as `d`; whoever uses it has to be the thread that may use `d`. Null if
+ * there is no such instance of vox.contact. It has no meshes before passive forces were computed for the
+ * first time. */
+VOX_EXPORT const vox_grid* vox_mujoco_grid(const mjData* d, int instance);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
