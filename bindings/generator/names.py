@@ -15,6 +15,11 @@ def pascal(name):
     return "".join(w.capitalize() for w in words(name))
 
 
+def camel(name):
+    first, *others = name.split("_")
+    return first + "".join(w.capitalize() for w in others)
+
+
 def short_values(enum):
     """(name without the words that it shares with all others and with the enum, number, comment): VOX_LOG_INFO of
     vox_log_level gives INFO."""

@@ -92,7 +92,7 @@ static class Program
 
 def javascript(node):
     script = """import { structs, functions } from "./layout.mjs";
-const sizes = { u8: 1, i32: 4, u32: 4, i64: 8, u64: 8, count: 8, f32: 4, f64: 8, pointer: 4 };
+const sizes = { u8: 1, char: 1, i32: 4, u32: 4, i64: 8, u64: 8, count: 8, f32: 4, f64: 8, pointer: 4 };
 const size = type => sizes[type] ?? structs[type].size;
 for (const [name, { size: whole, fields }] of Object.entries(structs)) {
   let end = 0;
@@ -102,7 +102,7 @@ for (const [name, { size: whole, fields }] of Object.entries(structs)) {
   }
   if (whole < end || whole >= end + 8) throw new Error(`${name} has ${whole} bytes, its fields end at ${end}`);
 }
-for (const [name, [, , parameters]] of Object.entries(functions))
+for (const [name, [, parameters]] of Object.entries(functions))
   for (const type of parameters) if (!(type in sizes)) throw new Error(`${name}: ${type}`);
 """
     with tempfile.TemporaryDirectory() as folder:

@@ -1,18 +1,31 @@
-"""JavaScript: layouts of wasm32, enums as objects, the functions to export; their types for TypeScript."""
+"""JavaScript: layouts of wasm32, enums as objects, the functions to export; types of enums and structs for TypeScript."""
 
-from names import GENERATED, pascal, sections, short_values, wrapped
+from names import GENERATED, camel, pascal, short_values, whole_structs, wrapped
+from names import sections as all_sections
 
-NUMBERS = {"uint8_t": "u8", "char": "u8", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
+LIBRARIES = ("vox",)  # what the WebAssembly module holds
+NUMBERS = {"uint8_t": "u8", "char": "char", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
            "float": "f32", "double": "f64", "size_t": "u32"}
+
+
+COLUMNS = {"u8": "Uint8Array", "i32": "Int32Array", "u32": "Uint32Array", "f32": "Float32Array", "f64": "Float64Array",
+           "count": "Float64Array", "u64": "BigUint64Array"}
+
+
+def sections(api, kind):
+    return all_sections({"headers": [part for part in api["headers"] if part["name"] in LIBRARIES]}, kind)
 
 
 class JavaScript:
     def __init__(self, api):
         self.api = api
         self.aliases = {a["name"]: a["base"] for a in sections(api, "aliases")}
+        self.callbacks = {s["name"] for s in sections(api, "structs")
+                          if all(f["kind"] == "function" or "pointers" in f for f in s["fields"])}
 
     def type(self, t):
-        """u8, i32, u32, f32, f64, pointer, count (a u64 that a number can hold), u64 (a bigint), or the name of a struct."""
+        """u8, i32, u32, f32, f64, pointer, char, count (a u64 that a number can hold), u64 (a bigint), or the name of a
+        struct."""
         if t["kind"] == "function" or "pointers" in t:
             return "pointer"
         if t["kind"] == "enum":
@@ -25,13 +38,17 @@ class JavaScript:
     def parameter(self, p):
         return "pointer" if "array" in p else self.type(p)
 
-    def layout(self):
+    def enums(self):
         lines = [f"// {GENERATED}", ""]
         lines += [f"export const {c['name'][4:]} = {c['value']};" for c in sections(self.api, "constants")]
         for e in sections(self.api, "enums"):
             lines += ["", f"export const {pascal(e['name'])} = Object.freeze({{"]
             lines += [f"  {name}: {value}," for name, value, _ in short_values(e)] + ["});"]
-        lines += ["", "// Of each struct: size, and [offset, type, elements] of each field.", "export const structs = {"]
+        return "\n".join(lines) + "\n"
+
+    def layout(self):
+        lines = [f"// {GENERATED}", "", "// Of each struct: size, and [offset, type, elements] of each field.",
+                 "export const structs = {"]
         for s in sections(self.api, "structs"):
             lines.append(f"  {s['name']}: {{ size: {s['size']['wasm32']}, fields: {{")
             for f in s["fields"]:
@@ -40,13 +57,14 @@ class JavaScript:
                     count *= n
                 lines.append(f"    {f['name']}: [{f['offset']['wasm32']}, \"{self.type(f)}\", {count}],")
             lines.append("  } },")
-        lines += ["};", "", "// Of each function: its library, the type of its result, those of its parameters.",
+        lines += ["};", "", "// Of each function: the type of its result, those of its parameters.",
                   "export const functions = {"]
-        for part in self.api["headers"]:
-            for f in part["functions"]:
-                result = "void" if f["result"]["kind"] == "void" else self.type(f["result"])
-                parameters = ", ".join(f'"{self.parameter(p)}"' for p in f["parameters"])
-                lines.append(f"  {f['name']}: [\"{part['name']}\", \"{result}\", [{parameters}]],")
+        for f in sections(self.api, "functions"):
+            result = "void" if f["result"]["kind"] == "void" else self.type(f["result"])
+            if f["result"]["base"] == "vox_result":
+                result = "result"
+            parameters = ", ".join(f'"{self.parameter(p)}"' for p in f["parameters"])
+            lines.append(f"  {f['name']}: [\"{result}\", [{parameters}]],")
         lines += ["};", ""]
         return "\n".join(lines)
 
@@ -58,7 +76,7 @@ class JavaScript:
             return [f"{indent}/** {doc} */"]
         return [indent + "/**", *wrapped(doc, indent + " * "), indent + " */"]
 
-    def types(self):
+    def enum_types(self):
         lines = [f"// {GENERATED}", ""]
         for e in sections(self.api, "enums"):
             name = pascal(e["name"])
@@ -71,6 +89,50 @@ class JavaScript:
             lines += [*self.comment(c["doc"]), f"export declare const {c['name'][4:]}: {c['value']};"]
         return "\n".join(lines) + "\n"
 
+    def shown(self, struct):
+        """The fields that a program sees."""
+        return [f for f in struct["fields"] if self.type(f) != "pointer" and not f["name"].endswith("_stride")
+                and f["name"] not in ("struct_size", "reserved") and f["base"] not in self.callbacks]
+
+    def value(self, field):
+        """Type of a field in TypeScript."""
+        kind = self.type(field)
+        if kind == "char":
+            return "string"
+        if kind == "u64":
+            one = "bigint"
+        elif field["kind"] == "enum":
+            one = pascal(field["base"])
+        else:
+            one = pascal(field["base"]) if kind.startswith("vox_") else "number"
+        if "array" not in field:
+            return one
+        count = field["array"][0]
+        return f"{one}[]" if count > 4 or kind.startswith("vox_") else f"[{', '.join([one] * count)}]"
+
+    def struct_types(self):
+        """An interface for each struct, and for those that come in numbers one of their columns. Not for views, and not
+        for descriptions of arrays: these look otherwise in JavaScript."""
+        whole = whole_structs(self.api)
+        used = sorted({pascal(f["base"]) for s in sections(self.api, "structs") for f in self.shown(s)
+                       if f["kind"] == "enum"})
+        lines = [f"// {GENERATED}", "", *wrapped(f"import type {{ {', '.join(used)} }} from \"./enums.js\";", "")]
+        for s in sections(self.api, "structs"):
+            arrays = any("length" in f and f["direction"] != "out" for f in s["fields"])
+            if s["name"].endswith("_view") or s["name"] in self.callbacks or arrays:
+                continue
+            lines += ["", *self.comment(s["doc"]), f"export interface {pascal(s['name'])} {{"]
+            for f in self.shown(s):
+                lines += [*self.comment(f.get("doc"), "  "), f"  {camel(f['name'])}: {self.value(f)};"]
+            lines.append("}")
+            kinds = [self.type(f) for f in s["fields"]]
+            if s["grows"] or s["name"] not in whole or any(kind not in COLUMNS for kind in kinds):
+                continue
+            lines += ["", f"/** Columns of {pascal(s['name'])}: of an array field, its elements one after the other. */",
+                      f"export interface {pascal(s['name'])}Columns {{"]
+            lines += [f"  readonly {camel(f['name'])}: {COLUMNS[self.type(f)]};" for f in self.shown(s)] + ["}"]
+        return "\n".join(lines) + "\n"
+
     def exports(self):
         """For the linker: what the WebAssembly module exports."""
         return "".join(f["name"] + "\n" for f in sections(self.api, "functions"))
@@ -78,4 +140,5 @@ class JavaScript:
 
 def generate(api):
     js = JavaScript(api)
-    return {"js/layout.js": js.layout(), "js/enums.d.ts": js.types(), "js/exports.txt": js.exports()}
+    return {"js/layout.js": js.layout(), "js/enums.js": js.enums(), "js/enums.d.ts": js.enum_types(),
+            "js/structs.d.ts": js.struct_types(), "js/exports.txt": js.exports()}

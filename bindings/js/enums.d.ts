@@ -207,66 +207,6 @@ export declare const AreaReading: Readonly<{
 }>;
 export type AreaReading = (typeof AreaReading)[keyof typeof AreaReading];
 
-export declare const IoFormat: Readonly<{
-  /** determined from the content or, failing that, from the name's extension */
-  AUTO: 0;
-  /** .msh 1, 2.2, 4.0, 4.1; ASCII and binary */
-  GMSH: 1;
-  /** .node with .ele */
-  TETGEN: 2;
-  /** .mesh, ASCII */
-  MEDIT: 3;
-  /** .veg */
-  VEGA: 4;
-  /** legacy .vtk, 2.0 to 5.1; ASCII and binary */
-  VTK: 5;
-  /**
-   * XML .vtu: ASCII, base64, appended; raw or zlib. Reading it is UNSUPPORTED in a library that is built without
-   * pugixml and zlib (docs/files.md).
-   */
-  VTU: 6;
-  /** .stl, .obj, .ply, .off, .gltf, .glb; triangles, no tets */
-  SURFACE: 7;
-  /**
-   * Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it busy
-   * without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
-   * default (docs/files.md), answers UNSUPPORTED.
-   */
-  ASSIMP: 8;
-}>;
-export type IoFormat = (typeof IoFormat)[keyof typeof IoFormat];
-
-export declare const IoSolidKind: Readonly<{
-  /** Isosurface stuffing: the boundary follows the surface, and dihedral angles are between 10.7 and 164.8 degrees. */
-  STUFFED: 0;
-  /**
-   * Every lattice cube that the surface touches or encloses, uncut and split into five tets, so that the surface is
-   * inside. For rough or open surfaces that are to be carried along by the tets around them.
-   */
-  CUBES: 1;
-}>;
-export type IoSolidKind = (typeof IoSolidKind)[keyof typeof IoSolidKind];
-
-export declare const IoWriteFormat: Readonly<{
-  /** determined by the name's extension: .msh is MSH_41, .vtu is VTU */
-  AUTO: 0;
-  /** Gmsh .msh 2.2 */
-  MSH_22: 1;
-  /** Gmsh .msh 4.1 */
-  MSH_41: 2;
-  /** VTK XML, for ParaView */
-  VTU: 3;
-}>;
-export type IoWriteFormat = (typeof IoWriteFormat)[keyof typeof IoWriteFormat];
-
-export declare const SimBodyFlags: Readonly<{
-  /** collides with itself too */
-  SELF_COLLISION: 1;
-  /** never moves; others collide with it */
-  FIXED: 2;
-}>;
-export type SimBodyFlags = number;
-
 /**
  * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
  * part of the shared libraries' names (docs/abi.md).
@@ -300,7 +240,3 @@ export declare const COST_CURVE_CAPACITY: 64;
 export declare const COST_TERM_CAPACITY: 12;
 /** most entries of vox_suggestion.levels */
 export declare const CELL_SIZE_LEVEL_CAPACITY: 4;
-/** for vox_io_load_desc.mesh_index: joins all meshes of the scene */
-export declare const IO_ALL_MESHES: 4294967295;
-/** most coefficients of a fit */
-export declare const FIT_CAPACITY: 9;

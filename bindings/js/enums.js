@@ -1,0 +1,117 @@
+// Written by bindings/generate.py from bindings/api.json. Do not edit.
+
+export const ABI_VERSION = 1;
+export const MAX_TASKS = 64;
+export const MAX_WORKERS = 256;
+export const MAX_MESHES = 1048576;
+export const MAX_GENERATIONS = 4095;
+export const MAX_VERTICES = 2147483647;
+export const MAX_TETS = 2147483647;
+export const NULL_MESH = 0;
+export const MAX_RINGS = 8;
+export const NO_VERTEX = 4294967295;
+export const MAX_CONTACTS = 4294967295;
+export const NO_PAIR = 4294967295;
+export const COST_CURVE_CAPACITY = 64;
+export const COST_TERM_CAPACITY = 12;
+export const CELL_SIZE_LEVEL_CAPACITY = 4;
+
+export const Result = Object.freeze({
+  OK: 0,
+  ERROR_INVALID_ARGUMENT: -1,
+  ERROR_INVALID_HANDLE: -2,
+  ERROR_INVALID_MESH: -3,
+  ERROR_INVALID_STATE: -4,
+  ERROR_NON_FINITE: -5,
+  ERROR_LIMIT: -6,
+  ERROR_BUDGET: -7,
+  ERROR_OUT_OF_MEMORY: -8,
+  ERROR_UNSUPPORTED: -9,
+  ERROR_FILE: -10,
+  ERROR_FORMAT: -11,
+  ERROR_INTERNAL: -12,
+});
+
+export const LogLevel = Object.freeze({
+  INFO: 0,
+  WARNING: 1,
+});
+
+export const Storage = Object.freeze({
+  AUTO: 0,
+  HASHED: 1,
+  DENSE: 2,
+});
+
+export const Hash = Object.freeze({
+  MIXED: 0,
+  PAPER: 1,
+});
+
+export const Engine = Object.freeze({
+  AUTO: 0,
+  REFERENCE: 1,
+  FAST: 2,
+});
+
+export const GridFlags = Object.freeze({
+  PENETRATIONS: 1,
+  CONTACT_EVENTS: 2,
+  SKIP_BAD_MESHES: 4,
+});
+
+export const Format = Object.freeze({
+  FLOAT3: 0,
+  DOUBLE3: 1,
+});
+
+export const MeshFlags = Object.freeze({
+  SELF_COLLISION: 1,
+  COPY_POSITIONS: 2,
+  BORROW_TETS: 4,
+});
+
+export const PenetrationState = Object.freeze({
+  SURFACE: 0,
+  PROPAGATED: 1,
+  ENCLOSED: 2,
+  CROSSING: 3,
+  COINCIDENT: 4,
+  UNKNOWN: 5,
+});
+
+export const Touch = Object.freeze({
+  BEGAN: 1,
+  PERSISTED: 2,
+  ENDED: 3,
+});
+
+export const ReadingFlags = Object.freeze({
+  POSITION: 1,
+  SURFACE: 2,
+  DEPTH: 4,
+});
+
+export const Side = Object.freeze({
+  NONE: 0,
+  ENTERS: 1,
+  LEAVES: 2,
+});
+
+export const CostModel = Object.freeze({
+  PAPER: 0,
+  REFERENCE: 1,
+  FAST: 2,
+});
+
+export const SizeReading = Object.freeze({
+  MEAN_EDGE: 0,
+  MEAN_LONGEST_EDGE: 1,
+  MEAN_BOX_SIDE: 2,
+});
+
+export const AreaReading = Object.freeze({
+  UNIQUE_FACETS: 0,
+  TET_FACETS: 1,
+  BOUNDARY_FACETS: 2,
+});

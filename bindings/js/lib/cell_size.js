@@ -1,0 +1,105 @@
+import { MeshFlags } from "../enums.js";
+import { structs } from "../layout.js";
+import { callback, camel, fields, float, options } from "./check.js";
+import { meshArrays, meshFields } from "./mesh_arrays.js";
+
+const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
+  "resolution", "byteBudget", "storage"];
+const BOUNDS = ["min", "max", "zoneLoss"];
+const WEIGHTS = Object.keys(structs.vox_cost_weights.fields);
+
+export function suggestFields(settings) {
+  return fields(settings, "options", "vox_suggest_desc", SUGGEST);
+}
+
+/** Arrays that C fills in part, cut to what there is. */
+export function suggestion({ curveCount, termCount, levelCount, ...found }) {
+  const { curve, terms, levels } = found;
+  if (curve) found.curve = curve.slice(0, curveCount);
+  if (terms) found.terms = terms.slice(0, termCount);
+  if (levels) found.levels = levels.slice(0, levelCount);
+  return found;
+}
+
+/** Runs `use` with options and meshes as C wants them. */
+function withMeshes(memory, meshes, settings, use) {
+  if (!Array.isArray(meshes)) throw new TypeError("meshes: expected an array of { positions, tets }");
+  const given = suggestFields(settings);
+  const all = meshes.map((mesh, i) => {
+    const { selfCollision = false, ...arrays } = options(mesh, `meshes[${i}]`, ["positions", "tets", "selfCollision"]);
+    if (typeof selfCollision !== "boolean") throw new TypeError(`meshes[${i}].selfCollision: expected true or false`);
+    return [meshArrays(arrays, memory), selfCollision ? MeshFlags.SELF_COLLISION : 0];
+  });
+  return memory.frame((frame) => {
+    const { size } = structs.vox_mesh_desc;
+    const list = frame.take(all.length * size);
+    all.forEach(([arrays, flags], i) => memory.fill(list + i * size, "vox_mesh_desc", meshFields(frame, arrays, { flags })));
+    return use(frame.struct("vox_suggest_desc", given), list, all.length);
+  });
+}
+
+/** The functions of a module about cell sizes. */
+export function cellSizes(memory) {
+  const { call } = memory;
+  const minimum = (bounds, ask) => {
+    const given = fields(bounds, "bounds", "vox_cost_bounds", BOUNDS);
+    return memory.frame((frame) => {
+      const out = frame.struct("vox_cost_minimum");
+      ask(frame, frame.struct("vox_cost_bounds", given), out);
+      return suggestion(memory.read("vox_cost_minimum", out));
+    });
+  };
+  return {
+    suggestCellSize: (meshes, settings) =>
+      withMeshes(memory, meshes, settings, (desc, list, count) =>
+        suggestion(memory.get("vox_suggestion", (out) => call.vox_suggest_cell_size(desc, list, count, out))),
+      ),
+
+    predictCost(meshes, cellSize, settings) {
+      const size = float(cellSize, "cellSize");
+      return withMeshes(memory, meshes, settings, (desc, list, count) =>
+        suggestion(memory.get("vox_cost_prediction", (out) => call.vox_cost_predict(desc, list, count, size, out))),
+      );
+    },
+
+    calibrate: () => memory.get("vox_cost_weights", (out) => call.vox_cost_calibrate(out)),
+
+    get costWeights() {
+      return memory.get("vox_cost_weights", (out) => call.vox_cost_get_weights(out));
+    },
+
+    set costWeights(weights) {
+      const given = weights === null ? null : fields(weights, "costWeights", "vox_cost_weights", WEIGHTS.map(camel));
+      memory.frame((frame) => {
+        if (!given) return call.vox_cost_set_weights(0);
+        const all = { ...memory.get("vox_cost_weights", (out) => call.vox_cost_get_weights(out)), ...given };
+        return call.vox_cost_set_weights(frame.struct("vox_cost_weights", all));
+      });
+    },
+
+    minimiseCost(cost, bounds) {
+      const id = memory.addCallback(() => callback(cost, "cost"));
+      try {
+        return minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out));
+      } finally {
+        memory.removeCallback(id);
+      }
+    },
+
+    minimiseCostTerms(terms, bounds) {
+      if (!Array.isArray(terms)) throw new TypeError("terms: expected an array of { coefficient, power }");
+      const numbers = terms.flatMap((term, i) => {
+        const { coefficient, power } = options(term, `terms[${i}]`, ["coefficient", "power"]);
+        return [float(coefficient, `terms[${i}].coefficient`), float(power, `terms[${i}].power`)];
+      });
+      return minimum(bounds, (frame, desc, out) =>
+        call.vox_cost_minimise_terms(frame.numbers(numbers), numbers.length / 2, desc, out),
+      );
+    },
+
+    zoneDistance(n, nMin, nOpt, nMax) {
+      const given = Object.entries({ n, nMin, nOpt, nMax }).map(([name, value]) => float(value, name));
+      return memory.number("f64", (out) => call.vox_zone_distance(...given, out));
+    },
+  };
+}

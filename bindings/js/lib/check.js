@@ -1,0 +1,135 @@
+// What a program gives, as plain numbers and arrays. WebAssembly itself takes anything and makes a number of it.
+import { structs } from "../layout.js";
+
+const ranges = { u8: [0, 255], i32: [-(2 ** 31), 2 ** 31 - 1], u32: [0, 2 ** 32 - 1], count: [0, Number.MAX_SAFE_INTEGER] };
+
+export function shown(value) {
+  if (typeof value === "string") return JSON.stringify(value.slice(0, 40));
+  if (typeof value === "bigint") return `${value}n`;
+  if (typeof value === "symbol" || typeof value === "function") return `a ${typeof value}`;
+  if (typeof value !== "object" || value === null) return String(value);
+  return `${Object.prototype.toString.call(value).slice(8, -1)}`;
+}
+
+function wrong(what, expected, value) {
+  return new TypeError(`${what}: expected ${expected}, got ${shown(value)}`);
+}
+
+export function camel(name) {
+  return name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+}
+
+export function float(value, what) {
+  if (typeof value !== "number") throw wrong(what, "a number", value);
+  return value;
+}
+
+export function integer(value, what, type) {
+  if (typeof value !== "number") throw wrong(what, "a whole number", value);
+  const [least, most] = ranges[type];
+  if (!Number.isInteger(value) || value < least || value > most)
+    throw new RangeError(`${what}: expected a whole number from ${least} to ${most}, got ${value}`);
+  return value;
+}
+
+/** true and false, or a number for the library to judge. */
+export function flag(value, what) {
+  return typeof value === "boolean" ? Number(value) : integer(value, what, "u32");
+}
+
+/** 64 bits: a bigint, or a number that is exact. */
+export function bits(value, what) {
+  if (typeof value === "number") return BigInt(integer(value, what, "count"));
+  if (typeof value !== "bigint") throw wrong(what, "a bigint", value);
+  if (value < 0n || value >= 1n << 64n) throw new RangeError(`${what}: expected 0n to 2n ** 64n - 1n, got ${value}n`);
+  return value;
+}
+
+/** `count` numbers. */
+export function floats(value, what, count) {
+  if (typeof value !== "object" || value === null) throw wrong(what, `an array of ${count} numbers`, value);
+  const numbers = Array.from(value, (number, i) => float(number, `${what}[${i}]`));
+  if (numbers.length !== count) throw new RangeError(`${what}: expected ${count} numbers, got ${numbers.length}`);
+  return numbers;
+}
+
+function typedArray(value) {
+  return ArrayBuffer.isView(value) ? Object.prototype.toString.call(value).slice(8, -1) : "";
+}
+
+/** An array that is not part of the module's memory, which may move while arguments are copied into it. */
+function apart(array, memory) {
+  return array.buffer === memory.buffer ? array.slice() : array;
+}
+
+function whole(array, what, width) {
+  if (array.length % width !== 0)
+    throw new RangeError(`${what}: ${array.length} numbers, which is not a multiple of ${width}`);
+  return array;
+}
+
+/** x y z, x y z, ... of singles or doubles. */
+export function positions(value, what, memory) {
+  if (!["Float32Array", "Float64Array"].includes(typedArray(value)))
+    throw wrong(what, "a Float32Array or Float64Array", value);
+  return whole(apart(value, memory), what, 3);
+}
+
+/** Groups of `width` indices: a Uint32Array as it is; numbers of other arrays are looked at one by one. */
+export function indices(value, what, width, memory) {
+  if (typedArray(value) === "Uint32Array") return whole(apart(value, memory), what, width);
+  if (!Array.isArray(value) && !/^(Ui|I)nt(8|16|32)Array$/.test(typedArray(value)))
+    throw wrong(what, "a Uint32Array", value);
+  return whole(Uint32Array.from(value, (number, i) => integer(number, `${what}[${i}]`, "u32")), what, width);
+}
+
+/** Bytes of an ArrayBuffer or of any view of one. */
+export function bytes(value, what, memory) {
+  if (Object.prototype.toString.call(value) === "[object ArrayBuffer]") return new Uint8Array(value);
+  if (!ArrayBuffer.isView(value)) throw wrong(what, "an ArrayBuffer or a view of one", value);
+  return apart(new Uint8Array(value.buffer, value.byteOffset, value.byteLength), memory);
+}
+
+export function callback(value, what) {
+  if (typeof value !== "function") throw wrong(what, "a function", value);
+  return value;
+}
+
+/** The id of a mesh, given as such or as a Mesh; null is none. */
+export function meshId(value, what) {
+  if (value === null) return 0;
+  return integer(typeof value === "object" ? value.id : value, what, "u32");
+}
+
+/** An object whose keys are all among `known`, so that a misspelt option is not lost. No object: no options. */
+export function options(value, what, known) {
+  if (value === undefined) return {};
+  if (typeof value !== "object" || value === null) throw wrong(what, "an object", value);
+  const found = {};
+  for (const key of Object.keys(value)) {
+    if (!known.includes(key)) throw new TypeError(`${what}: "${key}" is not known; there are ${known.join(", ")}`);
+    const given = value[key];
+    if (given !== undefined) found[key] = given;
+  }
+  return found;
+}
+
+function field(value, what, type, count) {
+  if (count > 1) return floats(value, what, count);
+  if (type === "f64") return float(value, what);
+  if (type === "u64") return bits(value, what);
+  if (typeof value === "boolean") return Number(value);
+  return integer(typeof value === "object" && value !== null ? value.id : value, what, type);
+}
+
+/** Fields of a struct by their names in JavaScript, checked, from an object with some of them. */
+export function fields(value, what, struct, known) {
+  const found = options(value, what, known);
+  for (const [name, [, type, count]] of Object.entries(structs[struct].fields)) {
+    const key = camel(name);
+    if (key in found && known.includes(key) && type in sizes) found[key] = field(found[key], `${what}.${key}`, type, count);
+  }
+  return found;
+}
+
+const sizes = { i32: 4, u32: 4, u64: 8, count: 8, f64: 8 };

@@ -1,0 +1,503 @@
+import { Format } from "../enums.js";
+import { structs } from "../layout.js";
+import { bits, bytes, callback, fields, flag, float, floats, indices, integer, meshId, options, positions } from "./check.js";
+import { suggestFields, suggestion } from "./cell_size.js";
+import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
+import { guarded, memoryOf, pointerOf } from "./owned.js";
+import { Queries, QueryView } from "./queries.js";
+import { records } from "./records.js";
+
+const GRID = ["engine", "storage", "hash", "cellSize", "worldMin", "worldMax", "byteBudget", "hashTableSize", "flags",
+  "closestBudget", "log"];
+const FILTER = ["group", "category", "mask", "selfCollision", "selfRings", "selfRestDistance", "penetrationMask"];
+const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
+const TOPOLOGY = ["positions", "tets", "restPositions"];
+const VERTICES = ["positions", "copiesOf", "restPositions"];
+const READINGS = ["what", "meshA", "meshB", "closestBudget"];
+
+/** A set of meshes that collide. */
+export class Grid extends Queries {
+  #log;
+
+  /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
+  constructor(memory, settings, snapshot) {
+    const given = fields(settings, "options", "vox_grid_desc", GRID);
+    const log = given.log === undefined ? undefined : callback(given.log, "options.log");
+    let id = 0;
+    let self; // the log may be written to before there is an object
+    if (log)
+      id = memory.addCallback(() => (self === undefined ? log : self.deref()?.#logged()));
+    const close = (pointer) => {
+      memory.call.vox_grid_destroy(pointer);
+      memory.removeCallback(id);
+    };
+    let pointer = 0;
+    try {
+      pointer = memory.frame((frame) => {
+        const desc = frame.struct("vox_grid_desc", given);
+        if (log) memory.exports.voxtet_set_log(desc, id);
+        const out = frame.take(4);
+        memory.data.setUint32(out, 0, true);
+        try {
+          if (snapshot) memory.call.vox_grid_load(frame.array(snapshot), snapshot.length, desc, out);
+          else memory.call.vox_grid_create(desc, out);
+        } catch (error) {
+          const made = memory.stopped ? 0 : memory.data.getUint32(out, true); // its log threw, when it was made
+          if (made !== 0) memory.call.vox_grid_destroy(made);
+          throw error;
+        }
+        return memory.data.getUint32(out, true);
+      });
+    } catch (error) {
+      memory.removeCallback(id);
+      throw error;
+    }
+    super(memory, "grid", pointer, close, "vox_grid_query_");
+    this.#log = log;
+    self = new WeakRef(this);
+  }
+
+  #logged() {
+    return (level, text) => guarded(this, () => this.#log(level, text));
+  }
+
+  #call(name, ...given) {
+    return memoryOf(this).call[name](pointerOf(this), ...given);
+  }
+
+  #number(type, name) {
+    return memoryOf(this).number(type, (out) => this.#call(name, out));
+  }
+
+  #get(struct, name, ...given) {
+    return memoryOf(this).get(struct, (out) => this.#call(name, ...given, out));
+  }
+
+  /** The view that `name` gives, and its records in a copy. */
+  #view(name, viewStruct, struct) {
+    const view = this.#get(viewStruct, name);
+    const copy = memoryOf(this).items(view.data, view.count, view.byteStride);
+    return [view, records(struct, copy, view.count, view.byteStride)];
+  }
+
+  // ---- settings ----
+
+  clear() {
+    this.#call("vox_grid_clear");
+  }
+
+  reserve(meshes, contacts) {
+    this.#call("vox_grid_reserve", integer(meshes, "meshes", "u32"), integer(contacts, "contacts", "count"));
+  }
+
+  get cellSize() {
+    return this.#number("f64", "vox_grid_cell_size");
+  }
+
+  set cellSize(value) {
+    this.#call("vox_grid_set_cell_size", float(value, "cellSize"));
+  }
+
+  get flags() {
+    return this.#number("u32", "vox_grid_get_flags");
+  }
+
+  set flags(value) {
+    this.#call("vox_grid_set_flags", integer(value, "flags", "u32"));
+  }
+
+  // ---- meshes ----
+
+  add(mesh) {
+    const memory = memoryOf(this);
+    const given = options(mesh, "mesh", MESH);
+    const filter = given.filter === undefined ? undefined : fields(given.filter, "filter", "vox_filter", FILTER);
+    const userData = given.userData === undefined ? 0n : bits(given.userData, "userData");
+    const arrays = meshArrays(given, memory);
+    const id = memory.frame((frame) =>
+      memory.number("u32", (out) =>
+        this.#call(
+          "vox_mesh_insert",
+          meshDesc(frame, arrays, { userData, filter: filter ? frame.struct("vox_filter", filter) : 0 }),
+          out,
+        ),
+      ),
+    );
+    return new Mesh(this, id);
+  }
+
+  mesh(id) {
+    return new Mesh(this, integer(id, "id", "u32"));
+  }
+
+  get meshes() {
+    const memory = memoryOf(this);
+    return memory.frame((frame) => {
+      const count = memory.number("count", (out) => this.#call("vox_grid_meshes", 0, 0, out));
+      const ids = frame.take(4 * count);
+      memory.number("count", (out) => this.#call("vox_grid_meshes", ids, count, out));
+      return Array.from(memory.copy("u32", ids, count), (id) => new Mesh(this, id));
+    });
+  }
+
+  setPairEnabled(meshA, meshB, enabled) {
+    this.#call("vox_grid_set_pair_enabled", meshId(meshA, "meshA"), meshId(meshB, "meshB"), flag(enabled, "enabled"));
+  }
+
+  // ---- step and results ----
+
+  step() {
+    this.#call("vox_grid_step");
+  }
+
+  get epoch() {
+    return this.#number("count", "vox_grid_epoch");
+  }
+
+  get hash() {
+    return this.#number("u64", "vox_grid_hash");
+  }
+
+  get contacts() {
+    return this.#view("vox_grid_contacts", "vox_contact_view", "vox_contact")[1];
+  }
+
+  get contactInteriors() {
+    const view = this.#get("vox_interior_view", "vox_grid_contact_interiors");
+    const copy = memoryOf(this).items(view.data, view.count, view.byteStride);
+    return view.byteStride === 1 ? copy : copy.filter((_, i) => i % view.byteStride === 0);
+  }
+
+  get penetrations() {
+    return this.#view("vox_grid_penetrations", "vox_penetration_view", "vox_penetration")[1];
+  }
+
+  get depths() {
+    return this.#view("vox_grid_depths", "vox_depth_view", "vox_depth")[1];
+  }
+
+  get pairs() {
+    const [view, pairs] = this.#view("vox_grid_pairs", "vox_pair_view", "vox_pair");
+    pairs.contacts = memoryOf(this).copy("u32", view.contacts, this.#get("vox_contact_view", "vox_grid_contacts").count);
+    return pairs;
+  }
+
+  get touchEvents() {
+    const [{ began, persisted }, all] = this.#view("vox_grid_touch_events", "vox_touch_view", "vox_touch_event");
+    return {
+      all,
+      began: all.slice(0, began),
+      persisted: all.slice(began, began + persisted),
+      ended: all.slice(began + persisted),
+    };
+  }
+
+  get contactEvents() {
+    const [{ began }, all] = this.#view("vox_grid_contact_events", "vox_contact_event_view", "vox_contact_event");
+    return { all, began: all.slice(0, began), ended: all.slice(began) };
+  }
+
+  /** Records that `name` copies for these meshes. */
+  copied(name, struct, ...ids) {
+    const memory = memoryOf(this);
+    const { size } = structs[struct];
+    return memory.frame((frame) => {
+      const count = memory.number("count", (out) => this.#call(name, ...ids, 0, 0, out));
+      const items = frame.take(count * size);
+      memory.number("count", (out) => this.#call(name, ...ids, items, count, out));
+      return records(struct, memory.items(items, count, size), count);
+    });
+  }
+
+  contactsBetween(meshA, meshB) {
+    return this.copied("vox_pair_copy_contacts", "vox_contact", meshId(meshA, "meshA"), meshId(meshB, "meshB"));
+  }
+
+  failure(index = 0) {
+    const failure = this.#get("vox_failure", "vox_grid_failure", integer(index, "index", "u32"));
+    return failure.mesh === 0 ? null : failure;
+  }
+
+  // ---- readings ----
+
+  prepareReadings(settings) {
+    const given = fields(settings, "options", "vox_readings_desc", READINGS);
+    memoryOf(this).frame((frame) => this.#call("vox_grid_prepare_readings_of", frame.struct("vox_readings_desc", given)));
+  }
+
+  get readings() {
+    return this.#view("vox_grid_readings", "vox_reading_view", "vox_reading")[1];
+  }
+
+  get readingDepths() {
+    return this.#view("vox_grid_reading_depths", "vox_depth_view", "vox_depth")[1];
+  }
+
+  readingsBetween(meshA, meshB) {
+    return this.copied("vox_pair_copy_readings", "vox_reading", meshId(meshA, "meshA"), meshId(meshB, "meshB"));
+  }
+
+  // ---- queries, snapshots, measurements ----
+
+  prepareQueries() {
+    this.#call("vox_grid_prepare_queries");
+  }
+
+  takeQueryView() {
+    return new QueryView(memoryOf(this), this.#number("pointer", "vox_grid_take_query_view"));
+  }
+
+  save() {
+    const memory = memoryOf(this);
+    return memory.frame((frame) => {
+      const size = memory.number("count", (out) => this.#call("vox_grid_save", 0, 0, out));
+      const at = frame.take(size);
+      memory.number("count", (out) => this.#call("vox_grid_save", at, size, out));
+      return memory.copy("u8", at, size);
+    });
+  }
+
+  get counters() {
+    return this.#get("vox_counters", "vox_grid_counters");
+  }
+
+  get profile() {
+    return this.#get("vox_profile", "vox_grid_profile");
+  }
+
+  suggestCellSize(settings) {
+    const given = settings === undefined ? undefined : suggestFields(settings);
+    const memory = memoryOf(this);
+    return memory.frame((frame) => {
+      const desc = given ? frame.struct("vox_suggest_desc", given) : 0;
+      return suggestion(this.#get("vox_suggestion", "vox_grid_suggest_cell_size", desc));
+    });
+  }
+}
+
+/** A mesh of a grid: its id, and the functions that take one. */
+export class Mesh {
+  #grid;
+  #id;
+
+  constructor(grid, id) {
+    this.#grid = grid;
+    this.#id = id;
+  }
+
+  get id() {
+    return this.#id;
+  }
+
+  get grid() {
+    return this.#grid;
+  }
+
+  #call(name, ...given) {
+    return memoryOf(this.#grid).call[name](pointerOf(this.#grid), this.#id, ...given);
+  }
+
+  get valid() {
+    return this.#call("vox_mesh_is_valid") !== 0;
+  }
+
+  remove() {
+    this.#call("vox_mesh_remove");
+  }
+
+  get info() {
+    const { positions: _, positionByteStride: _b, positionComponentByteStride: _c, ...info } = memoryOf(this.#grid).get(
+      "vox_mesh_info",
+      (out) => this.#call("vox_mesh_get_info", out),
+    );
+    return info;
+  }
+
+  get userData() {
+    return memoryOf(this.#grid).number("u64", (out) => this.#call("vox_mesh_user_data", out));
+  }
+
+  /** The positions in the module's memory, which moves: take it anew where it is used. */
+  get positions() {
+    const memory = memoryOf(this.#grid);
+    const { vertexCount, positionFormat } = this.info;
+    return memory.frame((frame) => {
+      const out = frame.take(16);
+      this.#call("vox_mesh_map_positions", out, out + 8);
+      const numbers = 3 * vertexCount;
+      const at = memory.data.getUint32(out, true);
+      const Array = positionFormat === Format.DOUBLE3 ? Float64Array : Float32Array;
+      return numbers === 0 ? new Array() : new Array(memory.buffer, at, numbers);
+    });
+  }
+
+  set positions(value) {
+    const array = positions(value, "positions", memoryOf(this.#grid));
+    const own = this.positions;
+    if (array.BYTES_PER_ELEMENT !== own.BYTES_PER_ELEMENT)
+      throw new TypeError(`positions: those of this mesh are a ${own.constructor.name}, got a ${array.constructor.name}`);
+    if (array.length !== own.length)
+      throw new RangeError(`positions: this mesh has ${own.length / 3} vertices, got ${array.length / 3} positions`);
+    own.set(array);
+  }
+
+  get tets() {
+    return this.#tets(true);
+  }
+
+  get enabledTets() {
+    return this.#tets(false);
+  }
+
+  #tets(corners) {
+    const memory = memoryOf(this.#grid);
+    const { tetCount } = this.info;
+    const type = corners ? "u32" : "u8";
+    const numbers = corners ? 4 * tetCount : tetCount;
+    return memory.frame((frame) => {
+      const at = frame.take(corners ? 4 * numbers : numbers);
+      memory.number("count", (out) => this.#call("vox_mesh_copy_tets", corners ? at : 0, corners ? 0 : at, tetCount, out));
+      return memory.copy(type, at, numbers);
+    });
+  }
+
+  markMoved() {
+    this.#call("vox_mesh_mark_moved");
+  }
+
+  setTransform(matrix) {
+    const rows = matrix === null ? null : floats(matrix, "matrix", 12);
+    memoryOf(this.#grid).frame((frame) => this.#call("vox_mesh_set_transform", rows ? frame.numbers(rows) : 0));
+  }
+
+  get filter() {
+    return memoryOf(this.#grid).get("vox_filter", (out) => this.#call("vox_mesh_filter", out));
+  }
+
+  set filter(value) {
+    const given = fields(value, "filter", "vox_filter", FILTER);
+    memoryOf(this.#grid).frame((frame) => this.#call("vox_mesh_set_filter", frame.struct("vox_filter", given)));
+  }
+
+  get enabled() {
+    return this.info.enabled !== 0;
+  }
+
+  set enabled(value) {
+    this.#call("vox_mesh_set_enabled", flag(value, "enabled"));
+  }
+
+  get contacts() {
+    return this.#grid.copied("vox_mesh_copy_contacts", "vox_contact", this.#id);
+  }
+
+  get readings() {
+    return this.#grid.copied("vox_mesh_copy_readings", "vox_reading", this.#id);
+  }
+
+  // ---- cutting and growing ----
+
+  #indexed(name, array, what, ...further) {
+    const given = indices(array, what, 1, memoryOf(this.#grid));
+    memoryOf(this.#grid).frame((frame) => this.#call(name, frame.array(given), given.length, ...further));
+  }
+
+  setTopology(mesh) {
+    const memory = memoryOf(this.#grid);
+    const arrays = meshArrays(options(mesh, "mesh", TOPOLOGY), memory);
+    memory.frame((frame) => this.#call("vox_mesh_set_topology", meshDesc(frame, arrays, {})));
+  }
+
+  setTetsEnabled(tets, enabled) {
+    this.#indexed("vox_mesh_set_tets_enabled", tets, "tets", flag(enabled, "enabled"));
+  }
+
+  removeTets(tets) {
+    this.#indexed("vox_mesh_remove_tets", tets, "tets");
+  }
+
+  removeVertices(vertices) {
+    this.#indexed("vox_mesh_remove_vertices", vertices, "vertices");
+  }
+
+  replaceTets(tets, corners) {
+    const memory = memoryOf(this.#grid);
+    const which = indices(tets, "tets", 1, memory);
+    const given = indices(corners, "corners", 4, memory);
+    if (given.length !== 4 * which.length)
+      throw new RangeError(`corners: expected 4 numbers for each of ${which.length} tets, got ${given.length}`);
+    memory.frame((frame) =>
+      this.#call("vox_mesh_replace_tets", frame.array(which), which.length, frame.array(given)),
+    );
+  }
+
+  appendTets(corners) {
+    const memory = memoryOf(this.#grid);
+    const given = indices(corners, "corners", 4, memory);
+    return memory.frame((frame) => {
+      const at = frame.array(given);
+      return memory.number("u32", (out) => this.#call("vox_mesh_append_tets", at, given.length / 4, out));
+    });
+  }
+
+  appendVertices(vertices) {
+    const memory = memoryOf(this.#grid);
+    const given = options(vertices, "vertices", VERTICES);
+    const array = given.positions === undefined ? undefined : positions(given.positions, "positions", memory);
+    const rest = given.restPositions === undefined ? undefined : positions(given.restPositions, "restPositions", memory);
+    const copiesOf = given.copiesOf === undefined ? undefined : indices(given.copiesOf, "copiesOf", 1, memory);
+    const count = array ? array.length / 3 : copiesOf ? copiesOf.length : 0;
+    if (copiesOf) same("copiesOf", copiesOf.length, count);
+    if (rest) same("restPositions", rest.length / 3, count);
+    const width = this.info.positionFormat === Format.DOUBLE3 ? 8 : 4;
+    for (const [name, its] of [["positions", array], ["restPositions", rest]])
+      if (its && its.BYTES_PER_ELEMENT !== width)
+        throw new TypeError(`${name}: the positions of this mesh are a Float${8 * width}Array, got a ${its.constructor.name}`);
+    this.positions; // so that the mesh has positions of its own, also when it was made without any
+    return memory.frame((frame) => {
+      const desc = frame.struct("vox_vertices_desc", {
+        count,
+        positions: array ? frame.array(array) : 0,
+        copiesOf: copiesOf ? frame.array(copiesOf) : 0,
+        restPositions: rest ? frame.array(rest) : 0,
+      });
+      return memory.number("u32", (out) => this.#call("vox_mesh_append_vertices", desc, out));
+    });
+  }
+}
+
+/** Steps all of them, one after the other. The first failure is thrown when all have had their step. */
+export function stepGrids(memory, grids) {
+  const pointers = gridPointers(memory, grids);
+  memory.frame((frame) => memory.call.vox_grids_step(frame.array(pointers), pointers.length, 0, 1, 0));
+}
+
+/** The contacts of many grids in one copy; those of grid i begin at offsets[i]. */
+export function contactsOfGrids(memory, grids) {
+  const pointers = gridPointers(memory, grids);
+  const count = pointers.length;
+  return memory.frame((frame) => {
+    const list = frame.array(pointers);
+    const starts = frame.take(8 * (count + 1));
+    const offsets = () => Array.from({ length: count + 1 }, (_, i) => Number(memory.data.getBigUint64(starts + 8 * i, true)));
+    memory.call.vox_grids_copy_contacts(list, count, 0, 0, starts);
+    const all = offsets()[count];
+    const { size } = structs.vox_contact;
+    const items = frame.take(all * size);
+    memory.call.vox_grids_copy_contacts(list, count, items, all, starts);
+    return { contacts: records("vox_contact", memory.items(items, all, size), all), offsets: offsets() };
+  });
+}
+
+function gridPointers(memory, grids) {
+  if (typeof grids !== "object" || grids === null) throw new TypeError("grids: expected an array of grids");
+  return Uint32Array.from(grids, (grid, i) => {
+    if (!(grid instanceof Grid) || memoryOf(grid) !== memory) throw new TypeError(`grids[${i}]: expected a Grid of this module`);
+    return pointerOf(grid);
+  });
+}
+
+/** A grid from what save() gave. */
+export function snapshotBytes(value, memory) {
+  return bytes(value, "bytes", memory);
+}

@@ -1,0 +1,56 @@
+import { Result } from "../enums.js";
+import { VoxError } from "./errors.js";
+
+let state;
+
+/** Something in the module's memory, until dispose(). What is forgotten is released when it was collected. */
+export class Owned {
+  #state;
+
+  constructor(memory, kind, pointer, release) {
+    this.#state = { memory, kind, pointer, release, calling: false };
+    memory.watch(this, release, pointer);
+  }
+
+  static {
+    state = (owned) => owned.#state;
+  }
+
+  /** Returns the memory at once. Twice is as good as once; any other use of it afterwards is an error. */
+  dispose() {
+    const { memory, release, pointer, calling } = this.#state;
+    if (pointer === 0) return;
+    if (calling) pointerOf(this);
+    this.#state.pointer = 0;
+    memory.unwatch(this);
+    release(pointer);
+  }
+
+  get disposed() {
+    return this.#state.pointer === 0;
+  }
+}
+if (Symbol.dispose)
+  Object.defineProperty(Owned.prototype, Symbol.dispose, { value: Owned.prototype.dispose, configurable: true, writable: true });
+
+export function memoryOf(owned) {
+  return state(owned).memory;
+}
+
+export function pointerOf(owned) {
+  const { kind, pointer, calling } = state(owned);
+  if (pointer === 0) throw new VoxError(Result.ERROR_INVALID_STATE, `this ${kind} was disposed`);
+  if (calling) throw new VoxError(Result.ERROR_INVALID_STATE, `this ${kind} was used by its own log`);
+  return pointer;
+}
+
+/** Runs a callback of `owned`, which the library does not allow to use it. */
+export function guarded(owned, run) {
+  const its = state(owned);
+  its.calling = true;
+  try {
+    return run();
+  } finally {
+    its.calling = false;
+  }
+}

@@ -1,0 +1,841 @@
+// Written by bindings/generate.py from bindings/api.json. Do not edit.
+
+import type { AreaReading, CostModel, Engine, Format, Hash, PenetrationState, Result, Side, SizeReading, Storage, Touch
+} from "./enums.js";
+
+/**
+ * Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
+ * penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
+ * one.
+ */
+export interface GridDesc {
+  engine: Engine;
+  storage: Storage;
+  hash: Hash;
+  /**
+   * Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
+   * model, at the first step, and again when the counts of its steps show that another size would be better (bodies
+   * deform, come into contact, are inserted or removed). Every change is written to the log and counted in
+   * cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would be expensive, it
+   * uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the tetrahedra of a range
+   * of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near other
+   * bodies.
+   */
+  cellSize: number;
+  /**
+   * World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border cell. All
+   * zero (the default): the box of all positions, computed at every step.
+   */
+  worldMin: [number, number, number];
+  worldMax: [number, number, number];
+  /**
+   * Most bytes the grid may hold at any time. A call that would exceed it fails with VOX_ERROR_BUDGET. 0: no limit.
+   * Default 4 GiB.
+   */
+  byteBudget: number;
+  /**
+   * Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the first prime
+   * that is at least twice the number of vertices.
+   */
+  hashTableSize: number;
+  /**
+   * Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
+   * per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do not
+   * depend on it. The reference engine is always serial. The built-in scheduler never uses more threads than there are
+   * cores, the calling thread being one of them, nor more than the system gives. It is oneTBB, or without it
+   * (vox_build_info says which) each such grid has threads of its own, from the first step that needs them until its
+   * end. They sleep between steps. Only builds for systems without threads, such as plain WebAssembly, are serial. In a
+   * process made by fork, a grid with threads of its own makes new ones.
+   */
+  workerCount: number;
+  /** vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
+  flags: number;
+  /**
+   * Most searches for a closest point that the depth stage makes in one step: for penetrations that would be ENCLOSED,
+   * or CROSSING with nothing but a closest point to go by. The first ones, in the order of the penetrations, get them;
+   * the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of
+   * meshes at rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0
+   * (the default): no limit.
+   */
+  closestBudget: number;
+}
+
+/**
+ * What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
+ * exist: the rule of vox_contact (every tetrahedron with the vertex in its interior, or else the lowest with it on the
+ * boundary) is applied to the remaining ones. No filter changes the order of contacts or allocates in the step.
+ */
+export interface Filter {
+  /**
+   * Two meshes with the same group other than 0 collide if it is positive, and do not if it is negative. All others
+   * collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1, all
+   * bits of the mask. For a mesh with itself, see self_collision.
+   */
+  group: number;
+  /**
+   * With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the mesh
+   * would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask 0, no
+   * positive group) is allowed, and the first in a grid is written to the log as a warning.
+   */
+  category: bigint;
+  mask: bigint;
+  /** 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */
+  selfCollision: number;
+  /**
+   * Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
+   * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the vertex as a corner.
+   * Takes memory for all vertices within this many edges of each vertex: about 60 bytes a vertex for 1, 260 for 2, 700
+   * for 3.
+   */
+  selfRings: number;
+  /**
+   * Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
+   * (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
+   * vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set.
+   */
+  selfRestDistance: number;
+  /**
+   * Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have them
+   * if each of the two accepts the other: its penetration_mask has a bit in common with the other's category, or has
+   * all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh with the
+   * mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a tetrahedron.
+   */
+  penetrationMask: bigint;
+}
+
+/** A mesh as it is now, e.g. after vox_grid_load. */
+export interface MeshInfo {
+  /** from 0 */
+  slot: number;
+  /** as given at insertion */
+  userData: bigint;
+  /** with the removed ones: indices of vertices are below it */
+  vertexCount: number;
+  /** with those that are disabled or removed: indices of tetrahedra are below it */
+  tetCount: number;
+  enabledTetCount: number;
+  /** 1, or 0 (see vox_mesh_set_enabled) */
+  enabled: number;
+  /**
+   * vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
+   * mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
+   */
+  flags: number;
+  positionFormat: Format;
+  /** 1 if vox_mesh_set_transform gave it one */
+  hasTransform: number;
+  /** as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
+  transform: number[];
+}
+
+/** A mesh that made a step fail, or that a step left out. */
+export interface Failure {
+  /**
+   * NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no positions),
+   * INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
+   */
+  result: Result;
+  /** VOX_NULL_MESH if there is none */
+  mesh: number;
+  /** of the mesh, from 0 */
+  slot: number;
+  /** of the mesh, as given at insertion */
+  userData: bigint;
+  /** the first with such a coordinate; VOX_NO_VERTEX if the failure is about none */
+  vertex: number;
+  /** of that vertex, as it would collide: in double and transformed; else 0 */
+  position: [number, number, number];
+}
+
+/**
+ * Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it. This is decided
+ * exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every tetrahedron that
+ * has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
+ * boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
+ * tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
+ */
+export interface Contact {
+  meshA: number;
+  vertex: number;
+  meshB: number;
+  tet: number;
+  barycentric: [number, number, number, number];
+}
+
+/** Columns of Contact: of an array field, its elements one after the other. */
+export interface ContactColumns {
+  readonly meshA: Uint32Array;
+  readonly vertex: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly barycentric: Float32Array;
+}
+
+/**
+ * Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
+ * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges and
+ * neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has no
+ * surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
+ * tetrahedron. Does not depend on engine, cell size, workers or machine.
+ */
+export interface Penetration {
+  meshA: number;
+  vertex: number;
+  meshB: number;
+  state: PenetrationState;
+  /** index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b) */
+  contact: number;
+  /** >= 0, in the caller's unit */
+  depth: number;
+  /** in the frame of the positions, out of mesh_b */
+  direction: [number, number, number];
+}
+
+/** Columns of Penetration: of an array field, its elements one after the other. */
+export interface PenetrationColumns {
+  readonly meshA: Uint32Array;
+  readonly vertex: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly state: Int32Array;
+  readonly contact: Float64Array;
+  readonly depth: Float32Array;
+  readonly direction: Float32Array;
+}
+
+/**
+ * Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
+ * vox_penetration.
+ */
+export interface Depth {
+  depth: number;
+  direction: [number, number, number];
+}
+
+/** Columns of Depth: of an array field, its elements one after the other. */
+export interface DepthColumns {
+  readonly depth: Float64Array;
+  readonly direction: Float64Array;
+}
+
+/**
+ * Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a <= mesh_b; they are equal if
+ * a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]: first
+ * the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets
+ * of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts.
+ */
+export interface Pair {
+  meshA: number;
+  meshB: number;
+  /** of mesh_a, as given at insertion */
+  userDataA: bigint;
+  userDataB: bigint;
+  first: number;
+  aInB: number;
+  bInA: number;
+}
+
+/** Columns of Pair: of an array field, its elements one after the other. */
+export interface PairColumns {
+  readonly meshA: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly userDataA: BigUint64Array;
+  readonly userDataB: BigUint64Array;
+  readonly first: Float64Array;
+  readonly aInB: Float64Array;
+  readonly bInA: Float64Array;
+}
+
+/**
+ * An event of a pair of meshes, mesh_a <= mesh_b. A pair that began persists in every following step until it ends,
+ * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
+ * `mesh_b` may be stale ids; the user data are those of the meshes that they named.
+ */
+export interface TouchEvent {
+  meshA: number;
+  meshB: number;
+  userDataA: bigint;
+  userDataB: bigint;
+  kind: Touch;
+  /** index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended */
+  pair: number;
+}
+
+/** Columns of TouchEvent: of an array field, its elements one after the other. */
+export interface TouchEventColumns {
+  readonly meshA: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly userDataA: BigUint64Array;
+  readonly userDataB: BigUint64Array;
+  readonly kind: Int32Array;
+  readonly pair: Uint32Array;
+}
+
+/**
+ * Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
+ * of mesh_b to another is not an event.
+ */
+export interface ContactEvent {
+  meshA: number;
+  vertex: number;
+  meshB: number;
+  /** VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
+  kind: Touch;
+}
+
+/** Columns of ContactEvent: of an array field, its elements one after the other. */
+export interface ContactEventColumns {
+  readonly meshA: Uint32Array;
+  readonly vertex: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly kind: Int32Array;
+}
+
+/**
+ * Geometry of one contact. All contacts of the same (mesh_a, vertex, mesh_b) have the same reading except for the first
+ * field. `triangle` is the triangle closest to the vertex on the surface of mesh_b, which consists of the facets of
+ * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest; of
+ * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
+ * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state). No
+ * reading depends on engine, cell size, workers or machine.
+ */
+export interface Reading {
+  /** index of the contact in vox_grid_contacts */
+  contact: number;
+  /** vox_reading_flags, combined with | */
+  known: number;
+  /** DEPTH: state, depth and direction of the vertex's vox_penetration */
+  state: PenetrationState;
+  depth: number;
+  direction: [number, number, number];
+  /** POSITION: the vertex as it collides, in double and transformed */
+  position: [number, number, number];
+  /** SURFACE (up to `triangle`): distance from the vertex to surface_position */
+  distance: number;
+  /** the closest point of `triangle` */
+  surfacePosition: [number, number, number];
+  /** its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding */
+  barycentric: [number, number, number];
+  /**
+   * A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
+   * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
+   */
+  normal: [number, number, number];
+  /** vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
+  triangle: [number, number, number];
+  /** of mesh_a, as given at insertion */
+  userDataA: bigint;
+  userDataB: bigint;
+}
+
+/** Columns of Reading: of an array field, its elements one after the other. */
+export interface ReadingColumns {
+  readonly contact: Float64Array;
+  readonly known: Uint32Array;
+  readonly state: Int32Array;
+  readonly depth: Float32Array;
+  readonly direction: Float32Array;
+  readonly position: Float64Array;
+  readonly distance: Float64Array;
+  readonly surfacePosition: Float64Array;
+  readonly barycentric: Float64Array;
+  readonly normal: Float64Array;
+  readonly triangle: Uint32Array;
+  readonly userDataA: BigUint64Array;
+  readonly userDataB: BigUint64Array;
+}
+
+/** What to read. */
+export interface ReadingsDesc {
+  /**
+   * vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as copying it. The
+   * other fields of vox_reading, such as user data, are always set
+   */
+  what: number;
+  /** VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies */
+  meshA: number;
+  /** VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it */
+  meshB: number;
+  /**
+   * Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
+   * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
+   */
+  closestBudget: number;
+}
+
+/**
+ * Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
+ * vox_contact: every tetrahedron of a mesh that has the point in its interior, or else the lowest that has it on its
+ * boundary. `barycentric` is as in vox_contact.
+ */
+export interface PointHit {
+  point: number;
+  mesh: number;
+  tet: number;
+  barycentric: [number, number, number, number];
+}
+
+/** Columns of PointHit: of an array field, its elements one after the other. */
+export interface PointHitColumns {
+  readonly point: Uint32Array;
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly barycentric: Float32Array;
+}
+
+/** Tetrahedron `tet` of `mesh`. */
+export interface TetHit {
+  mesh: number;
+  tet: number;
+}
+
+/** Columns of TetHit: of an array field, its elements one after the other. */
+export interface TetHitColumns {
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+}
+
+/**
+ * A point on facet `facet` of a tetrahedron, which is opposite corner `facet`. The facet's corners are facet 0: corners
+ * 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the tetrahedron, counter-clockwise as seen from outside if its volume is
+ * positive. The surface of a mesh consists of the facets of exactly one tetrahedron.
+ */
+export interface SurfaceHit {
+  /** VOX_NULL_MESH if there is no such point; then all fields are zero */
+  mesh: number;
+  tet: number;
+  facet: number;
+  /** weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1 */
+  barycentric: [number, number, number];
+  position: [number, number, number];
+  distance: number;
+}
+
+/** Columns of SurfaceHit: of an array field, its elements one after the other. */
+export interface SurfaceHitColumns {
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly barycentric: Float64Array;
+  readonly position: Float64Array;
+  readonly distance: Float64Array;
+}
+
+/** The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
+export interface ClosestHit {
+  /** VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero */
+  mesh: number;
+  tet: number;
+  facet: number;
+  /** how many of the meshes that take part have the point in a closed tetrahedron; exact */
+  inside: number;
+  barycentric: [number, number, number];
+  position: [number, number, number];
+  /**
+   * A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet has
+   * no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+   */
+  normal: [number, number, number];
+  /**
+   * from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron, which is decided
+   * exactly
+   */
+  distance: number;
+}
+
+/** Columns of ClosestHit: of an array field, its elements one after the other. */
+export interface ClosestHitColumns {
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly inside: Uint32Array;
+  readonly barycentric: Float64Array;
+  readonly position: Float64Array;
+  readonly normal: Float64Array;
+  readonly distance: Float64Array;
+}
+
+/**
+ * What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a tetrahedron
+ * or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several at the same t
+ * it is the lowest (mesh, tet, facet).
+ */
+export interface RayHit {
+  /** mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero */
+  mesh: number;
+  tet: number;
+  /** 0 if `from` is in the tetrahedron */
+  t: number;
+  /**
+   * The first facet of a surface (see vox_surface_hit). VOX_NULL_MESH if there is none, e.g. for a segment that ends
+   * before it leaves a mesh. A segment in the plane of a facet does not hit it.
+   */
+  surfaceMesh: number;
+  surfaceTet: number;
+  surfaceFacet: number;
+  surfaceSide: Side;
+  surfaceT: number;
+  surfaceBarycentric: [number, number, number];
+}
+
+/** Columns of RayHit: of an array field, its elements one after the other. */
+export interface RayHitColumns {
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly t: Float64Array;
+  readonly surfaceMesh: Uint32Array;
+  readonly surfaceTet: Uint32Array;
+  readonly surfaceFacet: Uint32Array;
+  readonly surfaceSide: Int32Array;
+  readonly surfaceT: Float64Array;
+  readonly surfaceBarycentric: Float64Array;
+}
+
+/** A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit. */
+export interface FacetHit {
+  mesh: number;
+  tet: number;
+  facet: number;
+  side: Side;
+  t: number;
+  /** weights of the facet's corners, as in vox_surface_hit */
+  barycentric: [number, number, number];
+}
+
+/** Columns of FacetHit: of an array field, its elements one after the other. */
+export interface FacetHitColumns {
+  readonly mesh: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly side: Int32Array;
+  readonly t: Float64Array;
+  readonly barycentric: Float64Array;
+}
+
+/**
+ * What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
+ * over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
+ * `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
+ * engine those that had a vertex to test.
+ */
+export interface Counters {
+  meshes: number;
+  vertices: number;
+  tets: number;
+  /** occupied cells, summed over the cell sizes if there are several */
+  cells: number;
+  /** vertices in those cells */
+  entries: number;
+  /** most vertices in one cell */
+  fullestCell: number;
+  /** cells visited for tetrahedra (the paper's objective voxels) */
+  visitedCells: number;
+  /** vertices found there */
+  visitedEntries: number;
+  /** (vertex, tet) pairs that passed the box test: the narrow phase's input */
+  candidates: number;
+  /** orientations that needed exact arithmetic */
+  exactTests: number;
+  contacts: number;
+  skippedDegenerate: number;
+  /** held by the grid now, without the caller's arrays */
+  bytes: number;
+  /** most bytes the grid ever held */
+  peakBytes: number;
+  /** meshes that were not at rest (see vox_grid_step) */
+  movedMeshes: number;
+  /** part of `contacts` carried over from the step before, between meshes at rest */
+  carriedContacts: number;
+  penetrations: number;
+  /** edges from a colliding vertex to one outside mesh_b */
+  leavingEdges: number;
+  /** tetrahedra visited along those edges */
+  edgeTests: number;
+  /** penetrations that needed the closest point of the surface */
+  closestSearches: number;
+  /** triangles whose closest point was computed for that */
+  closestTests: number;
+  /** not included in `meshes` (see vox_mesh_set_enabled) */
+  disabledMeshes: number;
+  /** (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
+  filtered: number;
+  /** how often the reference engine chose another cell size (see vox_grid_desc) */
+  cellSizeChanges: number;
+  /** part of `penetrations` for which closest_budget left no search */
+  unknownPenetrations: number;
+  /** part of `penetrations` carried over with their contacts */
+  carriedPenetrations: number;
+  /** left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes` */
+  skippedMeshes: number;
+  /** part of `meshes`: their vertices collide, their edges and faces do not */
+  meshesWithoutTets: number;
+  /**
+   * Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each step
+   * gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events.
+   */
+  totalTouchesBegan: number;
+  totalTouchesEnded: number;
+  totalContactsBegan: number;
+  totalContactsEnded: number;
+}
+
+/**
+ * Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+ * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
+ * leaves the fields from stream_ns on 0.
+ */
+export interface Profile {
+  stepNs: number;
+  /** classify the vertices, recompute the boxes: stream + winding + windows */
+  binNs: number;
+  /** cells and box tests: broad_phase + lookup */
+  broadNs: number;
+  /** exact decisions: decide */
+  narrowNs: number;
+  /** canonical order, barycentric coordinates */
+  contactsNs: number;
+  /** penetrations */
+  depthNs: number;
+  /** touching pairs and events */
+  eventsNs: number;
+  /** read all positions: boxes, and which meshes moved */
+  streamNs: number;
+  /** rule out self-contacts by winding numbers; of the worker that took longest over them */
+  windingNs: number;
+  /** regions in which meshes may be in contact */
+  broadPhaseNs: number;
+  /** bin the vertices that lie there */
+  windowsNs: number;
+  /** tetrahedra against these: box tests, and all that floats can decide */
+  lookupNs: number;
+  /** decide the rest exactly; of the worker that took longest over it */
+  decideNs: number;
+}
+
+export interface SuggestDesc {
+  model: CostModel;
+  sizeReading: SizeReading;
+  areaReading: AreaReading;
+  /** probability that a tet has no collision, in (0, 1); default 0.99 */
+  pNc: number;
+  /** the paper's r: cost of a particle test divided by that of a cell visit, > 0; default 5 */
+  costRatio: number;
+  /** edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
+  worldEdge: number;
+  /** the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6], default 0.05 */
+  zoneLoss: number;
+  /** for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2 */
+  meanEdgeFactor: number;
+  /** for rules.resolution (McNeely et al. 1999): the required detail; 0: none */
+  resolution: number;
+  /** REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit */
+  byteBudget: number;
+  /** REFERENCE: as in vox_grid_desc, but AUTO means HASHED */
+  storage: Storage;
+}
+
+/**
+ * Geometry of all meshes together. Lengths, areas and volumes in the caller's unit. A tet that names a vertex twice
+ * adds no edges and facets, but counts in the means over tets.
+ */
+export interface GeometryStats {
+  vertices: number;
+  tets: number;
+  /** unique */
+  edges: number;
+  /** unique triangles */
+  facets: number;
+  /** facets of exactly one tet */
+  boundaryFacets: number;
+  /** of exactly zero volume */
+  degenerateTets: number;
+  meanEdge: number;
+  meanLongestEdge: number;
+  meanBoxSide: number;
+  /** median over tets of the longest side of the bounding box */
+  medianBoxSide: number;
+  meanFacetArea: number;
+  meanTetFacetArea: number;
+  meanBoundaryFacetArea: number;
+  /** mean over tets of |volume| */
+  meanVolume: number;
+  /** of the vertices that tets use; of all vertices for a mesh without tets */
+  boundsMin: [number, number, number];
+  boundsMax: [number, number, number];
+}
+
+/** Columns of GeometryStats: of an array field, its elements one after the other. */
+export interface GeometryStatsColumns {
+  readonly vertices: Float64Array;
+  readonly tets: Float64Array;
+  readonly edges: Float64Array;
+  readonly facets: Float64Array;
+  readonly boundaryFacets: Float64Array;
+  readonly degenerateTets: Float64Array;
+  readonly meanEdge: Float64Array;
+  readonly meanLongestEdge: Float64Array;
+  readonly meanBoxSide: Float64Array;
+  readonly medianBoxSide: Float64Array;
+  readonly meanFacetArea: Float64Array;
+  readonly meanTetFacetArea: Float64Array;
+  readonly meanBoundaryFacetArea: Float64Array;
+  readonly meanVolume: Float64Array;
+  readonly boundsMin: Float64Array;
+  readonly boundsMax: Float64Array;
+}
+
+/** Cell sizes that other rules would choose; 0 where a rule does not apply. */
+export interface CellSizeRules {
+  /** Teschner et al. 2003 */
+  meanEdge: number;
+  /** Gregory et al. 2000: a constant times the mean edge */
+  meanEdgeMultiple: number;
+  /** Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a volume */
+  object512: number;
+  /** McNeely et al. 1999: the required resolution */
+  resolution: number;
+  /** cube root of the mean tet volume (tried and rejected in Sect. 5) */
+  meanVolume: number;
+  /** IPC Toolkit: median of the longest box sides */
+  medianBoxSide: number;
+}
+
+/** Columns of CellSizeRules: of an array field, its elements one after the other. */
+export interface CellSizeRulesColumns {
+  readonly meanEdge: Float64Array;
+  readonly meanEdgeMultiple: Float64Array;
+  readonly object512: Float64Array;
+  readonly resolution: Float64Array;
+  readonly meanVolume: Float64Array;
+  readonly medianBoxSide: Float64Array;
+}
+
+/** A point of a curve of costs. */
+export interface CostSample {
+  cellSize: number;
+  cost: number;
+}
+
+/** Columns of CostSample: of an array field, its elements one after the other. */
+export interface CostSampleColumns {
+  readonly cellSize: Float64Array;
+  readonly cost: Float64Array;
+}
+
+/** One term of a cost: a piece of work, how often it is done, and what that costs. */
+export interface CostShare {
+  /** what is done, e.g. "visit a cell"; zero-terminated */
+  name: string;
+  count: number;
+  /** count times the weight */
+  cost: number;
+  /** fraction of the whole cost, 0 to 1 */
+  share: number;
+}
+
+/** A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds of a step. */
+export interface Suggestion {
+  model: CostModel;
+  cellSize: number;
+  /** world edge / cell size, as the paper counts */
+  cellsPerAxis: number;
+  /** smallest and largest cell size of the zone */
+  zoneMin: number;
+  zoneMax: number;
+  /** at cell_size */
+  predictedCost: number;
+  rules: CellSizeRules;
+  stats: GeometryStats;
+  /** ascending in cell_size, evenly spaced in its logarithm */
+  curve: CostSample[];
+  curveCount: number;
+  termCount: number;
+  /** at cell_size; their costs add up to predicted_cost */
+  terms: CostShare[];
+  /** predicted cost at the cell size of each rule; 0 if the rule does not apply */
+  ruleCosts: CellSizeRules;
+  /** smallest cell size within the byte budget; 0: the budget does not limit it */
+  budgetCellSize: number;
+  /**
+   * REFERENCE: the loss of using one cell size for tetrahedra of all sizes. It is predicted_cost divided by the
+   * predicted cost of a few grids, each with the cell size that is best for its share of the tetrahedra, minus 1. About
+   * 0 if one size is as good as several, and for the other models. A vox_grid with cell_size 0 uses several sizes if
+   * there are several `levels`.
+   */
+  uniformLoss: number;
+  /** level_count cell sizes, that of the smallest tets first */
+  levels: [number, number, number, number];
+  levelCount: number;
+}
+
+/** A cost at one cell size, term by term. */
+export interface CostPrediction {
+  termCount: number;
+  cellSize: number;
+  cost: number;
+  terms: CostShare[];
+}
+
+/**
+ * The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
+ * above 0, which may be saved and loaded.
+ */
+export interface CostWeights {
+  /** 1: on the machine they are for; 0: shipped with the library */
+  measured: number;
+  referenceClassifyVertex: number;
+  /** its box */
+  referencePrepareTet: number;
+  /** whose list is as long as the one before */
+  referenceVisitCell: number;
+  /** an occupied one, gone through instead of a box that meets more cells */
+  referenceScanCell: number;
+  referenceReadVertex: number;
+  referenceTestBox: number;
+  /** or its own corner, which is in the box as well */
+  referenceTestTet: number;
+  referenceClearBucket: number;
+  fastBinVertex: number;
+  fastClearCell: number;
+  /** for one window */
+  fastVisitTile: number;
+  fastVisitRow: number;
+  fastReadVertex: number;
+  /** one in a tile's box, against its tets */
+  fastTestVertex: number;
+  /** in a visited cell, of another length than the one before */
+  referenceChangedList: number;
+  /** passed over, and not read just before */
+  referenceFetchVertex: number;
+}
+
+/** coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them. */
+export interface CostTerm {
+  coefficient: number;
+  power: number;
+}
+
+/** Columns of CostTerm: of an array field, its elements one after the other. */
+export interface CostTermColumns {
+  readonly coefficient: Float64Array;
+  readonly power: Float64Array;
+}
+
+/** Cell sizes to choose from, and how wide the zone is. */
+export interface CostBounds {
+  /** 0 < min <= max, finite */
+  min: number;
+  max: number;
+  /** as vox_suggest_desc.zone_loss; default 0.05 */
+  zoneLoss: number;
+}
+
+export interface CostMinimum {
+  curveCount: number;
+  cellSize: number;
+  cost: number;
+  /** the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the least */
+  zoneMin: number;
+  zoneMax: number;
+  /** over the bounds, evenly spaced in the logarithm */
+  curve: CostSample[];
+}

@@ -1,0 +1,77 @@
+// voxtet: vox in WebAssembly. See README.md; types and their comments are in voxtet.d.ts.
+import { cellSizes } from "./lib/cell_size.js";
+import { VoxError } from "./lib/errors.js";
+import { contactsOfGrids, Grid, snapshotBytes, stepGrids } from "./lib/grid.js";
+import { Memory } from "./lib/memory.js";
+
+export * from "./enums.js";
+export { VoxError };
+
+// A module of one function that returns a vector: valid where WebAssembly has SIMD.
+const SIMD_PROBE = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+
+const compiled = {};
+
+/** The module in a file of this package: read where files can be, else fetched. */
+async function compileFile(url) {
+  if (url.protocol !== "file:") return compileResponse(await fetch(url));
+  const files = "node:fs/promises"; // not for bundlers
+  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ files);
+  return WebAssembly.compile(await readFile(url));
+}
+
+async function compileResponse(response) {
+  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+  const isWasm = response.headers.get("content-type")?.startsWith("application/wasm");
+  return isWasm ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+async function compile(source, simd) {
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof URL || typeof source === "string") return compileFile(new URL(source, import.meta.url));
+  if (source !== undefined) return typeof source.arrayBuffer === "function" ? compileResponse(source) : WebAssembly.compile(source);
+  const url = simd ? new URL("./vox_simd.wasm", import.meta.url) : new URL("./vox.wasm", import.meta.url);
+  const module = (compiled[simd] ??= compileFile(url));
+  module.catch(() => delete compiled[simd]); // so that it can be tried again
+  return module;
+}
+
+export function simdSupported() {
+  return WebAssembly.validate(new Uint8Array(SIMD_PROBE));
+}
+
+export async function load({ simd = simdSupported(), wasm } = {}) {
+  const module = await compile(await wasm, simd);
+  const memory = await Memory.open((imports) => WebAssembly.instantiate(module, imports));
+  const { call } = memory;
+  return Object.defineProperties(
+    {
+      Grid: boundGrid(memory),
+      stepGrids: (grids) => stepGrids(memory, grids),
+      contactsOf: (grids) => contactsOfGrids(memory, grids),
+      version: memory.text(call.vox_version_string()),
+      buildInfo: memory.text(call.vox_build_info()),
+      module,
+    },
+    {
+      ...Object.getOwnPropertyDescriptors(cellSizes(memory)),
+      memoryBytes: { get: () => memory.buffer.byteLength, enumerable: true },
+    },
+  );
+}
+
+/** The class of the grids of one module. */
+function boundGrid(memory) {
+  const Unbound = Grid;
+  return {
+    Grid: class extends Unbound {
+      constructor(settings, snapshot) {
+        super(memory, settings, snapshot);
+      }
+
+      static load(bytes, settings) {
+        return new this(settings, snapshotBytes(bytes, memory));
+      }
+    },
+  }.Grid;
+}

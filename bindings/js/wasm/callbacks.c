@@ -1,0 +1,28 @@
+/* Callbacks into JavaScript. WebAssembly reaches JavaScript through imports alone, so each kind of callback is one import,
+ * and `user` says which function is meant. */
+#include <vox/vox.h>
+
+#define IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
+#define EXPORT __attribute__((used, visibility("default")))
+
+IMPORT(voxtet_log) void voxtet_log(vox_log_level level, const char* text, void* user);
+IMPORT(voxtet_cost) double voxtet_cost(double cell_size, void* user);
+
+static void write_log(vox_log_level level, const char* text, void* user) {
+    voxtet_log(level, text, user);
+}
+
+static double cost(double cell_size, void* user) {
+    return voxtet_cost(cell_size, user);
+}
+
+/* The grid's log goes to the function `user`. */
+EXPORT void voxtet_set_log(vox_grid_desc* desc, void* user) {
+    desc->log.write = write_log;
+    desc->log.user = user;
+}
+
+/* vox_cost_minimise with the function `user`. */
+EXPORT vox_result voxtet_cost_minimise(void* user, const vox_cost_bounds* bounds, vox_cost_minimum* out) {
+    return vox_cost_minimise(cost, user, bounds, out);
+}
