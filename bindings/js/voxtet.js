@@ -66,7 +66,7 @@ function boundGrid(memory) {
   return {
     Grid: class extends Unbound {
       constructor(settings, snapshot) {
-        super(memory, settings, snapshot);
+        super(memory, settings, snapshot === undefined ? undefined : snapshotBytes(snapshot, memory));
       }
 
       static load(bytes, settings) {

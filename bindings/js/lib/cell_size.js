@@ -1,6 +1,6 @@
 import { MeshFlags } from "../enums.js";
 import { structs } from "../layout.js";
-import { callback, camel, fields, float, options } from "./check.js";
+import { callback, camel, fields, float, list, options } from "./check.js";
 import { meshArrays, meshFields } from "./mesh_arrays.js";
 
 const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
@@ -23,9 +23,8 @@ export function suggestion({ curveCount, termCount, levelCount, ...found }) {
 
 /** Runs `use` with options and meshes as C wants them. */
 function withMeshes(memory, meshes, settings, use) {
-  if (!Array.isArray(meshes)) throw new TypeError("meshes: expected an array of { positions, tets }");
   const given = suggestFields(settings);
-  const all = meshes.map((mesh, i) => {
+  const all = list(meshes, "meshes", "{ positions, tets }").map((mesh, i) => {
     const { selfCollision = false, ...arrays } = options(mesh, `meshes[${i}]`, ["positions", "tets", "selfCollision"]);
     if (typeof selfCollision !== "boolean") throw new TypeError(`meshes[${i}].selfCollision: expected true or false`);
     return [meshArrays(arrays, memory), selfCollision ? MeshFlags.SELF_COLLISION : 0];
@@ -78,7 +77,8 @@ export function cellSizes(memory) {
     },
 
     minimiseCost(cost, bounds) {
-      const id = memory.addCallback(() => callback(cost, "cost"));
+      callback(cost, "cost");
+      const id = memory.addCallback(() => cost);
       try {
         return minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out));
       } finally {
@@ -87,8 +87,7 @@ export function cellSizes(memory) {
     },
 
     minimiseCostTerms(terms, bounds) {
-      if (!Array.isArray(terms)) throw new TypeError("terms: expected an array of { coefficient, power }");
-      const numbers = terms.flatMap((term, i) => {
+      const numbers = list(terms, "terms", "{ coefficient, power }").flatMap((term, i) => {
         const { coefficient, power } = options(term, `terms[${i}]`, ["coefficient", "power"]);
         return [float(coefficient, `terms[${i}].coefficient`), float(power, `terms[${i}].power`)];
       });

@@ -48,46 +48,56 @@ export function bits(value, what) {
 /** `count` numbers. */
 export function floats(value, what, count) {
   if (typeof value !== "object" || value === null) throw wrong(what, `an array of ${count} numbers`, value);
-  const numbers = Array.from(value, (number, i) => float(number, `${what}[${i}]`));
-  if (numbers.length !== count) throw new RangeError(`${what}: expected ${count} numbers, got ${numbers.length}`);
+  if (value.length !== count) throw new RangeError(`${what}: expected ${count} numbers, got ${shown(value.length)}`);
+  const numbers = new Float64Array(count);
+  for (let i = 0; i < count; ++i) numbers[i] = float(value[i], `${what}[${i}]`);
   return numbers;
 }
 
-function typedArray(value) {
+const arrayTypes = { Float32Array, Float64Array, Uint32Array };
+const integerArrays = ["Uint8Array", "Uint16Array", "Int8Array", "Int16Array", "Int32Array"];
+
+function kindOf(value) {
   return ArrayBuffer.isView(value) ? Object.prototype.toString.call(value).slice(8, -1) : "";
 }
 
-/** An array that is not part of the module's memory, which may move while arguments are copied into it. */
-function apart(array, memory) {
-  return array.buffer === memory.buffer ? array.slice() : array;
-}
-
-function whole(array, what, width) {
-  if (array.length % width !== 0)
-    throw new RangeError(`${what}: ${array.length} numbers, which is not a multiple of ${width}`);
-  return array;
+/** The array without what a class of the caller's adds to it, and apart from the module's memory, which may move while
+ * arguments are copied into it. */
+function plain(array, Type, width, what, memory) {
+  const numbers = new Type(array.buffer, array.byteOffset, array.length);
+  if (numbers.length % width !== 0)
+    throw new RangeError(`${what}: ${numbers.length} numbers, which is not a multiple of ${width}`);
+  return numbers.buffer === memory.buffer ? numbers.slice() : numbers;
 }
 
 /** x y z, x y z, ... of singles or doubles. */
 export function positions(value, what, memory) {
-  if (!["Float32Array", "Float64Array"].includes(typedArray(value)))
-    throw wrong(what, "a Float32Array or Float64Array", value);
-  return whole(apart(value, memory), what, 3);
+  const kind = kindOf(value);
+  if (kind !== "Float32Array" && kind !== "Float64Array") throw wrong(what, "a Float32Array or Float64Array", value);
+  return plain(value, arrayTypes[kind], 3, what, memory);
 }
 
 /** Groups of `width` indices: a Uint32Array as it is; numbers of other arrays are looked at one by one. */
 export function indices(value, what, width, memory) {
-  if (typedArray(value) === "Uint32Array") return whole(apart(value, memory), what, width);
-  if (!Array.isArray(value) && !/^(Ui|I)nt(8|16|32)Array$/.test(typedArray(value)))
-    throw wrong(what, "a Uint32Array", value);
-  return whole(Uint32Array.from(value, (number, i) => integer(number, `${what}[${i}]`, "u32")), what, width);
+  if (kindOf(value) === "Uint32Array") return plain(value, Uint32Array, width, what, memory);
+  if (!Array.isArray(value) && !integerArrays.includes(kindOf(value))) throw wrong(what, "a Uint32Array", value);
+  const numbers = new Uint32Array(value.length);
+  for (let i = 0; i < numbers.length; ++i) numbers[i] = integer(value[i], `${what}[${i}]`, "u32");
+  return plain(numbers, Uint32Array, width, what, memory);
 }
 
 /** Bytes of an ArrayBuffer or of any view of one. */
 export function bytes(value, what, memory) {
   if (Object.prototype.toString.call(value) === "[object ArrayBuffer]") return new Uint8Array(value);
   if (!ArrayBuffer.isView(value)) throw wrong(what, "an ArrayBuffer or a view of one", value);
-  return apart(new Uint8Array(value.buffer, value.byteOffset, value.byteLength), memory);
+  const all = new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+  return all.buffer === memory.buffer ? all.slice() : all;
+}
+
+/** A copy of an array, of which nothing is looked at yet. */
+export function list(value, what, item) {
+  if (!Array.isArray(value)) throw wrong(what, `an array of ${item}`, value);
+  return Array.from(value);
 }
 
 export function callback(value, what) {

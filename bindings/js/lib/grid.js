@@ -1,6 +1,6 @@
 import { Format } from "../enums.js";
 import { structs } from "../layout.js";
-import { bits, bytes, callback, fields, flag, float, floats, indices, integer, meshId, options, positions } from "./check.js";
+import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
 import { suggestFields, suggestion } from "./cell_size.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, pointerOf } from "./owned.js";
@@ -453,7 +453,6 @@ export class Mesh {
     for (const [name, its] of [["positions", array], ["restPositions", rest]])
       if (its && its.BYTES_PER_ELEMENT !== width)
         throw new TypeError(`${name}: the positions of this mesh are a Float${8 * width}Array, got a ${its.constructor.name}`);
-    this.positions; // so that the mesh has positions of its own, also when it was made without any
     return memory.frame((frame) => {
       const desc = frame.struct("vox_vertices_desc", {
         count,
@@ -490,14 +489,13 @@ export function contactsOfGrids(memory, grids) {
 }
 
 function gridPointers(memory, grids) {
-  if (typeof grids !== "object" || grids === null) throw new TypeError("grids: expected an array of grids");
-  return Uint32Array.from(grids, (grid, i) => {
+  return Uint32Array.from(list(grids, "grids", "grids"), (grid, i) => {
     if (!(grid instanceof Grid) || memoryOf(grid) !== memory) throw new TypeError(`grids[${i}]: expected a Grid of this module`);
     return pointerOf(grid);
   });
 }
 
-/** A grid from what save() gave. */
+/** What save() gave. */
 export function snapshotBytes(value, memory) {
   return bytes(value, "bytes", memory);
 }

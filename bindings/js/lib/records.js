@@ -39,11 +39,16 @@ class Records {
     for (let i = 0; i < this.length; ++i) yield this.at(i);
   }
 
-  /** The records from `begin` to before `end`, in the same memory. */
+  /** The records from `begin` to before `end`, as of an array, in the same memory. */
   slice(begin = 0, end = this.length) {
-    const from = Math.min(begin, this.length);
-    const to = Math.max(from, Math.min(end, this.length));
-    return new this.constructor(this.#struct, this.bytes.subarray(from * this.#stride, to * this.#stride), to - from, this.#stride);
+    const place = (index) => {
+      const i = Math.trunc(index) || 0;
+      return Math.max(0, Math.min(i < 0 ? i + this.length : i, this.length));
+    };
+    const from = place(begin);
+    const count = Math.max(0, place(end) - from);
+    const bytes = this.bytes.subarray(from * this.#stride, (from + count) * this.#stride);
+    return new this.constructor(this.#struct, bytes, count, this.#stride);
   }
 
   #data() {

@@ -1,0 +1,182 @@
+// Wrong arguments, use after dispose, garbage: always an error of JavaScript's, and everything is as it was before.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { Result, VoxError } from "../voxtet.js";
+import { block, loaded } from "./scenes.js";
+
+const vox = await loaded();
+const failure = (code) => (error) => error instanceof VoxError && error.code === code;
+
+function scene() {
+  const grid = new vox.Grid();
+  const left = grid.add(block(2));
+  const right = grid.add(block(2, [0.7, 0.31, 0.17]));
+  grid.step();
+  grid.prepareQueries();
+  return { grid, left, right, view: grid.takeQueryView() };
+}
+
+test("errors say what was wrong", () => {
+  const { grid, left } = scene();
+  const cases = [
+    [() => new vox.Grid({ cellsize: 1 }), TypeError, /"cellsize" is not known; there are engine, .*cellSize/],
+    [() => new vox.Grid(7), TypeError, /options: expected an object, got 7/],
+    [() => new vox.Grid({ cellSize: "1" }), TypeError, /options.cellSize: expected a number, got "1"/],
+    [() => new vox.Grid({ flags: 1.5 }), RangeError, /options.flags: expected a whole number from 0 to 4294967295, got 1.5/],
+    [() => new vox.Grid({ log: 1 }), TypeError, /options.log: expected a function, got 1/],
+    [() => new vox.Grid({ engine: 99 }), VoxError, /engine/],
+    [() => vox.Grid.load("snapshot"), TypeError, /bytes: expected an ArrayBuffer or a view of one, got "snapshot"/],
+    [() => vox.Grid.load(new Uint8Array(100)), VoxError, /snapshot/],
+    [() => grid.add(), TypeError, /positions: expected a Float32Array or Float64Array, got undefined/],
+    [() => grid.add({ positions: [0, 0, 0] }), TypeError, /got Array/],
+    [() => grid.add({ positions: new Float32Array(4) }), RangeError, /positions: 4 numbers, which is not a multiple of 3/],
+    [() => grid.add({ positions: new Float32Array(12), tets: [0, 1, 2] }), RangeError, /tets: 3 numbers/],
+    [() => grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 2 ** 32] }), RangeError, /tets\[3\]/],
+    [() => grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 4] }), VoxError, /tet 0 names vertex 4 of 4/],
+    [() => grid.add({ positions: new Float32Array(12), userData: -1n }), RangeError, /userData/],
+    [() => grid.mesh("left"), TypeError, /id: expected a whole number, got "left"/],
+    [() => grid.mesh(77).info, VoxError, /77/],
+    [() => left.setTransform([1, 2, 3]), RangeError, /matrix: expected 12 numbers, got 3/],
+    [() => left.replaceTets([0, 1], [0, 1, 2, 3]), RangeError, /corners: expected 4 numbers for each of 2 tets, got 4/],
+    [() => (left.enabled = 2), VoxError, /enabled is 2, expected 0 or 1/],
+    [() => grid.queryPoint([0, 0]), RangeError, /point: expected 3 numbers, got 2/],
+    [() => grid.queryPoint([0, 0, NaN]), VoxError, /point is \(0, 0, nan\)/],
+    [() => grid.queryRay([0, 0, 0], [1, 1, "1"]), TypeError, /to\[2\]: expected a number, got "1"/],
+    [() => vox.minimiseCost(7, { min: 1, max: 2 }), TypeError, /cost: expected a function/],
+  ];
+  for (const [call, Kind, text] of cases)
+    assert.throws(call, (error) => {
+      assert.ok(error instanceof Kind, `${call}: ${error.stack}`);
+      assert.match(error.message, text, `${call}`);
+      return true;
+    });
+  grid.dispose();
+});
+
+test("after dispose() every use throws", () => {
+  const { grid, left, view } = scene();
+  const names = (object) => {
+    const found = [];
+    for (let at = Object.getPrototypeOf(object); at !== Object.prototype; at = Object.getPrototypeOf(at))
+      found.push(...Object.entries(Object.getOwnPropertyDescriptors(at)));
+    return found.filter(([name]) => !["constructor", "dispose", "disposed", "mesh", "id", "grid"].includes(name));
+  };
+  grid.dispose();
+  view.dispose();
+  for (const object of [grid, left, view])
+    for (const [name, property] of names(object)) {
+      if (property.get)
+        assert.throws(() => object[name], failure(Result.ERROR_INVALID_STATE), name);
+      else if (property.value.length === 0)
+        assert.throws(() => object[name](), failure(Result.ERROR_INVALID_STATE), name);
+    }
+  assert.throws(() => grid.add(block(1)), failure(Result.ERROR_INVALID_STATE));
+  assert.throws(() => (left.positions = block(2).positions), failure(Result.ERROR_INVALID_STATE));
+  assert.throws(() => vox.stepGrids([grid]), failure(Result.ERROR_INVALID_STATE));
+  assert.throws(() => view.queryPoint([0, 0, 0]), failure(Result.ERROR_INVALID_STATE));
+  grid.dispose();
+  // Also when that happens while the arguments are being looked at.
+  const other = scene();
+  const mesh = { get positions() { other.grid.dispose(); return new Float32Array(3); } };
+  assert.throws(() => other.grid.add(mesh), failure(Result.ERROR_INVALID_STATE));
+});
+
+test("memory that cannot be had is an error", () => {
+  const { grid } = scene();
+  const hash = grid.hash;
+  assert.throws(() => grid.reserve(1, 2 ** 31), failure(Result.ERROR_OUT_OF_MEMORY));
+  assert.throws(() => grid.reserve(1, 2 ** 52), (error) => error instanceof VoxError);
+  grid.step();
+  assert.equal(grid.hash, hash);
+  grid.dispose();
+});
+
+test("garbage in every argument", (t) => {
+  let seed = Number(process.env.VOXTET_SEED ?? Date.now() % 2 ** 31);
+  t.diagnostic(`VOXTET_SEED=${seed}`);
+  const random = (n) => {
+    seed = (Math.imul(seed, 1103515245) + 12345) >>> 0;
+    return Math.floor((seed / 2 ** 32) * n);
+  };
+  const pick = (items) => items[random(items.length)];
+  class Mine extends EvalError {}
+  const detached = new Float32Array(12);
+  structuredClone(detached, { transfer: [detached.buffer] });
+  class Odd extends Float32Array {
+    static get [Symbol.species]() { throw new Mine("species"); }
+  }
+  const gone = new vox.Grid();
+  const goneMesh = gone.add(block(1));
+  gone.dispose();
+  const throwing = new Proxy({}, { get() { throw new Mine("get"); }, ownKeys() { throw new Mine("keys"); } });
+  let now;
+  const values = [
+    () => undefined, () => null, () => NaN, () => Infinity, () => -1, () => 0, () => 1, () => 4097, () => 2 ** 31, () => 2 ** 32,
+    () => 2 ** 53, () => 1.5, () => 1e300, () => "", () => "abc", () => "1", () => 7n, () => -1n, () => 2n ** 64n, () => true, () => Symbol("s"),
+    () => ({}), () => [], () => [NaN], () => [0, 1, 2, 3], () => [0, 0, 0], () => [1, "2", 3], () => () => 0, () => new Date(),
+    () => new Float32Array(), () => new Float32Array(3), () => new Float32Array(12).fill(NaN), () => new Float64Array([0.5, 0.5, 0.5]),
+    () => new Float64Array(12).fill(1e308), () => new Float32Array(7), () => new Uint32Array([0, 1, 2, 3]), () => new Uint32Array([5, 4294967295, 1, 2]),
+    () => new Uint8Array([0, 0, 1]), () => new BigInt64Array(4), () => new DataView(new ArrayBuffer(8)), () => new ArrayBuffer(64),
+    () => new SharedArrayBuffer(64), () => new Odd(12), () => detached, () => throwing, () => ({ length: 2 ** 40 }), () => ({ length: 3, 0: 1, 1: 2, 2: 3 }),
+    () => ({ length: 12 }), () => Object.create(null), () => gone, () => goneMesh, () => now.grid, () => now.left, () => now.left.positions,
+    () => now.grid.save(), () => now.grid.save().fill(random(256), random(400), random(4000)), () => now.grid.contacts, () => [now.grid, now.grid], () => [gone],
+    () => ({ positions: value(), tets: value() }), () => ({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: value(), filter: value() }),
+    () => ({ positions: block(1).positions, tets: block(1).tets, restPositions: value() }), () => ({ mask: value() }), () => ({ radius: value() }),
+    () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
+    () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), meshA: value(), meshB: value() }), () => ({ min: value(), max: value() }),
+    () => ({ engine: value(), cellSize: value(), flags: value(), log: value(), worldMin: value() }), () => ({ model: value(), pNc: value() }),
+    () => [{ coefficient: value(), power: value() }], () => [{ positions: block(1).positions, tets: block(1).tets, selfCollision: value() }],
+  ];
+  const value = () => pick(values)();
+
+  const skipped = ["constructor", "dispose", "disposed", "copied", "column", "id", "grid", "reserve"];
+  const members = [];
+  for (const target of ["grid", "left", "view", "vox", "Grid"]) {
+    const object = { ...scene(), vox, Grid: vox.Grid }[target];
+    const own = target === "vox" || target === "Grid";
+    for (let at = own ? object : Object.getPrototypeOf(object); at && at !== Object.prototype && at !== Function.prototype; at = Object.getPrototypeOf(at)) {
+      for (const [name, property] of Object.entries(Object.getOwnPropertyDescriptors(at))) {
+        if (skipped.includes(name) || ["module", "prototype", "name", "length", "calibrate"].includes(name)) continue;
+        if (property.set) members.push([target, `${name} =`, (o) => (o[name] = value())]);
+        else if (name === "Grid") members.push([target, "new Grid", (o) => new o.Grid(value()).dispose()]);
+        else if (typeof property.value === "function")
+          members.push([target, name, (o) => {
+            const back = o[name](...Array.from({ length: random(5) }, value));
+            if (target === "Grid") back.dispose(); // of load
+          }]);
+      }
+      if (own) break;
+    }
+  }
+  assert.ok(members.length > 50, `${members.length} members`);
+
+  const until = Date.now() + 1000 * Number(process.env.VOXTET_FUZZ_SECONDS ?? 5);
+  const counts = { calls: 0, refused: 0 };
+  while (Date.now() < until) {
+    now = { ...scene(), vox, Grid: vox.Grid };
+    for (let i = 0; i < 20; ++i) {
+      const before = now.grid.save();
+      const [target, name, call] = pick(members);
+      ++counts.calls;
+      try {
+        call(now[target]);
+      } catch (error) {
+        ++counts.refused;
+        const known = [TypeError, RangeError, VoxError, Mine].some((Kind) => error instanceof Kind);
+        assert.ok(known && error.code !== Result.ERROR_INTERNAL, `${target}.${name}: ${error.stack}`);
+        if (name !== "step") assert.deepEqual(now.grid.save(), before, `${target}.${name} changed the grid: ${error.stack}`);
+      }
+    }
+    now.grid.clear();
+    now.grid.add(block(2));
+    now.grid.add(block(2, [0.7, 0.31, 0.17]));
+    now.grid.step();
+    now.grid.dispose();
+    now.view.dispose();
+  }
+  vox.costWeights = null;
+  const { grid } = scene();
+  assert.equal(grid.contacts.length, scene().grid.contacts.length);
+  t.diagnostic(`${counts.calls} calls, ${counts.refused} refused`);
+  assert.ok(counts.refused > 100);
+});

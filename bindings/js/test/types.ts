@@ -1,0 +1,45 @@
+// Compiled by tsc --strict, and never run: the types are those that a program can use.
+import { GridFlags, load, PenetrationState, Result, VoxError, type Contacts, type Grid, type Vox } from "voxtet";
+
+export async function program(): Promise<number> {
+  const vox: Vox = await load({ simd: false });
+  using grid: Grid = new vox.Grid({ flags: GridFlags.PENETRATIONS | GridFlags.CONTACT_EVENTS, log: (level, text) => console.log(level, text) });
+  const mesh = grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: 7n, filter: { selfCollision: true } });
+  mesh.positions.set([0, 1, 2]);
+  mesh.positions = new Float64Array(12);
+  grid.step();
+  const contacts: Contacts = grid.contacts;
+  const vertices: Uint32Array = contacts.vertex;
+  let sum = vertices.length;
+  for (const contact of contacts.slice(1)) sum += contact.barycentric[3];
+  for (const { state, depth } of grid.penetrations) if (state === PenetrationState.SURFACE) sum += depth;
+  const last: number | undefined = contacts.at(-1)?.tet;
+  const hit = grid.queryClosest([0, 0, 0], { mask: 1n, radius: 2 });
+  const hash: bigint = grid.hash;
+  grid.takeQueryView().dispose();
+  const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5 }).cellSize;
+  const copy: Grid = vox.Grid.load(grid.save());
+  vox.stepGrids([grid, copy]);
+  try {
+    mesh.remove();
+  } catch (error) {
+    if (error instanceof VoxError && error.code === Result.ERROR_INVALID_HANDLE) return -1;
+  }
+  return sum + (last ?? 0) + (hit?.distance ?? 0) + Number(hash) + size + copy.epoch;
+}
+
+export async function mistakes(): Promise<void> {
+  const { Grid } = await load();
+  const grid = new Grid();
+  // @ts-expect-error positions are numbers in a typed array
+  grid.add({ positions: [0, 0, 0] });
+  // @ts-expect-error a misspelt option
+  new Grid({ cellsize: 1 });
+  // @ts-expect-error results are not to be written
+  grid.contacts = grid.contacts;
+  // @ts-expect-error a mesh, not its name
+  grid.setPairEnabled("left", "right", true);
+  // @ts-expect-error a hash has 64 bits
+  const hash: number = grid.hash;
+  return void hash;
+}

@@ -1,0 +1,276 @@
+import assert from "node:assert/strict";
+import { once } from "node:events";
+import test from "node:test";
+import { Worker } from "node:worker_threads";
+import { GridFlags, LogLevel, PenetrationState, ReadingFlags, Result, VoxError } from "../voxtet.js";
+import { block, loaded } from "./scenes.js";
+
+const vox = await loaded();
+const failure = (code) => (error) => error instanceof VoxError && error.code === code;
+
+function touching(options) {
+  const grid = new vox.Grid(options);
+  const left = grid.add(block(4));
+  const right = grid.add({ ...block(4, [0.7, 0.31, 0.17]), userData: 2n ** 63n });
+  grid.step();
+  return { grid, left, right };
+}
+
+test("results are columns and records of one copy", () => {
+  const { grid, left, right } = touching();
+  const contacts = grid.contacts;
+  const penetrations = grid.penetrations;
+  assert.ok(contacts.length > 20);
+  const all = [...contacts];
+  assert.equal(all.length, contacts.length);
+  all.forEach((contact, i) => {
+    assert.deepEqual(contact, contacts.at(i));
+    for (const key of ["meshA", "vertex", "meshB", "tet"]) assert.equal(contact[key], contacts[key][i]);
+    assert.deepEqual(contact.barycentric, [...contacts.barycentric.subarray(4 * i, 4 * i + 4)]);
+  });
+  assert.equal(contacts.vertex, contacts.vertex, "a column is made once");
+  assert.deepEqual(contacts.at(-1), all.at(-1));
+  assert.equal(contacts.at(all.length), undefined);
+  assert.equal(contacts.at(-all.length - 1), undefined);
+  assert.deepEqual([...contacts.slice(3, 7)], all.slice(3, 7));
+  assert.deepEqual([...contacts.slice(3, 7).vertex], all.slice(3, 7).map((c) => c.vertex));
+  assert.equal(contacts.slice(5, 2).length, 0);
+  assert.deepEqual([...contacts.slice(-2)], all.slice(-2));
+
+  const before = contacts.bytes.slice();
+  right.positions = block(4, [9, 9, 9]).positions;
+  grid.step();
+  assert.equal(grid.contacts.length, 0);
+  grid.clear();
+  grid.dispose();
+  assert.deepEqual(contacts.bytes, before);
+  assert.ok(penetrations.depth.every((depth) => depth >= 0));
+  assert.ok([...penetrations].every((p) => Object.values(PenetrationState).includes(p.state)));
+  assert.equal(contacts.meshA[0], left.id);
+});
+
+test("columns of 64 bits", () => {
+  const { grid, right } = touching();
+  assert.deepEqual([...grid.pairs.userDataB], [2n ** 63n]);
+  assert.equal(right.userData, 2n ** 63n);
+  assert.deepEqual([...grid.pairs.first], [0]);
+  assert.equal(grid.pairs.contacts.length, grid.contacts.length);
+  assert.equal(grid.pairs.at(0).aInB + grid.pairs.at(0).bInA, grid.contacts.length);
+  grid.dispose();
+});
+
+test("positions survive the growth of the memory when they are taken anew", () => {
+  const { grid, left } = touching();
+  const held = left.positions;
+  const hash = grid.hash;
+  const values = [...held];
+  const grids = [];
+  while (held.length !== 0) {
+    assert.ok(grids.length < 400, "the memory did not grow");
+    grids.push(new vox.Grid());
+    grids.at(-1).add(block(24));
+  }
+  assert.deepEqual([...left.positions], values);
+  grid.step();
+  assert.equal(grid.hash, hash);
+  left.positions[3 * grid.contacts.vertex[0]] += 0.01;
+  grid.step();
+  assert.notEqual(grid.hash, hash);
+  // Arrays in the module's memory may be given to it, although it may grow before they are copied.
+  for (let i = 0; i < 100; ++i) {
+    const copy = grid.add({ positions: left.positions, tets: left.tets });
+    assert.equal(copy.info.vertexCount, 125);
+    assert.deepEqual(copy.positions, left.positions);
+  }
+  for (const each of [grid, ...grids]) each.dispose();
+});
+
+test("positions of doubles, and of meshes without vertices", () => {
+  const grid = new vox.Grid();
+  const mesh = grid.add(block(2, [0, 0, 0], Float64Array));
+  assert.ok(mesh.positions instanceof Float64Array);
+  assert.throws(() => (mesh.positions = new Float32Array(81)), TypeError);
+  assert.throws(() => (mesh.positions = new Float64Array(3)), RangeError);
+  mesh.positions = mesh.positions;
+  const empty = grid.add({ positions: new Float32Array() });
+  assert.equal(empty.positions.length, 0);
+  assert.equal(empty.tets.length, 0);
+  grid.add({ positions: new Float32Array([0.5, 0.5, 0.5]) });
+  grid.step();
+  assert.equal(grid.counters.meshesWithoutTets, 1);
+  grid.dispose();
+});
+
+test("the log, and what it throws", () => {
+  const lines = [];
+  let grid;
+  const log = (level, text) => {
+    lines.push([level, text]);
+    if (lines.length === 2) throw new RangeError("of the log");
+    assert.throws(() => grid.step(), failure(Result.ERROR_INVALID_STATE));
+    assert.throws(() => grid.dispose(), failure(Result.ERROR_INVALID_STATE));
+  };
+  grid = new vox.Grid({ log });
+  const never = { category: 0n };
+  grid.add({ ...block(1), filter: never });
+  assert.equal(lines.length, 1, "a mesh that collides with nothing is a warning");
+  assert.equal(lines[0][0], LogLevel.WARNING);
+  assert.throws(() => grid.add({ positions: new Float32Array(3) }), /of the log/);
+  assert.equal(grid.meshes.length, 2, "the call had done its work");
+  grid.step();
+  grid.dispose();
+
+  const other = new vox.Grid();
+  const asking = new vox.Grid({ log: () => other.add(block(1)) });
+  asking.add({ ...block(1), filter: never });
+  assert.equal(other.meshes.length, 1, "a log may use other grids");
+});
+
+test("readings, queries and views", () => {
+  const { grid, left, right } = touching();
+  grid.prepareReadings({ what: ReadingFlags.POSITION | ReadingFlags.DEPTH });
+  assert.equal(grid.readings.length, grid.contacts.length);
+  assert.equal(grid.readingDepths.length, grid.contacts.length);
+  assert.ok(grid.readings.known.every((known) => known === 5));
+  assert.deepEqual(left.contacts.bytes, grid.contactsBetween(left, right).bytes);
+  assert.deepEqual(left.readings.bytes, grid.readingsBetween(right.id, left).bytes);
+  assert.throws(() => grid.queryPoint([0, 0, 0]), failure(Result.ERROR_INVALID_STATE));
+
+  grid.prepareQueries();
+  const view = grid.takeQueryView();
+  assert.equal(view.epoch, 1);
+  const middle = [0.85, 0.6, 0.6];
+  const check = (asked) => {
+    assert.deepEqual([...new Set(asked.queryPoint(middle).mesh)], [left.id, right.id]);
+    assert.equal(asked.queryClosest(middle, { radius: 0.001 }), null);
+    assert.ok(asked.queryClosest(new Float32Array(middle)).distance < 0.16);
+    const far = asked.queryClosestPoints(new Float32Array([9, 9, 9, ...middle]), { maxDistance: 1, excluded: right });
+    assert.deepEqual([...far.mesh], [0, left.id]);
+    assert.equal(asked.queryRay([-1, 0.5, 0.5], [3, 0.5, 0.5]).mesh, left.id);
+    assert.equal(asked.queryRayHits([-1, 0.6, 0.61], [3, 0.6, 0.61], { excluded: right.id }).length, 2);
+    assert.equal(asked.queryRayAny([-1, 9, 0], [3, 9, 0]), false);
+    assert.equal(asked.queryRayAny([-1, 0.5, 0.5], [3, 0.5, 0.5], { mask: 0n }), false);
+    assert.ok(asked.queryBox([-9, -9, -9], [9, 9, 9]).length === 640, "more than there is room for at first");
+  };
+  check(grid);
+  grid.clear();
+  grid.dispose();
+  check(view);
+  assert.equal(view.userData(right), 2n ** 63n);
+  view.dispose();
+  assert.throws(() => view.epoch, failure(Result.ERROR_INVALID_STATE));
+});
+
+test("edits, and meshes by name", () => {
+  const { grid, left, right } = touching();
+  const first = left.appendVertices({ copiesOf: [0, 1] });
+  assert.equal(first, 125);
+  assert.equal(left.appendVertices({ positions: new Float32Array([4, 4, 4]) }), 127);
+  assert.deepEqual([...left.positions.subarray(381)], [4, 4, 4]);
+  assert.equal(left.appendTets([0, 1, 2, 127]), 320);
+  left.setTetsEnabled([0, 1], false);
+  left.removeTets(new Uint16Array([2]));
+  assert.equal(left.info.enabledTetCount, 318);
+  assert.deepEqual([...left.enabledTets.subarray(0, 4)], [0, 0, 0, 1]);
+  left.removeVertices([126]);
+  left.setTopology(block(2));
+  assert.deepEqual(left.tets, block(2).tets);
+  left.setTransform([1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0]);
+  assert.equal(left.info.hasTransform, 1);
+  left.setTransform(null);
+  left.filter = { ...left.filter, group: -3 };
+  right.filter = { group: -3 };
+  grid.step();
+  assert.equal(grid.contacts.length, 0);
+  left.filter = {};
+  assert.equal(left.filter.group, 0);
+  grid.setPairEnabled(left, right, false);
+  left.enabled = false;
+  assert.equal(left.enabled, false);
+  right.markMoved();
+  right.remove();
+  assert.equal(right.valid, false);
+  assert.throws(() => right.info, failure(Result.ERROR_INVALID_HANDLE));
+  assert.deepEqual(grid.meshes.map((mesh) => mesh.id), [left.id]);
+  grid.dispose();
+});
+
+test("settings, failures and measurements", () => {
+  const { grid, left } = touching({ worldMin: [-1, -1, -1], worldMax: new Float64Array([9, 9, 9]), closestBudget: 1000 });
+  grid.cellSize = 0.25;
+  assert.equal(grid.cellSize, 0.25);
+  grid.flags = GridFlags.CONTACT_EVENTS;
+  assert.throws(() => grid.penetrations, failure(Result.ERROR_INVALID_STATE));
+  grid.step();
+  assert.equal(grid.contactEvents.began.length, new Set([...grid.contacts].map((c) => `${c.meshA} ${c.vertex}`)).size);
+  assert.equal(grid.touchEvents.persisted.length, 1);
+  grid.reserve(10, 1000);
+  left.positions[4] = NaN;
+  assert.throws(() => grid.step(), failure(Result.ERROR_NON_FINITE));
+  assert.equal(grid.failure().vertex, 1);
+  assert.equal(grid.failure(1), null);
+  left.positions[4] = 0;
+  grid.step();
+  assert.equal(grid.failure(), null);
+  assert.ok(grid.profile.stepNs > 0);
+  assert.equal(grid.counters.meshes, 2);
+  assert.ok(grid.suggestCellSize().cellSize > 0);
+  assert.equal(grid.suggestCellSize({ model: 0 }).model, 0);
+  assert.throws(() => new vox.Grid({ byteBudget: 10 }), failure(Result.ERROR_BUDGET));
+  grid.dispose();
+  assert.equal(grid.disposed, true);
+  grid.dispose();
+});
+
+test("costs and cell sizes", () => {
+  const meshes = [block(3), { ...block(3, [0.5, 0, 0]), selfCollision: true }];
+  const found = vox.suggestCellSize(meshes, { model: 1, pNc: 0.9 });
+  assert.equal(found.curve.length, 64);
+  assert.ok(found.terms.length > 0 && found.terms.every((term) => term.name.length > 0));
+  const cost = vox.predictCost(meshes, found.cellSize, { model: 1 });
+  assert.ok(Math.abs(cost.cost / found.predictedCost - 1) < 1e-6);
+  const least = vox.minimiseCost((size) => size + 4 / size, { min: 0.1, max: 10 });
+  assert.ok(Math.abs(least.cellSize - 2) < 1e-3 && least.zoneMin < 2);
+  const terms = [{ coefficient: 1, power: 1 }, { coefficient: 4, power: -1 }];
+  assert.ok(Math.abs(vox.minimiseCostTerms(terms, { min: 0.1, max: 10 }).cellSize - 2) < 1e-3);
+  assert.throws(() => vox.minimiseCost(() => { throw new Error("of the cost"); }, { min: 1, max: 2 }), /of the cost/);
+  assert.throws(() => vox.minimiseCost((size) => size, { min: 3, max: 2 }), failure(Result.ERROR_INVALID_ARGUMENT));
+  assert.equal(vox.zoneDistance(10, 5, 10, 20), 0);
+  const weights = vox.costWeights;
+  vox.costWeights = { fastVisitTile: 2 * weights.fastVisitTile };
+  assert.deepEqual(vox.costWeights, { ...weights, fastVisitTile: 2 * weights.fastVisitTile });
+  vox.costWeights = null;
+  assert.deepEqual(vox.costWeights, weights);
+  assert.equal(vox.calibrate().measured, 1);
+  vox.costWeights = null;
+});
+
+test("many grids", () => {
+  const grids = [touching(), touching()].map(({ grid }) => grid);
+  grids.push(new vox.Grid());
+  vox.stepGrids(grids);
+  assert.deepEqual(grids.map((grid) => grid.epoch), [2, 2, 1]);
+  const { contacts, offsets } = vox.contactsOf(grids);
+  const count = grids[0].contacts.length;
+  assert.deepEqual(offsets, [0, count, 2 * count, 2 * count]);
+  assert.deepEqual(contacts.slice(count).bytes, grids[1].contacts.bytes);
+  assert.throws(() => vox.stepGrids([grids[0], grids[0]]), failure(Result.ERROR_INVALID_ARGUMENT));
+  for (const grid of grids) grid.dispose();
+});
+
+test("dispose with using, where there is Symbol.dispose", { skip: !Symbol.dispose }, () => {
+  const grid = new vox.Grid();
+  grid[Symbol.dispose]();
+  assert.equal(grid.disposed, true);
+});
+
+test("modules are independent, and a Worker has one of its own", async () => {
+  const { grid } = touching();
+  const other = await loaded();
+  assert.throws(() => other.stepGrids([grid]), TypeError);
+  const worker = new Worker(new URL("worker.js", import.meta.url), { workerData: vox.module });
+  const [[hash, vertices]] = await once(worker, "message");
+  assert.equal(hash, grid.hash);
+  assert.deepEqual(vertices, grid.contacts.vertex);
+  await worker.terminate();
+});

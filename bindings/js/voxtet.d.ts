@@ -1,0 +1,328 @@
+/// <reference lib="esnext.disposable" />
+// voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
+import type { LogLevel, Result } from "./enums.js";
+import type {
+  ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds, CostMinimum,
+  CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter, GridDesc,
+  MeshInfo, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile, RayHit, Reading,
+  ReadingColumns, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit, TetHitColumns, TouchEvent, TouchEventColumns,
+} from "./structs.js";
+
+export * from "./enums.js";
+export type {
+  CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth, FacetHit,
+  Failure, Filter, GeometryStats, MeshInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
+} from "./structs.js";
+
+/** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
+export declare class VoxError extends Error {
+  constructor(code: Result, text: string);
+  code: Result;
+}
+
+// ---- loading ----
+
+export interface LoadOptions {
+  /** Which of the two modules to load; by default the one with SIMD, where that is supported. */
+  simd?: boolean;
+  /** Another place for the module: an address, its bytes, a Response, or a compiled module (as of a Worker). */
+  wasm?: string | URL | ArrayBuffer | ArrayBufferView | WebAssembly.Module | Response
+    | Promise<ArrayBuffer | WebAssembly.Module | Response>;
+}
+
+/** Loads the module. Each call gives another one, with its own memory; what was compiled is used again. */
+export declare function load(options?: LoadOptions): Promise<Vox>;
+
+/** Whether this machine has WebAssembly with SIMD. */
+export declare function simdSupported(): boolean;
+
+/** A module. Everything that it gives lies in its memory, and works with nothing of another module. */
+export interface Vox {
+  readonly Grid: GridConstructor;
+  /** Of the library, as "0.1.0". */
+  readonly version: string;
+  /** Compiler and options of the library. */
+  readonly buildInfo: string;
+  /** To be posted to a Worker, which gives it to `load({ wasm })`. */
+  readonly module: WebAssembly.Module;
+  /** Size of the memory. It grows, and never shrinks. */
+  readonly memoryBytes: number;
+
+  /** Steps all of them, one after the other. If some fail, all others have had their step when the first failure is thrown. */
+  stepGrids(grids: readonly Grid[]): void;
+  /** The contacts of many grids in one copy: those of grid i begin at offsets[i] and end before offsets[i + 1]. */
+  contactsOf(grids: readonly Grid[]): { contacts: Contacts; offsets: number[] };
+
+  /** The cell size that minimises the cost model for these meshes. */
+  suggestCellSize(meshes: readonly SuggestMesh[], options?: SuggestOptions): Suggestion;
+  /** The cost that the model predicts at a cell size, term by term. */
+  predictCost(meshes: readonly SuggestMesh[], cellSize: number, options?: SuggestOptions): Omit<CostPrediction, "termCount">;
+  /** Measures the weights of the cost models on this machine, and puts them into use for this module. */
+  calibrate(): CostWeights;
+  /** The weights in use. Those that an assignment does not name stay; null: those shipped with the library. */
+  get costWeights(): CostWeights;
+  set costWeights(weights: Partial<CostWeights> | null);
+  /** The cell size of least cost, for a cost function of one's own. */
+  minimiseCost(cost: (cellSize: number) => number, bounds: Bounds): Omit<CostMinimum, "curveCount">;
+  /** The same for a sum of terms coefficient * cellSize ** power. */
+  minimiseCostTerms(terms: readonly CostTerm[], bounds: Bounds): Omit<CostMinimum, "curveCount">;
+  /** Eq. 9: the distance of n from the optimum, in units of the optimal zone. */
+  zoneDistance(n: number, nMin: number, nOpt: number, nMax: number): number;
+}
+
+// ---- arrays ----
+
+/** x y z of each vertex, singles or doubles. */
+export type Positions = Float32Array | Float64Array;
+/** Numbers of vertices or tetrahedra. Arrays other than a Uint32Array are looked at number by number. */
+export type Indices = Uint32Array | Uint16Array | Uint8Array | Int32Array | Int16Array | Int8Array | readonly number[];
+export type Vector = ArrayLike<number>;
+/** 64 bits: a bigint, or a whole number below 2 ** 53. */
+export type Bits = bigint | number;
+/** A mesh, or its id; null: none. */
+export type MeshOrId = Mesh | number;
+
+/**
+ * Records in a copy of their own: nothing that the grid does later changes them. Besides `at` and iteration, which make an
+ * object of each record, every field of theirs is a property: a column of the values of all records, made when it is asked
+ * for, with those of array fields one after the other.
+ */
+export interface RecordsOf<Item, Columns> extends Iterable<Item> {
+  readonly length: number;
+  /** The copy: records as C has them, one after the other. */
+  readonly bytes: Uint8Array;
+  /** An index below 0 counts from the end. */
+  at(index: number): Item | undefined;
+  /** Those from `begin` to before `end`, as of an array, in the same memory. */
+  slice(begin?: number, end?: number): this;
+}
+export type Records<Item, Columns> = RecordsOf<Item, Columns> & Columns;
+
+export type Contacts = Records<Contact, ContactColumns>;
+export type Penetrations = Records<Penetration, PenetrationColumns>;
+export type Depths = Records<Depth, DepthColumns>;
+export type Readings = Records<Reading, ReadingColumns>;
+export type TouchEvents = Records<TouchEvent, TouchEventColumns>;
+export type ContactEvents = Records<ContactEvent, ContactEventColumns>;
+export type PointHits = Records<PointHit, PointHitColumns>;
+export type TetHits = Records<TetHit, TetHitColumns>;
+export type ClosestHits = Records<ClosestHit, ClosestHitColumns>;
+export type FacetHits = Records<FacetHit, FacetHitColumns>;
+/** The pairs that touch. `contacts`: the index of every contact once, pair by pair; those of a pair begin at its `first`. */
+export type Pairs = Records<Pair, PairColumns> & { readonly contacts: Uint32Array };
+
+// ---- grids ----
+
+export interface GridOptions
+  extends Partial<Pick<GridDesc, "engine" | "storage" | "hash" | "cellSize" | "byteBudget" | "hashTableSize" | "closestBudget">> {
+  /** The box for dense storage. */
+  worldMin?: Vector;
+  worldMax?: Vector;
+  /** GridFlags, combined with |; default GridFlags.PENETRATIONS. */
+  flags?: number;
+  /**
+   * Gets the lines that the library writes. It must not use the grid that it belongs to. What it throws is thrown by the call
+   * that wrote the line, when that call has done its work.
+   */
+  log?: (level: LogLevel, text: string) => void;
+}
+
+/** The default of selfCollision is false. */
+export interface FilterOptions extends Partial<Omit<Filter, "category" | "mask" | "penetrationMask" | "selfCollision">> {
+  category?: Bits;
+  mask?: Bits;
+  penetrationMask?: Bits;
+  selfCollision?: boolean | number;
+}
+
+export interface MeshOptions {
+  /** Copied: `Mesh.positions` moves them. */
+  positions: Positions;
+  /** Four vertices each, copied. Without any, the vertices alone collide. */
+  tets?: Indices;
+  userData?: Bits;
+  filter?: FilterOptions;
+  /** The rest pose, for FilterOptions.selfRestDistance; in numbers of the same size. */
+  restPositions?: Positions;
+}
+
+export interface SuggestMesh {
+  positions: Positions;
+  tets?: Indices;
+  selfCollision?: boolean;
+}
+
+export type SuggestOptions = Partial<SuggestDesc>;
+export type Suggestion = Omit<SuggestionStruct, "curveCount" | "termCount" | "levelCount">;
+export type Bounds = Pick<CostBounds, "min" | "max"> & Partial<CostBounds>;
+
+export interface ReadingOptions {
+  /** ReadingFlags, combined with |; default: all. */
+  what?: number;
+  /** Only contacts of this mesh, */
+  meshA?: MeshOrId;
+  /** and this one. */
+  meshB?: MeshOrId;
+  closestBudget?: number;
+}
+
+export interface QueryOptions {
+  /** A mesh takes part if its filter's category has a bit in common; default: all. */
+  mask?: Bits;
+}
+export interface ExcludingOptions extends QueryOptions {
+  /** A mesh that takes no part. */
+  excluded?: MeshOrId | null;
+}
+
+/** In the memory of the module, until dispose(): what is forgotten instead is returned at some time after it was collected. */
+export interface Owned {
+  /** Returns the memory at once. Any later use throws a VoxError; a second dispose() does nothing. */
+  dispose(): void;
+  [Symbol.dispose](): void;
+  readonly disposed: boolean;
+}
+
+/** What can be asked of a grid, as it was at the last prepareQueries(), and of a query view. Decided exactly (vox.h). */
+export interface Queries extends Owned {
+  /** The tetrahedra that contain the point. */
+  queryPoint(point: Vector, options?: QueryOptions): PointHits;
+  /** The same for many points. */
+  queryPoints(points: Positions, options?: QueryOptions): PointHits;
+  /** The tetrahedra whose bounding box meets the box. */
+  queryBox(min: Vector, max: Vector, options?: QueryOptions): TetHits;
+  /** The closest point of the surfaces within the radius (default: infinity); null if there is none. */
+  queryClosest(point: Vector, options?: QueryOptions & { radius?: number }): SurfaceHit | null;
+  /** The same for many points, with normals and signs: record i is that of point i; its mesh is 0 if there is none. */
+  queryClosestPoints(points: Positions, options?: ExcludingOptions & { maxDistance?: number }): ClosestHits;
+  /** What the segment hits first: a tetrahedron, a surface. */
+  queryRay(from: Vector, to: Vector, options?: QueryOptions): RayHit;
+  /** All facets of surfaces that the segment hits. */
+  queryRayHits(from: Vector, to: Vector, options?: ExcludingOptions): FacetHits;
+  /** Whether the segment hits any tetrahedron. */
+  queryRayAny(from: Vector, to: Vector, options?: ExcludingOptions): boolean;
+}
+
+/** The meshes of a grid at one moment, to be asked at any later time, whatever became of the grid. */
+export interface QueryView extends Queries {
+  /** Grid.epoch when it was taken. */
+  readonly epoch: number;
+  userData(mesh: MeshOrId): bigint;
+}
+
+export interface GridConstructor {
+  new (options?: GridOptions): Grid;
+  /** A grid from what `save` gave, which need not be trusted. Of the options log, budgets and engine are used. */
+  load(bytes: ArrayBuffer | ArrayBufferView, options?: GridOptions): Grid;
+  readonly prototype: Grid;
+}
+
+/** A set of meshes that collide. */
+export interface Grid extends Queries {
+  /** Removes all meshes and contacts and keeps the settings. */
+  clear(): void;
+  /** Takes memory for that many meshes and contacts in advance. */
+  reserve(meshes: number, contacts: number): void;
+  /** Edge length of a cell; 0: the library chooses. */
+  cellSize: number;
+  /** GridFlags, combined with |. */
+  flags: number;
+
+  /** Adds a mesh. Its arrays are copied. */
+  add(mesh: MeshOptions): Mesh;
+  /** The mesh of an id, as results have it. Whether there is one shows when it is used. */
+  mesh(id: number): Mesh;
+  /** All meshes, in the order of their ids. */
+  readonly meshes: Mesh[];
+  /** Whether two meshes collide, if their filters let them. */
+  setPairEnabled(meshA: MeshOrId, meshB: MeshOrId, enabled: boolean): void;
+
+  /** Finds all contacts of the positions as they are now. */
+  step(): void;
+  /** Number of steps, clears, reserves and changes of the flags so far. */
+  readonly epoch: number;
+  /** A hash of the contacts: the same on every machine. */
+  readonly hash: bigint;
+  /** The contacts of the last step; a copy, made at each use, as those that follow. */
+  readonly contacts: Contacts;
+  /** Of each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary. */
+  readonly contactInteriors: Uint8Array;
+  readonly penetrations: Penetrations;
+  /** Those of the penetrations, in double. */
+  readonly depths: Depths;
+  readonly pairs: Pairs;
+  readonly touchEvents: { all: TouchEvents; began: TouchEvents; persisted: TouchEvents; ended: TouchEvents };
+  /** For grids with GridFlags.CONTACT_EVENTS. */
+  readonly contactEvents: { all: ContactEvents; began: ContactEvents; ended: ContactEvents };
+  /** The contacts between two meshes. */
+  contactsBetween(meshA: MeshOrId, meshB: MeshOrId): Contacts;
+  /** The mesh that made the last step fail, or one of those that it left out; null beyond the last. */
+  failure(index?: number): Failure | null;
+
+  /** Computes what `readings` gives, for the contacts of the last step. */
+  prepareReadings(options?: ReadingOptions): void;
+  readonly readings: Readings;
+  /** Depth and direction of the readings, in double. */
+  readonly readingDepths: Depths;
+  readingsBetween(meshA: MeshOrId, meshB: MeshOrId): Readings;
+
+  /** Copies the present positions for the queries. */
+  prepareQueries(): void;
+  takeQueryView(): QueryView;
+
+  /** The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events. */
+  save(): Uint8Array;
+
+  readonly counters: Counters;
+  /** Nanoseconds of the last step, by stage. */
+  readonly profile: Profile;
+  /** The cell size that minimises the cost model for the meshes of the grid. */
+  suggestCellSize(options?: SuggestOptions): Suggestion;
+}
+
+/** A mesh of a grid. It is a name: the grid owns what it names, and a removed mesh is an error when it is used. */
+export interface Mesh {
+  readonly id: number;
+  readonly grid: Grid;
+  readonly valid: boolean;
+  remove(): void;
+  readonly info: MeshInfo;
+  readonly userData: bigint;
+  /**
+   * The positions, of the kind of array that the mesh was added with. This is the module's memory: what is written to it moves
+   * the mesh. Take it anew each time: the array is detached (of length 0) when the memory grows, and must not be used after the
+   * mesh was removed or got other vertices. An assignment copies positions into it.
+   */
+  get positions(): Positions;
+  set positions(positions: Positions);
+  /** A copy of the tetrahedra as they were given, those that are disabled or removed, too. */
+  readonly tets: Uint32Array;
+  /** Of each tetrahedron 1, or 0 if it is disabled or removed. */
+  readonly enabledTets: Uint8Array;
+  /** Makes the next step process the mesh even if it did not move, for measurements. */
+  markMoved(): void;
+  /** Moves the mesh as a whole by an affine map, three rows of four; null: not at all. */
+  setTransform(matrix: Vector | null): void;
+  /** What the mesh collides with. Of an assignment, what is missing becomes the default. */
+  get filter(): Filter;
+  set filter(filter: FilterOptions);
+  /** Whether the mesh takes part in steps. */
+  enabled: boolean;
+  /** The contacts of the last step that the mesh has a part in. */
+  readonly contacts: Contacts;
+  /** The prepared readings of these. */
+  readonly readings: Readings;
+
+  /** Replaces vertices, tetrahedra and positions. */
+  setTopology(mesh: Pick<MeshOptions, "positions" | "tets" | "restPositions">): void;
+  setTetsEnabled(tets: Indices, enabled: boolean): void;
+  /** Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3]. */
+  replaceTets(tets: Indices, corners: Indices): void;
+  /** Adds tetrahedra, four corners each; gives the index of the first. */
+  appendTets(corners: Indices): number;
+  removeTets(tets: Indices): void;
+  /** Adds vertices, at `positions` or at those of the vertices that they are copies of; gives the index of the first. */
+  appendVertices(vertices: { positions?: Positions; copiesOf?: Indices; restPositions?: Positions }): number;
+  removeVertices(vertices: Indices): void;
+}
+
