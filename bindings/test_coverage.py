@@ -18,6 +18,7 @@ LANGUAGES = {
     "cpp": ["include/vox/*.hpp"],
     "csharp": ["bindings/csharp/Runtime/[!N]*.cs"],  # all but Native.g.cs
     "rust": ["bindings/rust/voxtet/src/*.rs"],
+    "js": ["bindings/js/voxtet.js", "bindings/js/lib/*.js"],
     "python": ["bindings/python/src/voxtet/[!_]*.py", "bindings/python/src/voxtet/__init__.py",
                "bindings/python/src/voxtet/_library.py"],  # all but _c.py
 }

@@ -4,7 +4,7 @@ import { bits, bytes, callback, fields, flag, float, floats, indices, integer, l
 import { suggestFields, suggestion } from "./cell_size.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, pointerOf } from "./owned.js";
-import { Queries, QueryView } from "./queries.js";
+import { GRID_QUERIES, Queries, QueryView } from "./queries.js";
 import { records } from "./records.js";
 
 const GRID = ["engine", "storage", "hash", "cellSize", "worldMin", "worldMax", "byteBudget", "hashTableSize", "flags",
@@ -52,7 +52,7 @@ export class Grid extends Queries {
       memory.removeCallback(id);
       throw error;
     }
-    super(memory, "grid", pointer, close, "vox_grid_query_");
+    super(memory, "grid", pointer, close, GRID_QUERIES);
     this.#log = log;
     self = new WeakRef(this);
   }

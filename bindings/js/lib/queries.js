@@ -5,17 +5,39 @@ import { records } from "./records.js";
 
 const ALL = (1n << 64n) - 1n;
 
+/** The functions of a grid, and of a view. */
+export const GRID_QUERIES = {
+  point: "vox_grid_query_point",
+  points: "vox_grid_query_points",
+  box: "vox_grid_query_box",
+  closest: "vox_grid_query_closest",
+  closestPoints: "vox_grid_query_closest_points",
+  ray: "vox_grid_query_ray",
+  rayHits: "vox_grid_query_ray_hits",
+  rayAny: "vox_grid_query_ray_any",
+};
+const VIEW_QUERIES = {
+  point: "vox_query_view_point",
+  points: "vox_query_view_points",
+  box: "vox_query_view_box",
+  closest: "vox_query_view_closest",
+  closestPoints: "vox_query_view_closest_points",
+  ray: "vox_query_view_ray",
+  rayHits: "vox_query_view_ray_hits",
+  rayAny: "vox_query_view_ray_any",
+};
+
 /** What can be asked of a grid (as it was at prepareQueries) and of a query view. */
 export class Queries extends Owned {
-  #prefix;
+  #names;
 
-  constructor(memory, kind, pointer, release, prefix) {
+  constructor(memory, kind, pointer, release, names) {
     super(memory, kind, pointer, release);
-    this.#prefix = prefix;
+    this.#names = names;
   }
 
   #ask(name, ...given) {
-    return memoryOf(this).call[this.#prefix + name](pointerOf(this), ...given);
+    return memoryOf(this).call[this.#names[name]](pointerOf(this), ...given);
   }
 
   /** `ask(hits, capacity, count)` until there was room for all. */
@@ -89,7 +111,7 @@ export class Queries extends Owned {
       });
       const { size } = structs.vox_closest_hit;
       const hits = frame.take(count * size);
-      this.#ask("closest_points", desc, hits);
+      this.#ask("closestPoints", desc, hits);
       return records("vox_closest_hit", memory.items(hits, count, size), count);
     });
   }
@@ -109,7 +131,7 @@ export class Queries extends Owned {
     const { mask = ALL, excluded = 0 } = checked(settings, ["mask", "excluded"]);
     return memoryOf(this).frame((frame) => {
       const [a, b] = ends.map((end) => frame.numbers(end));
-      return this.#hits("vox_facet_hit", frame, 16, (...room) => this.#ask("ray_hits", a, b, mask, excluded, ...room));
+      return this.#hits("vox_facet_hit", frame, 16, (...room) => this.#ask("rayHits", a, b, mask, excluded, ...room));
     });
   }
 
@@ -119,7 +141,7 @@ export class Queries extends Owned {
     const memory = memoryOf(this);
     return memory.frame((frame) => {
       const [a, b] = ends.map((end) => frame.numbers(end));
-      return memory.number("u32", (out) => this.#ask("ray_any", a, b, mask, excluded, out)) !== 0;
+      return memory.number("u32", (out) => this.#ask("rayAny", a, b, mask, excluded, out)) !== 0;
     });
   }
 }
@@ -127,7 +149,7 @@ export class Queries extends Owned {
 /** The meshes of a grid at one moment, to be asked at any later time. */
 export class QueryView extends Queries {
   constructor(memory, pointer) {
-    super(memory, "query view", pointer, memory.call.vox_query_view_release, "vox_query_view_");
+    super(memory, "query view", pointer, memory.call.vox_query_view_release, VIEW_QUERIES);
   }
 
   get epoch() {
