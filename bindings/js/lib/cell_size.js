@@ -78,7 +78,7 @@ export function cellSizes(memory) {
 
     minimiseCost(cost, bounds) {
       callback(cost, "cost");
-      const id = memory.addCallback(() => cost);
+      const id = memory.addCallback(cost);
       try {
         return minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out));
       } finally {

@@ -15,22 +15,36 @@ const TOPOLOGY = ["positions", "tets", "restPositions"];
 const VERTICES = ["positions", "copiesOf", "restPositions"];
 const READINGS = ["what", "meshA", "meshB", "closestBudget"];
 
+let logged;
+
+// The module's memory outlives grids, and what it calls must not hold them: a log may well hold its grid. So these functions
+// stand where they see nothing else.
+
+/** The log of a grid: its own from the options, until there is an object that has it. */
+function logOf(owner) {
+  return (...line) => {
+    const grid = owner.grid?.deref();
+    if (grid) logged(grid, ...line);
+    else owner.log?.(...line);
+  };
+}
+
+function closing(memory, id) {
+  return (pointer) => {
+    memory.call.vox_grid_destroy(pointer);
+    memory.removeCallback(id);
+  };
+}
+
 /** A set of meshes that collide. */
 export class Grid extends Queries {
   #log;
 
   /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
   constructor(memory, settings, snapshot) {
-    const given = fields(settings, "options", "vox_grid_desc", GRID);
-    const log = given.log === undefined ? undefined : callback(given.log, "options.log");
-    let id = 0;
-    let self; // the log may be written to before there is an object
-    if (log)
-      id = memory.addCallback(() => (self === undefined ? log : self.deref()?.#logged()));
-    const close = (pointer) => {
-      memory.call.vox_grid_destroy(pointer);
-      memory.removeCallback(id);
-    };
+    const { log, ...given } = fields(settings, "options", "vox_grid_desc", GRID);
+    const owner = { log: log === undefined ? undefined : callback(log, "options.log") };
+    const id = log ? memory.addCallback(logOf(owner)) : 0;
     let pointer = 0;
     try {
       pointer = memory.frame((frame) => {
@@ -52,13 +66,14 @@ export class Grid extends Queries {
       memory.removeCallback(id);
       throw error;
     }
-    super(memory, "grid", pointer, close, GRID_QUERIES);
+    super(memory, "grid", pointer, closing(memory, id), GRID_QUERIES);
     this.#log = log;
-    self = new WeakRef(this);
+    owner.grid = new WeakRef(this);
+    owner.log = undefined;
   }
 
-  #logged() {
-    return (level, text) => guarded(this, () => this.#log(level, text));
+  static {
+    logged = (grid, ...line) => guarded(grid, () => grid.#log(...line));
   }
 
   #call(name, ...given) {

@@ -250,9 +250,9 @@ export class Memory {
     return readers[type](this.data, this.#out);
   }
 
-  /** A number that stands for a function, for callbacks. The function is `find()` at the time of the call. */
-  addCallback(find) {
-    this.#callbacks.set(this.#next, find);
+  /** A number that stands for a function, for callbacks. */
+  addCallback(callback) {
+    this.#callbacks.set(this.#next, callback);
     return this.#next++;
   }
 
@@ -263,7 +263,7 @@ export class Memory {
   /** What a callback throws must not unwind the module; the call from JavaScript throws it when it is done. */
   #callBack(id, ...given) {
     try {
-      return this.#callbacks.get(id)?.()?.(...given);
+      return this.#callbacks.get(id)?.(...given);
     } catch (error) {
       this.#thrown.push({ error });
       return undefined;
