@@ -239,9 +239,10 @@ class Faults(unittest.TestCase):
         for old, new, without in [
             ("    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    float barycentric[4];",
              "    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    double barycentric[4];",
-             {"enums.d.ts", "exports.txt"}),
-            ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);", {"enums.d.ts", "exports.txt"}),
-            ("VOX_SIDE_LEAVES = 2,", "VOX_SIDE_LEAVES = 3,", {"exports.txt"}),
+             {"enums.js", "enums.d.ts", "exports.txt"}),
+            ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);",
+             {"enums.js", "enums.d.ts", "structs.d.ts", "exports.txt"}),
+            ("VOX_SIDE_LEAVES = 2,", "VOX_SIDE_LEAVES = 3,", {"layout.js", "structs.d.ts", "exports.txt"}),
         ]:
             with self.subTest(new=new):
                 found = " ".join(generate.differences(BINDINGS, self.changed(old, new)))
