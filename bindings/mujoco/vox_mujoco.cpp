@@ -86,13 +86,13 @@ std::string config(const mjModel* m, int instance, const char* key) {
 Settings read_settings(const mjModel* m, int instance) {
     Settings settings;
     for (const Key& key : keys) {
-        std::string text = config(m, instance, key.name);
-        if (text == "true" || text == "false") text = text == "true" ? "1" : "0";
+        const std::string text = config(m, instance, key.name);
         if (text.empty()) continue;
         std::istringstream in(text);
         in.imbue(std::locale::classic()); // a point, whatever the program's locale
-        double value = 0;
-        if (!(in >> value) || !(in >> std::ws).eof() || !std::isfinite(value))
+        double value = text == "true";
+        const bool word = text == "true" || text == "false";
+        if (!word && (!(in >> value) || !(in >> std::ws).eof() || !std::isfinite(value)))
             fail("%s = \"%.100s\" is not a number", key.name, text.c_str());
         if (value < key.least || value > key.greatest || (key.whole && value != std::floor(value)))
             fail("%s = %g is not %s in [%g, %g]", key.name, value, key.whole ? "a whole number" : "a number",

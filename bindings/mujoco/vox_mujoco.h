@@ -6,6 +6,12 @@
 #include <mujoco/mujoco.h>
 #include <vox/vox.h>
 
+#if defined(_WIN32)
+#define VOX_MUJOCO_EXPORT __declspec(dllexport)
+#else
+#define VOX_MUJOCO_EXPORT __attribute__((visibility("default")))
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,7 +22,7 @@ extern "C" {
  * to the plugin and lives as long as `d`; whoever uses it has to be the thread that may use `d`. Null if
  * there is no such instance of vox.contact. It has no meshes before passive forces were computed for the
  * first time. */
-VOX_EXPORT const vox_grid* vox_mujoco_grid(const mjData* d, int instance);
+VOX_MUJOCO_EXPORT const vox_grid* vox_mujoco_grid(const mjData* d, int instance);
 
 #ifdef __cplusplus
 }
