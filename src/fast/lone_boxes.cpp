@@ -132,7 +132,7 @@ bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::
         for (std::size_t l = k + 1; l < count && row_of(l) == row && sorted[l].lo[rows.axis] <= end;
              ++l, ++tests)
             if (overlap(box, sorted[l])) mark(k, l);
-        for (int i = 0; i < 4; ++i) {
+        for (std::size_t i = 0; i < place.size(); ++i) {
             const std::uint32_t other = row + to_next[i];
             std::size_t& l = place[i];
             while (l < count &&
