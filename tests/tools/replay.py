@@ -41,9 +41,9 @@ class Replay(Files):
     def test_progress_on_a_terminal_is_erased_before_results(self):
         def on_a_terminal(*arguments):
             try:
-        ours, terminal = os.openpty()
-    except OSError as error:  # a bare root without /dev/pts
-        raise unittest.SkipTest(f"there are no terminals here: {error}") from error
+                ours, terminal = os.openpty()
+            except OSError as error:  # a bare root without /dev/pts
+                raise unittest.SkipTest(f"there are no terminals here: {error}") from error
             self.addCleanup(os.close, ours)
             with subprocess.Popen([TOOL, "replay", *arguments], stdout=terminal, stderr=terminal) as vox:
                 os.close(terminal)
