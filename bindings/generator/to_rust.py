@@ -4,9 +4,30 @@ from names import GENERATED, sections, whole_structs, wrapped
 
 NUMBERS = {"uint8_t": "u8", "char": "c_char", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
            "float": "f32", "double": "f64", "size_t": "usize", "void": "c_void"}
-MODELS = [("lp64", 'target_pointer_width = "64"'),
-          ("wasm32", 'all(target_pointer_width = "32", not(target_arch = "x86"))')]
 KEYWORDS = {"type", "move", "in", "ref", "where", "box", "priv", "match", "loop", "use"}
+
+# What asserts sizes and offsets: a table, and a macro over it.
+LAYOUTS = """
+// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit machines
+// that align everything to its own size].
+macro_rules! layouts {
+    ($($name:ident: size $size:tt, alignment $alignment:tt, { $($field:ident: $offset:tt),* })*) => {
+        #[cfg(any(target_pointer_width = "64", all(target_pointer_width = "32", not(target_arch = "x86"))))]
+        const _: () = {
+            use core::mem::{align_of, offset_of, size_of};
+            const MODEL: usize = if cfg!(target_pointer_width = "64") { 0 } else { 1 };
+            $(
+                assert!(size_of::<$name>() == $size[MODEL], concat!("size of ", stringify!($name)));
+                assert!(align_of::<$name>() == $alignment[MODEL], concat!("alignment of ", stringify!($name)));
+                $(assert!(
+                    offset_of!($name, $field) == $offset[MODEL],
+                    concat!("offset of ", stringify!($name), ".", stringify!($field))
+                );)*
+            )*
+        };
+    };
+}
+layouts! {""".split("\n")
 
 
 class Rust:
@@ -51,6 +72,10 @@ class Rust:
     def name(member):
         return "r#" + member["name"] if member["name"] in KEYWORDS else member["name"]
 
+    @staticmethod
+    def models(numbers):
+        return f"[{numbers['lp64']},\N{NO-BREAK SPACE}{numbers['wasm32']}]"
+
     def text(self):
         lines = [f"// {GENERATED}", "#![allow(non_camel_case_types, rustdoc::all, clippy::all)]", "",
                  "use core::ffi::{c_char, c_void};", "use core::marker::{PhantomData, PhantomPinned};", ""]
@@ -86,15 +111,12 @@ class Rust:
             for f in part["functions"]:
                 lines += wrapped(f["doc"], "    /// ") + self.declaration(f)
             lines.append("}")
-        for model, condition in MODELS:
-            lines += ["", f"#[cfg({condition})]", "const _: () = {", "    use core::mem::{align_of, offset_of, size_of};"]
-            for s in sections(self.api, "structs"):
-                name = s["name"]
-                lines.append(f"    assert!(size_of::<{name}>() == {s['size'][model]});")
-                lines.append(f"    assert!(align_of::<{name}>() == {s['alignment'][model]});")
-                for f in s["fields"]:
-                    lines.append(f"    assert!(offset_of!({name}, {self.name(f)}) == {f['offset'][model]});")
-            lines.append("};")
+        lines += LAYOUTS
+        for s in sections(self.api, "structs"):
+            fields = ", ".join(f"{self.name(f)}:\N{NO-BREAK SPACE}{self.models(f['offset'])}" for f in s["fields"])
+            entry = f"{s['name']}: size {self.models(s['size'])}, alignment {self.models(s['alignment'])}, {{ {fields}\N{NO-BREAK SPACE}}}"
+            lines += [line.replace("\N{NO-BREAK SPACE}", " ") for line in wrapped(entry, "    ", further=" " * 8)]
+        lines.append("}")
         return "\n".join(lines) + "\n"
 
 

@@ -2637,1338 +2637,192 @@ extern "C" {
     ) -> vox_result;
 }
 
-#[cfg(target_pointer_width = "64")]
-const _: () = {
-    use core::mem::{align_of, offset_of, size_of};
-    assert!(size_of::<vox_allocator>() == 24);
-    assert!(align_of::<vox_allocator>() == 8);
-    assert!(offset_of!(vox_allocator, allocate) == 0);
-    assert!(offset_of!(vox_allocator, release) == 8);
-    assert!(offset_of!(vox_allocator, user) == 16);
-    assert!(size_of::<vox_log>() == 16);
-    assert!(align_of::<vox_log>() == 8);
-    assert!(offset_of!(vox_log, write) == 0);
-    assert!(offset_of!(vox_log, user) == 8);
-    assert!(size_of::<vox_task_system>() == 24);
-    assert!(align_of::<vox_task_system>() == 8);
-    assert!(offset_of!(vox_task_system, enqueue) == 0);
-    assert!(offset_of!(vox_task_system, finish) == 8);
-    assert!(offset_of!(vox_task_system, user) == 16);
-    assert!(size_of::<vox_grid_desc>() == 168);
-    assert!(align_of::<vox_grid_desc>() == 8);
-    assert!(offset_of!(vox_grid_desc, struct_size) == 0);
-    assert!(offset_of!(vox_grid_desc, engine) == 4);
-    assert!(offset_of!(vox_grid_desc, storage) == 8);
-    assert!(offset_of!(vox_grid_desc, hash) == 12);
-    assert!(offset_of!(vox_grid_desc, cell_size) == 16);
-    assert!(offset_of!(vox_grid_desc, world_min) == 24);
-    assert!(offset_of!(vox_grid_desc, world_max) == 48);
-    assert!(offset_of!(vox_grid_desc, byte_budget) == 72);
-    assert!(offset_of!(vox_grid_desc, hash_table_size) == 80);
-    assert!(offset_of!(vox_grid_desc, allocator) == 88);
-    assert!(offset_of!(vox_grid_desc, log) == 112);
-    assert!(offset_of!(vox_grid_desc, tasks) == 128);
-    assert!(offset_of!(vox_grid_desc, worker_count) == 152);
-    assert!(offset_of!(vox_grid_desc, flags) == 156);
-    assert!(offset_of!(vox_grid_desc, closest_budget) == 160);
-    assert!(size_of::<vox_filter>() == 48);
-    assert!(align_of::<vox_filter>() == 8);
-    assert!(offset_of!(vox_filter, struct_size) == 0);
-    assert!(offset_of!(vox_filter, group) == 4);
-    assert!(offset_of!(vox_filter, category) == 8);
-    assert!(offset_of!(vox_filter, mask) == 16);
-    assert!(offset_of!(vox_filter, self_collision) == 24);
-    assert!(offset_of!(vox_filter, self_rings) == 28);
-    assert!(offset_of!(vox_filter, self_rest_distance) == 32);
-    assert!(offset_of!(vox_filter, penetration_mask) == 40);
-    assert!(size_of::<vox_mesh_desc>() == 104);
-    assert!(align_of::<vox_mesh_desc>() == 8);
-    assert!(offset_of!(vox_mesh_desc, struct_size) == 0);
-    assert!(offset_of!(vox_mesh_desc, flags) == 4);
-    assert!(offset_of!(vox_mesh_desc, positions) == 8);
-    assert!(offset_of!(vox_mesh_desc, position_byte_stride) == 16);
-    assert!(offset_of!(vox_mesh_desc, tets) == 24);
-    assert!(offset_of!(vox_mesh_desc, tet_count) == 32);
-    assert!(offset_of!(vox_mesh_desc, vertex_count) == 40);
-    assert!(offset_of!(vox_mesh_desc, user_data) == 48);
-    assert!(offset_of!(vox_mesh_desc, position_format) == 56);
-    assert!(offset_of!(vox_mesh_desc, reserved) == 60);
-    assert!(offset_of!(vox_mesh_desc, filter) == 64);
-    assert!(offset_of!(vox_mesh_desc, rest_positions) == 72);
-    assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 80);
-    assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 88);
-    assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 96);
-    assert!(size_of::<vox_mesh_info>() == 176);
-    assert!(align_of::<vox_mesh_info>() == 8);
-    assert!(offset_of!(vox_mesh_info, struct_size) == 0);
-    assert!(offset_of!(vox_mesh_info, slot) == 4);
-    assert!(offset_of!(vox_mesh_info, user_data) == 8);
-    assert!(offset_of!(vox_mesh_info, vertex_count) == 16);
-    assert!(offset_of!(vox_mesh_info, tet_count) == 24);
-    assert!(offset_of!(vox_mesh_info, enabled_tet_count) == 32);
-    assert!(offset_of!(vox_mesh_info, enabled) == 40);
-    assert!(offset_of!(vox_mesh_info, flags) == 44);
-    assert!(offset_of!(vox_mesh_info, position_format) == 48);
-    assert!(offset_of!(vox_mesh_info, has_transform) == 52);
-    assert!(offset_of!(vox_mesh_info, positions) == 56);
-    assert!(offset_of!(vox_mesh_info, position_byte_stride) == 64);
-    assert!(offset_of!(vox_mesh_info, position_component_byte_stride) == 72);
-    assert!(offset_of!(vox_mesh_info, transform) == 80);
-    assert!(size_of::<vox_vertices_desc>() == 72);
-    assert!(align_of::<vox_vertices_desc>() == 8);
-    assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
-    assert!(offset_of!(vox_vertices_desc, reserved) == 4);
-    assert!(offset_of!(vox_vertices_desc, count) == 8);
-    assert!(offset_of!(vox_vertices_desc, positions) == 16);
-    assert!(offset_of!(vox_vertices_desc, position_byte_stride) == 24);
-    assert!(offset_of!(vox_vertices_desc, copies_of) == 32);
-    assert!(offset_of!(vox_vertices_desc, rest_positions) == 40);
-    assert!(offset_of!(vox_vertices_desc, rest_position_byte_stride) == 48);
-    assert!(offset_of!(vox_vertices_desc, position_component_byte_stride) == 56);
-    assert!(offset_of!(vox_vertices_desc, rest_position_component_byte_stride) == 64);
-    assert!(size_of::<vox_failure>() == 56);
-    assert!(align_of::<vox_failure>() == 8);
-    assert!(offset_of!(vox_failure, struct_size) == 0);
-    assert!(offset_of!(vox_failure, result) == 4);
-    assert!(offset_of!(vox_failure, mesh) == 8);
-    assert!(offset_of!(vox_failure, slot) == 12);
-    assert!(offset_of!(vox_failure, user_data) == 16);
-    assert!(offset_of!(vox_failure, vertex) == 24);
-    assert!(offset_of!(vox_failure, reserved) == 28);
-    assert!(offset_of!(vox_failure, position) == 32);
-    assert!(size_of::<vox_contact>() == 32);
-    assert!(align_of::<vox_contact>() == 4);
-    assert!(offset_of!(vox_contact, mesh_a) == 0);
-    assert!(offset_of!(vox_contact, vertex) == 4);
-    assert!(offset_of!(vox_contact, mesh_b) == 8);
-    assert!(offset_of!(vox_contact, tet) == 12);
-    assert!(offset_of!(vox_contact, barycentric) == 16);
-    assert!(size_of::<vox_contact_view>() == 32);
-    assert!(align_of::<vox_contact_view>() == 8);
-    assert!(offset_of!(vox_contact_view, data) == 0);
-    assert!(offset_of!(vox_contact_view, byte_stride) == 8);
-    assert!(offset_of!(vox_contact_view, count) == 16);
-    assert!(offset_of!(vox_contact_view, epoch) == 24);
-    assert!(size_of::<vox_interior_view>() == 32);
-    assert!(align_of::<vox_interior_view>() == 8);
-    assert!(offset_of!(vox_interior_view, data) == 0);
-    assert!(offset_of!(vox_interior_view, byte_stride) == 8);
-    assert!(offset_of!(vox_interior_view, count) == 16);
-    assert!(offset_of!(vox_interior_view, epoch) == 24);
-    assert!(size_of::<vox_penetration>() == 40);
-    assert!(align_of::<vox_penetration>() == 8);
-    assert!(offset_of!(vox_penetration, mesh_a) == 0);
-    assert!(offset_of!(vox_penetration, vertex) == 4);
-    assert!(offset_of!(vox_penetration, mesh_b) == 8);
-    assert!(offset_of!(vox_penetration, state) == 12);
-    assert!(offset_of!(vox_penetration, contact) == 16);
-    assert!(offset_of!(vox_penetration, depth) == 24);
-    assert!(offset_of!(vox_penetration, direction) == 28);
-    assert!(size_of::<vox_penetration_view>() == 32);
-    assert!(align_of::<vox_penetration_view>() == 8);
-    assert!(offset_of!(vox_penetration_view, data) == 0);
-    assert!(offset_of!(vox_penetration_view, byte_stride) == 8);
-    assert!(offset_of!(vox_penetration_view, count) == 16);
-    assert!(offset_of!(vox_penetration_view, epoch) == 24);
-    assert!(size_of::<vox_depth>() == 32);
-    assert!(align_of::<vox_depth>() == 8);
-    assert!(offset_of!(vox_depth, depth) == 0);
-    assert!(offset_of!(vox_depth, direction) == 8);
-    assert!(size_of::<vox_depth_view>() == 32);
-    assert!(align_of::<vox_depth_view>() == 8);
-    assert!(offset_of!(vox_depth_view, data) == 0);
-    assert!(offset_of!(vox_depth_view, byte_stride) == 8);
-    assert!(offset_of!(vox_depth_view, count) == 16);
-    assert!(offset_of!(vox_depth_view, epoch) == 24);
-    assert!(size_of::<vox_pair>() == 48);
-    assert!(align_of::<vox_pair>() == 8);
-    assert!(offset_of!(vox_pair, mesh_a) == 0);
-    assert!(offset_of!(vox_pair, mesh_b) == 4);
-    assert!(offset_of!(vox_pair, user_data_a) == 8);
-    assert!(offset_of!(vox_pair, user_data_b) == 16);
-    assert!(offset_of!(vox_pair, first) == 24);
-    assert!(offset_of!(vox_pair, a_in_b) == 32);
-    assert!(offset_of!(vox_pair, b_in_a) == 40);
-    assert!(size_of::<vox_pair_view>() == 40);
-    assert!(align_of::<vox_pair_view>() == 8);
-    assert!(offset_of!(vox_pair_view, data) == 0);
-    assert!(offset_of!(vox_pair_view, byte_stride) == 8);
-    assert!(offset_of!(vox_pair_view, count) == 16);
-    assert!(offset_of!(vox_pair_view, epoch) == 24);
-    assert!(offset_of!(vox_pair_view, contacts) == 32);
-    assert!(size_of::<vox_touch_event>() == 32);
-    assert!(align_of::<vox_touch_event>() == 8);
-    assert!(offset_of!(vox_touch_event, mesh_a) == 0);
-    assert!(offset_of!(vox_touch_event, mesh_b) == 4);
-    assert!(offset_of!(vox_touch_event, user_data_a) == 8);
-    assert!(offset_of!(vox_touch_event, user_data_b) == 16);
-    assert!(offset_of!(vox_touch_event, kind) == 24);
-    assert!(offset_of!(vox_touch_event, pair) == 28);
-    assert!(size_of::<vox_touch_view>() == 56);
-    assert!(align_of::<vox_touch_view>() == 8);
-    assert!(offset_of!(vox_touch_view, data) == 0);
-    assert!(offset_of!(vox_touch_view, byte_stride) == 8);
-    assert!(offset_of!(vox_touch_view, count) == 16);
-    assert!(offset_of!(vox_touch_view, epoch) == 24);
-    assert!(offset_of!(vox_touch_view, began) == 32);
-    assert!(offset_of!(vox_touch_view, persisted) == 40);
-    assert!(offset_of!(vox_touch_view, ended) == 48);
-    assert!(size_of::<vox_contact_event>() == 16);
-    assert!(align_of::<vox_contact_event>() == 4);
-    assert!(offset_of!(vox_contact_event, mesh_a) == 0);
-    assert!(offset_of!(vox_contact_event, vertex) == 4);
-    assert!(offset_of!(vox_contact_event, mesh_b) == 8);
-    assert!(offset_of!(vox_contact_event, kind) == 12);
-    assert!(size_of::<vox_contact_event_view>() == 48);
-    assert!(align_of::<vox_contact_event_view>() == 8);
-    assert!(offset_of!(vox_contact_event_view, data) == 0);
-    assert!(offset_of!(vox_contact_event_view, byte_stride) == 8);
-    assert!(offset_of!(vox_contact_event_view, count) == 16);
-    assert!(offset_of!(vox_contact_event_view, epoch) == 24);
-    assert!(offset_of!(vox_contact_event_view, began) == 32);
-    assert!(offset_of!(vox_contact_event_view, ended) == 40);
-    assert!(size_of::<vox_reading>() == 168);
-    assert!(align_of::<vox_reading>() == 8);
-    assert!(offset_of!(vox_reading, contact) == 0);
-    assert!(offset_of!(vox_reading, known) == 8);
-    assert!(offset_of!(vox_reading, state) == 12);
-    assert!(offset_of!(vox_reading, depth) == 16);
-    assert!(offset_of!(vox_reading, direction) == 20);
-    assert!(offset_of!(vox_reading, position) == 32);
-    assert!(offset_of!(vox_reading, distance) == 56);
-    assert!(offset_of!(vox_reading, surface_position) == 64);
-    assert!(offset_of!(vox_reading, barycentric) == 88);
-    assert!(offset_of!(vox_reading, normal) == 112);
-    assert!(offset_of!(vox_reading, triangle) == 136);
-    assert!(offset_of!(vox_reading, reserved) == 148);
-    assert!(offset_of!(vox_reading, user_data_a) == 152);
-    assert!(offset_of!(vox_reading, user_data_b) == 160);
-    assert!(size_of::<vox_reading_view>() == 32);
-    assert!(align_of::<vox_reading_view>() == 8);
-    assert!(offset_of!(vox_reading_view, data) == 0);
-    assert!(offset_of!(vox_reading_view, byte_stride) == 8);
-    assert!(offset_of!(vox_reading_view, count) == 16);
-    assert!(offset_of!(vox_reading_view, epoch) == 24);
-    assert!(size_of::<vox_readings_desc>() == 24);
-    assert!(align_of::<vox_readings_desc>() == 8);
-    assert!(offset_of!(vox_readings_desc, struct_size) == 0);
-    assert!(offset_of!(vox_readings_desc, what) == 4);
-    assert!(offset_of!(vox_readings_desc, mesh_a) == 8);
-    assert!(offset_of!(vox_readings_desc, mesh_b) == 12);
-    assert!(offset_of!(vox_readings_desc, closest_budget) == 16);
-    assert!(size_of::<vox_point_hit>() == 28);
-    assert!(align_of::<vox_point_hit>() == 4);
-    assert!(offset_of!(vox_point_hit, point) == 0);
-    assert!(offset_of!(vox_point_hit, mesh) == 4);
-    assert!(offset_of!(vox_point_hit, tet) == 8);
-    assert!(offset_of!(vox_point_hit, barycentric) == 12);
-    assert!(size_of::<vox_tet_hit>() == 8);
-    assert!(align_of::<vox_tet_hit>() == 4);
-    assert!(offset_of!(vox_tet_hit, mesh) == 0);
-    assert!(offset_of!(vox_tet_hit, tet) == 4);
-    assert!(size_of::<vox_surface_hit>() == 72);
-    assert!(align_of::<vox_surface_hit>() == 8);
-    assert!(offset_of!(vox_surface_hit, mesh) == 0);
-    assert!(offset_of!(vox_surface_hit, tet) == 4);
-    assert!(offset_of!(vox_surface_hit, facet) == 8);
-    assert!(offset_of!(vox_surface_hit, reserved) == 12);
-    assert!(offset_of!(vox_surface_hit, barycentric) == 16);
-    assert!(offset_of!(vox_surface_hit, position) == 40);
-    assert!(offset_of!(vox_surface_hit, distance) == 64);
-    assert!(size_of::<vox_closest_desc>() == 64);
-    assert!(align_of::<vox_closest_desc>() == 8);
-    assert!(offset_of!(vox_closest_desc, struct_size) == 0);
-    assert!(offset_of!(vox_closest_desc, format) == 4);
-    assert!(offset_of!(vox_closest_desc, points) == 8);
-    assert!(offset_of!(vox_closest_desc, byte_stride) == 16);
-    assert!(offset_of!(vox_closest_desc, point_count) == 24);
-    assert!(offset_of!(vox_closest_desc, mask) == 32);
-    assert!(offset_of!(vox_closest_desc, max_distance) == 40);
-    assert!(offset_of!(vox_closest_desc, excluded) == 48);
-    assert!(offset_of!(vox_closest_desc, reserved) == 52);
-    assert!(offset_of!(vox_closest_desc, component_byte_stride) == 56);
-    assert!(size_of::<vox_closest_hit>() == 96);
-    assert!(align_of::<vox_closest_hit>() == 8);
-    assert!(offset_of!(vox_closest_hit, mesh) == 0);
-    assert!(offset_of!(vox_closest_hit, tet) == 4);
-    assert!(offset_of!(vox_closest_hit, facet) == 8);
-    assert!(offset_of!(vox_closest_hit, inside) == 12);
-    assert!(offset_of!(vox_closest_hit, barycentric) == 16);
-    assert!(offset_of!(vox_closest_hit, position) == 40);
-    assert!(offset_of!(vox_closest_hit, normal) == 64);
-    assert!(offset_of!(vox_closest_hit, distance) == 88);
-    assert!(size_of::<vox_ray_hit>() == 64);
-    assert!(align_of::<vox_ray_hit>() == 8);
-    assert!(offset_of!(vox_ray_hit, mesh) == 0);
-    assert!(offset_of!(vox_ray_hit, tet) == 4);
-    assert!(offset_of!(vox_ray_hit, t) == 8);
-    assert!(offset_of!(vox_ray_hit, surface_mesh) == 16);
-    assert!(offset_of!(vox_ray_hit, surface_tet) == 20);
-    assert!(offset_of!(vox_ray_hit, surface_facet) == 24);
-    assert!(offset_of!(vox_ray_hit, surface_side) == 28);
-    assert!(offset_of!(vox_ray_hit, surface_t) == 32);
-    assert!(offset_of!(vox_ray_hit, surface_barycentric) == 40);
-    assert!(size_of::<vox_facet_hit>() == 48);
-    assert!(align_of::<vox_facet_hit>() == 8);
-    assert!(offset_of!(vox_facet_hit, mesh) == 0);
-    assert!(offset_of!(vox_facet_hit, tet) == 4);
-    assert!(offset_of!(vox_facet_hit, facet) == 8);
-    assert!(offset_of!(vox_facet_hit, side) == 12);
-    assert!(offset_of!(vox_facet_hit, t) == 16);
-    assert!(offset_of!(vox_facet_hit, barycentric) == 24);
-    assert!(size_of::<vox_counters>() == 256);
-    assert!(align_of::<vox_counters>() == 8);
-    assert!(offset_of!(vox_counters, struct_size) == 0);
-    assert!(offset_of!(vox_counters, meshes) == 4);
-    assert!(offset_of!(vox_counters, vertices) == 8);
-    assert!(offset_of!(vox_counters, tets) == 16);
-    assert!(offset_of!(vox_counters, cells) == 24);
-    assert!(offset_of!(vox_counters, entries) == 32);
-    assert!(offset_of!(vox_counters, fullest_cell) == 40);
-    assert!(offset_of!(vox_counters, visited_cells) == 48);
-    assert!(offset_of!(vox_counters, visited_entries) == 56);
-    assert!(offset_of!(vox_counters, candidates) == 64);
-    assert!(offset_of!(vox_counters, exact_tests) == 72);
-    assert!(offset_of!(vox_counters, contacts) == 80);
-    assert!(offset_of!(vox_counters, skipped_degenerate) == 88);
-    assert!(offset_of!(vox_counters, bytes) == 96);
-    assert!(offset_of!(vox_counters, peak_bytes) == 104);
-    assert!(offset_of!(vox_counters, moved_meshes) == 112);
-    assert!(offset_of!(vox_counters, carried_contacts) == 120);
-    assert!(offset_of!(vox_counters, penetrations) == 128);
-    assert!(offset_of!(vox_counters, leaving_edges) == 136);
-    assert!(offset_of!(vox_counters, edge_tests) == 144);
-    assert!(offset_of!(vox_counters, closest_searches) == 152);
-    assert!(offset_of!(vox_counters, closest_tests) == 160);
-    assert!(offset_of!(vox_counters, disabled_meshes) == 168);
-    assert!(offset_of!(vox_counters, filtered) == 176);
-    assert!(offset_of!(vox_counters, cell_size_changes) == 184);
-    assert!(offset_of!(vox_counters, unknown_penetrations) == 192);
-    assert!(offset_of!(vox_counters, carried_penetrations) == 200);
-    assert!(offset_of!(vox_counters, skipped_meshes) == 208);
-    assert!(offset_of!(vox_counters, meshes_without_tets) == 216);
-    assert!(offset_of!(vox_counters, total_touches_began) == 224);
-    assert!(offset_of!(vox_counters, total_touches_ended) == 232);
-    assert!(offset_of!(vox_counters, total_contacts_began) == 240);
-    assert!(offset_of!(vox_counters, total_contacts_ended) == 248);
-    assert!(size_of::<vox_profile>() == 112);
-    assert!(align_of::<vox_profile>() == 8);
-    assert!(offset_of!(vox_profile, struct_size) == 0);
-    assert!(offset_of!(vox_profile, reserved) == 4);
-    assert!(offset_of!(vox_profile, step_ns) == 8);
-    assert!(offset_of!(vox_profile, bin_ns) == 16);
-    assert!(offset_of!(vox_profile, broad_ns) == 24);
-    assert!(offset_of!(vox_profile, narrow_ns) == 32);
-    assert!(offset_of!(vox_profile, contacts_ns) == 40);
-    assert!(offset_of!(vox_profile, depth_ns) == 48);
-    assert!(offset_of!(vox_profile, events_ns) == 56);
-    assert!(offset_of!(vox_profile, stream_ns) == 64);
-    assert!(offset_of!(vox_profile, winding_ns) == 72);
-    assert!(offset_of!(vox_profile, broad_phase_ns) == 80);
-    assert!(offset_of!(vox_profile, windows_ns) == 88);
-    assert!(offset_of!(vox_profile, lookup_ns) == 96);
-    assert!(offset_of!(vox_profile, decide_ns) == 104);
-    assert!(size_of::<vox_suggest_desc>() == 104);
-    assert!(align_of::<vox_suggest_desc>() == 8);
-    assert!(offset_of!(vox_suggest_desc, struct_size) == 0);
-    assert!(offset_of!(vox_suggest_desc, model) == 4);
-    assert!(offset_of!(vox_suggest_desc, size_reading) == 8);
-    assert!(offset_of!(vox_suggest_desc, area_reading) == 12);
-    assert!(offset_of!(vox_suggest_desc, p_nc) == 16);
-    assert!(offset_of!(vox_suggest_desc, cost_ratio) == 24);
-    assert!(offset_of!(vox_suggest_desc, world_edge) == 32);
-    assert!(offset_of!(vox_suggest_desc, zone_loss) == 40);
-    assert!(offset_of!(vox_suggest_desc, mean_edge_factor) == 48);
-    assert!(offset_of!(vox_suggest_desc, resolution) == 56);
-    assert!(offset_of!(vox_suggest_desc, byte_budget) == 64);
-    assert!(offset_of!(vox_suggest_desc, storage) == 72);
-    assert!(offset_of!(vox_suggest_desc, reserved) == 76);
-    assert!(offset_of!(vox_suggest_desc, allocator) == 80);
-    assert!(size_of::<vox_geometry_stats>() == 160);
-    assert!(align_of::<vox_geometry_stats>() == 8);
-    assert!(offset_of!(vox_geometry_stats, vertices) == 0);
-    assert!(offset_of!(vox_geometry_stats, tets) == 8);
-    assert!(offset_of!(vox_geometry_stats, edges) == 16);
-    assert!(offset_of!(vox_geometry_stats, facets) == 24);
-    assert!(offset_of!(vox_geometry_stats, boundary_facets) == 32);
-    assert!(offset_of!(vox_geometry_stats, degenerate_tets) == 40);
-    assert!(offset_of!(vox_geometry_stats, mean_edge) == 48);
-    assert!(offset_of!(vox_geometry_stats, mean_longest_edge) == 56);
-    assert!(offset_of!(vox_geometry_stats, mean_box_side) == 64);
-    assert!(offset_of!(vox_geometry_stats, median_box_side) == 72);
-    assert!(offset_of!(vox_geometry_stats, mean_facet_area) == 80);
-    assert!(offset_of!(vox_geometry_stats, mean_tet_facet_area) == 88);
-    assert!(offset_of!(vox_geometry_stats, mean_boundary_facet_area) == 96);
-    assert!(offset_of!(vox_geometry_stats, mean_volume) == 104);
-    assert!(offset_of!(vox_geometry_stats, bounds_min) == 112);
-    assert!(offset_of!(vox_geometry_stats, bounds_max) == 136);
-    assert!(size_of::<vox_cell_size_rules>() == 48);
-    assert!(align_of::<vox_cell_size_rules>() == 8);
-    assert!(offset_of!(vox_cell_size_rules, mean_edge) == 0);
-    assert!(offset_of!(vox_cell_size_rules, mean_edge_multiple) == 8);
-    assert!(offset_of!(vox_cell_size_rules, object_512) == 16);
-    assert!(offset_of!(vox_cell_size_rules, resolution) == 24);
-    assert!(offset_of!(vox_cell_size_rules, mean_volume) == 32);
-    assert!(offset_of!(vox_cell_size_rules, median_box_side) == 40);
-    assert!(size_of::<vox_cost_sample>() == 16);
-    assert!(align_of::<vox_cost_sample>() == 8);
-    assert!(offset_of!(vox_cost_sample, cell_size) == 0);
-    assert!(offset_of!(vox_cost_sample, cost) == 8);
-    assert!(size_of::<vox_cost_share>() == 48);
-    assert!(align_of::<vox_cost_share>() == 8);
-    assert!(offset_of!(vox_cost_share, name) == 0);
-    assert!(offset_of!(vox_cost_share, count) == 24);
-    assert!(offset_of!(vox_cost_share, cost) == 32);
-    assert!(offset_of!(vox_cost_share, share) == 40);
-    assert!(size_of::<vox_suggestion>() == 1968);
-    assert!(align_of::<vox_suggestion>() == 8);
-    assert!(offset_of!(vox_suggestion, struct_size) == 0);
-    assert!(offset_of!(vox_suggestion, model) == 4);
-    assert!(offset_of!(vox_suggestion, cell_size) == 8);
-    assert!(offset_of!(vox_suggestion, cells_per_axis) == 16);
-    assert!(offset_of!(vox_suggestion, zone_min) == 24);
-    assert!(offset_of!(vox_suggestion, zone_max) == 32);
-    assert!(offset_of!(vox_suggestion, predicted_cost) == 40);
-    assert!(offset_of!(vox_suggestion, rules) == 48);
-    assert!(offset_of!(vox_suggestion, stats) == 96);
-    assert!(offset_of!(vox_suggestion, curve) == 256);
-    assert!(offset_of!(vox_suggestion, curve_count) == 1280);
-    assert!(offset_of!(vox_suggestion, term_count) == 1284);
-    assert!(offset_of!(vox_suggestion, terms) == 1288);
-    assert!(offset_of!(vox_suggestion, rule_costs) == 1864);
-    assert!(offset_of!(vox_suggestion, budget_cell_size) == 1912);
-    assert!(offset_of!(vox_suggestion, uniform_loss) == 1920);
-    assert!(offset_of!(vox_suggestion, levels) == 1928);
-    assert!(offset_of!(vox_suggestion, level_count) == 1960);
-    assert!(offset_of!(vox_suggestion, reserved) == 1964);
-    assert!(size_of::<vox_cost_prediction>() == 600);
-    assert!(align_of::<vox_cost_prediction>() == 8);
-    assert!(offset_of!(vox_cost_prediction, struct_size) == 0);
-    assert!(offset_of!(vox_cost_prediction, term_count) == 4);
-    assert!(offset_of!(vox_cost_prediction, cell_size) == 8);
-    assert!(offset_of!(vox_cost_prediction, cost) == 16);
-    assert!(offset_of!(vox_cost_prediction, terms) == 24);
-    assert!(size_of::<vox_cost_weights>() == 136);
-    assert!(align_of::<vox_cost_weights>() == 8);
-    assert!(offset_of!(vox_cost_weights, struct_size) == 0);
-    assert!(offset_of!(vox_cost_weights, measured) == 4);
-    assert!(offset_of!(vox_cost_weights, reference_classify_vertex) == 8);
-    assert!(offset_of!(vox_cost_weights, reference_prepare_tet) == 16);
-    assert!(offset_of!(vox_cost_weights, reference_visit_cell) == 24);
-    assert!(offset_of!(vox_cost_weights, reference_scan_cell) == 32);
-    assert!(offset_of!(vox_cost_weights, reference_read_vertex) == 40);
-    assert!(offset_of!(vox_cost_weights, reference_test_box) == 48);
-    assert!(offset_of!(vox_cost_weights, reference_test_tet) == 56);
-    assert!(offset_of!(vox_cost_weights, reference_clear_bucket) == 64);
-    assert!(offset_of!(vox_cost_weights, fast_bin_vertex) == 72);
-    assert!(offset_of!(vox_cost_weights, fast_clear_cell) == 80);
-    assert!(offset_of!(vox_cost_weights, fast_visit_tile) == 88);
-    assert!(offset_of!(vox_cost_weights, fast_visit_row) == 96);
-    assert!(offset_of!(vox_cost_weights, fast_read_vertex) == 104);
-    assert!(offset_of!(vox_cost_weights, fast_test_vertex) == 112);
-    assert!(offset_of!(vox_cost_weights, reference_changed_list) == 120);
-    assert!(offset_of!(vox_cost_weights, reference_fetch_vertex) == 128);
-    assert!(size_of::<vox_cost_term>() == 16);
-    assert!(align_of::<vox_cost_term>() == 8);
-    assert!(offset_of!(vox_cost_term, coefficient) == 0);
-    assert!(offset_of!(vox_cost_term, power) == 8);
-    assert!(size_of::<vox_cost_bounds>() == 32);
-    assert!(align_of::<vox_cost_bounds>() == 8);
-    assert!(offset_of!(vox_cost_bounds, struct_size) == 0);
-    assert!(offset_of!(vox_cost_bounds, reserved) == 4);
-    assert!(offset_of!(vox_cost_bounds, min) == 8);
-    assert!(offset_of!(vox_cost_bounds, max) == 16);
-    assert!(offset_of!(vox_cost_bounds, zone_loss) == 24);
-    assert!(size_of::<vox_cost_minimum>() == 1064);
-    assert!(align_of::<vox_cost_minimum>() == 8);
-    assert!(offset_of!(vox_cost_minimum, struct_size) == 0);
-    assert!(offset_of!(vox_cost_minimum, curve_count) == 4);
-    assert!(offset_of!(vox_cost_minimum, cell_size) == 8);
-    assert!(offset_of!(vox_cost_minimum, cost) == 16);
-    assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
-    assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
-    assert!(offset_of!(vox_cost_minimum, curve) == 40);
-    assert!(size_of::<vox_io_load_desc>() == 56);
-    assert!(align_of::<vox_io_load_desc>() == 8);
-    assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_load_desc, format) == 4);
-    assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
-    assert!(offset_of!(vox_io_load_desc, reserved) == 12);
-    assert!(offset_of!(vox_io_load_desc, allocator) == 16);
-    assert!(offset_of!(vox_io_load_desc, progress) == 40);
-    assert!(offset_of!(vox_io_load_desc, progress_user) == 48);
-    assert!(size_of::<vox_io_source>() == 24);
-    assert!(align_of::<vox_io_source>() == 8);
-    assert!(offset_of!(vox_io_source, name) == 0);
-    assert!(offset_of!(vox_io_source, data) == 8);
-    assert!(offset_of!(vox_io_source, size) == 16);
-    assert!(size_of::<vox_io_mesh_view>() == 48);
-    assert!(align_of::<vox_io_mesh_view>() == 8);
-    assert!(offset_of!(vox_io_mesh_view, positions) == 0);
-    assert!(offset_of!(vox_io_mesh_view, vertex_count) == 8);
-    assert!(offset_of!(vox_io_mesh_view, tets) == 16);
-    assert!(offset_of!(vox_io_mesh_view, tet_count) == 24);
-    assert!(offset_of!(vox_io_mesh_view, triangles) == 32);
-    assert!(offset_of!(vox_io_mesh_view, triangle_count) == 40);
-    assert!(size_of::<vox_io_report>() == 208);
-    assert!(align_of::<vox_io_report>() == 8);
-    assert!(offset_of!(vox_io_report, struct_size) == 0);
-    assert!(offset_of!(vox_io_report, format) == 4);
-    assert!(offset_of!(vox_io_report, vertices) == 8);
-    assert!(offset_of!(vox_io_report, tets) == 16);
-    assert!(offset_of!(vox_io_report, triangles) == 24);
-    assert!(offset_of!(vox_io_report, skipped_elements) == 32);
-    assert!(offset_of!(vox_io_report, second_order_tets) == 40);
-    assert!(offset_of!(vox_io_report, inverted_tets) == 48);
-    assert!(offset_of!(vox_io_report, degenerate_tets) == 56);
-    assert!(offset_of!(vox_io_report, nearly_flat_tets) == 64);
-    assert!(offset_of!(vox_io_report, duplicate_tets) == 72);
-    assert!(offset_of!(vox_io_report, degenerate_triangles) == 80);
-    assert!(offset_of!(vox_io_report, duplicate_vertices) == 88);
-    assert!(offset_of!(vox_io_report, unused_vertices) == 96);
-    assert!(offset_of!(vox_io_report, boundary_facets) == 104);
-    assert!(offset_of!(vox_io_report, non_manifold_facets) == 112);
-    assert!(offset_of!(vox_io_report, open_edges) == 120);
-    assert!(offset_of!(vox_io_report, misoriented_edges) == 128);
-    assert!(offset_of!(vox_io_report, components) == 136);
-    assert!(offset_of!(vox_io_report, volume) == 144);
-    assert!(offset_of!(vox_io_report, bounds_min) == 152);
-    assert!(offset_of!(vox_io_report, bounds_max) == 176);
-    assert!(offset_of!(vox_io_report, unit_in_metres) == 200);
-    assert!(size_of::<vox_io_tetrahedralize_desc>() == 80);
-    assert!(align_of::<vox_io_tetrahedralize_desc>() == 8);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, kind) == 4);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, cell) == 8);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, max_tets) == 16);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, max_distance) == 24);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, coarsen) == 32);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, reserved) == 36);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, progress) == 40);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, progress_user) == 48);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, allocator) == 56);
-    assert!(size_of::<vox_io_quality>() == 88);
-    assert!(align_of::<vox_io_quality>() == 8);
-    assert!(offset_of!(vox_io_quality, struct_size) == 0);
-    assert!(offset_of!(vox_io_quality, reserved) == 4);
-    assert!(offset_of!(vox_io_quality, vertices) == 8);
-    assert!(offset_of!(vox_io_quality, tets) == 16);
-    assert!(offset_of!(vox_io_quality, boundary_facets) == 24);
-    assert!(offset_of!(vox_io_quality, min_dihedral) == 32);
-    assert!(offset_of!(vox_io_quality, max_dihedral) == 40);
-    assert!(offset_of!(vox_io_quality, volume) == 48);
-    assert!(offset_of!(vox_io_quality, surface_volume) == 56);
-    assert!(offset_of!(vox_io_quality, mesh_to_surface) == 64);
-    assert!(offset_of!(vox_io_quality, surface_to_mesh) == 72);
-    assert!(offset_of!(vox_io_quality, hausdorff) == 80);
-    assert!(size_of::<vox_io_point_data>() == 24);
-    assert!(align_of::<vox_io_point_data>() == 8);
-    assert!(offset_of!(vox_io_point_data, name) == 0);
-    assert!(offset_of!(vox_io_point_data, values) == 8);
-    assert!(offset_of!(vox_io_point_data, components) == 16);
-    assert!(offset_of!(vox_io_point_data, reserved) == 20);
-    assert!(size_of::<vox_io_write_desc>() == 48);
-    assert!(align_of::<vox_io_write_desc>() == 8);
-    assert!(offset_of!(vox_io_write_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_write_desc, format) == 4);
-    assert!(offset_of!(vox_io_write_desc, binary) == 8);
-    assert!(offset_of!(vox_io_write_desc, reserved) == 12);
-    assert!(offset_of!(vox_io_write_desc, point_data) == 16);
-    assert!(offset_of!(vox_io_write_desc, point_data_count) == 24);
-    assert!(offset_of!(vox_io_write_desc, cell_data) == 32);
-    assert!(offset_of!(vox_io_write_desc, cell_data_count) == 40);
-    assert!(size_of::<vox_io_sink>() == 16);
-    assert!(align_of::<vox_io_sink>() == 8);
-    assert!(offset_of!(vox_io_sink, write) == 0);
-    assert!(offset_of!(vox_io_sink, user) == 8);
-    assert!(size_of::<vox_sim_desc>() == 160);
-    assert!(align_of::<vox_sim_desc>() == 8);
-    assert!(offset_of!(vox_sim_desc, struct_size) == 0);
-    assert!(offset_of!(vox_sim_desc, substeps) == 4);
-    assert!(offset_of!(vox_sim_desc, detect_every) == 8);
-    assert!(offset_of!(vox_sim_desc, reserved) == 12);
-    assert!(offset_of!(vox_sim_desc, gravity) == 16);
-    assert!(offset_of!(vox_sim_desc, max_time_step) == 40);
-    assert!(offset_of!(vox_sim_desc, floor_normal) == 48);
-    assert!(offset_of!(vox_sim_desc, floor_offset) == 72);
-    assert!(offset_of!(vox_sim_desc, friction) == 80);
-    assert!(offset_of!(vox_sim_desc, contact_compliance) == 88);
-    assert!(offset_of!(vox_sim_desc, max_push_speed) == 96);
-    assert!(offset_of!(vox_sim_desc, contact_slop) == 104);
-    assert!(offset_of!(vox_sim_desc, grid) == 112);
-    assert!(offset_of!(vox_sim_desc, log) == 120);
-    assert!(offset_of!(vox_sim_desc, allocator) == 136);
-    assert!(size_of::<vox_sim_body_desc>() == 96);
-    assert!(align_of::<vox_sim_body_desc>() == 8);
-    assert!(offset_of!(vox_sim_body_desc, struct_size) == 0);
-    assert!(offset_of!(vox_sim_body_desc, flags) == 4);
-    assert!(offset_of!(vox_sim_body_desc, positions) == 8);
-    assert!(offset_of!(vox_sim_body_desc, rest_positions) == 16);
-    assert!(offset_of!(vox_sim_body_desc, velocities) == 24);
-    assert!(offset_of!(vox_sim_body_desc, tets) == 32);
-    assert!(offset_of!(vox_sim_body_desc, vertex_count) == 40);
-    assert!(offset_of!(vox_sim_body_desc, tet_count) == 48);
-    assert!(offset_of!(vox_sim_body_desc, density) == 56);
-    assert!(offset_of!(vox_sim_body_desc, youngs_modulus) == 64);
-    assert!(offset_of!(vox_sim_body_desc, bulk_modulus) == 72);
-    assert!(offset_of!(vox_sim_body_desc, damping) == 80);
-    assert!(offset_of!(vox_sim_body_desc, user_data) == 88);
-    assert!(size_of::<vox_sim_body_view>() == 56);
-    assert!(align_of::<vox_sim_body_view>() == 8);
-    assert!(offset_of!(vox_sim_body_view, positions) == 0);
-    assert!(offset_of!(vox_sim_body_view, velocities) == 8);
-    assert!(offset_of!(vox_sim_body_view, masses) == 16);
-    assert!(offset_of!(vox_sim_body_view, grid_positions) == 24);
-    assert!(offset_of!(vox_sim_body_view, tets) == 32);
-    assert!(offset_of!(vox_sim_body_view, vertex_count) == 40);
-    assert!(offset_of!(vox_sim_body_view, tet_count) == 48);
-    assert!(size_of::<vox_sim_energies>() == 96);
-    assert!(align_of::<vox_sim_energies>() == 8);
-    assert!(offset_of!(vox_sim_energies, struct_size) == 0);
-    assert!(offset_of!(vox_sim_energies, reserved) == 4);
-    assert!(offset_of!(vox_sim_energies, kinetic) == 8);
-    assert!(offset_of!(vox_sim_energies, potential) == 16);
-    assert!(offset_of!(vox_sim_energies, elastic) == 24);
-    assert!(offset_of!(vox_sim_energies, mass) == 32);
-    assert!(offset_of!(vox_sim_energies, momentum) == 40);
-    assert!(offset_of!(vox_sim_energies, centre) == 64);
-    assert!(offset_of!(vox_sim_energies, max_speed) == 88);
-    assert!(size_of::<vox_sim_counts>() == 144);
-    assert!(align_of::<vox_sim_counts>() == 8);
-    assert!(offset_of!(vox_sim_counts, struct_size) == 0);
-    assert!(offset_of!(vox_sim_counts, bodies) == 4);
-    assert!(offset_of!(vox_sim_counts, vertices) == 8);
-    assert!(offset_of!(vox_sim_counts, tets) == 16);
-    assert!(offset_of!(vox_sim_counts, edges) == 24);
-    assert!(offset_of!(vox_sim_counts, volumes) == 32);
-    assert!(offset_of!(vox_sim_counts, flat_tets) == 40);
-    assert!(offset_of!(vox_sim_counts, inverted_tets) == 48);
-    assert!(offset_of!(vox_sim_counts, raised_masses) == 56);
-    assert!(offset_of!(vox_sim_counts, softened) == 64);
-    assert!(offset_of!(vox_sim_counts, steps) == 72);
-    assert!(offset_of!(vox_sim_counts, substeps) == 80);
-    assert!(offset_of!(vox_sim_counts, detections) == 88);
-    assert!(offset_of!(vox_sim_counts, clamped_steps) == 96);
-    assert!(offset_of!(vox_sim_counts, penetrations) == 104);
-    assert!(offset_of!(vox_sim_counts, floor_contacts) == 112);
-    assert!(offset_of!(vox_sim_counts, step_ns) == 120);
-    assert!(offset_of!(vox_sim_counts, detect_ns) == 128);
-    assert!(offset_of!(vox_sim_counts, solve_ns) == 136);
-    assert!(size_of::<vox_experiment_desc>() == 88);
-    assert!(align_of::<vox_experiment_desc>() == 8);
-    assert!(offset_of!(vox_experiment_desc, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_desc, frames) == 4);
-    assert!(offset_of!(vox_experiment_desc, a) == 8);
-    assert!(offset_of!(vox_experiment_desc, b) == 16);
-    assert!(offset_of!(vox_experiment_desc, sim) == 24);
-    assert!(offset_of!(vox_experiment_desc, grid) == 32);
-    assert!(offset_of!(vox_experiment_desc, axis) == 40);
-    assert!(offset_of!(vox_experiment_desc, contact_share) == 64);
-    assert!(offset_of!(vox_experiment_desc, time_step) == 72);
-    assert!(offset_of!(vox_experiment_desc, turn) == 80);
-    assert!(offset_of!(vox_experiment_desc, reserved) == 84);
-    assert!(size_of::<vox_experiment_facts>() == 112);
-    assert!(align_of::<vox_experiment_facts>() == 8);
-    assert!(offset_of!(vox_experiment_facts, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_facts, frames) == 4);
-    assert!(offset_of!(vox_experiment_facts, vertices) == 8);
-    assert!(offset_of!(vox_experiment_facts, tets) == 16);
-    assert!(offset_of!(vox_experiment_facts, contacts) == 24);
-    assert!(offset_of!(vox_experiment_facts, hash) == 32);
-    assert!(offset_of!(vox_experiment_facts, distance) == 40);
-    assert!(offset_of!(vox_experiment_facts, mean_share) == 48);
-    assert!(offset_of!(vox_experiment_facts, shares) == 56);
-    assert!(offset_of!(vox_experiment_facts, bounds_min) == 64);
-    assert!(offset_of!(vox_experiment_facts, bounds_max) == 88);
-    assert!(size_of::<vox_experiment_sample>() == 56);
-    assert!(align_of::<vox_experiment_sample>() == 8);
-    assert!(offset_of!(vox_experiment_sample, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_sample, reserved) == 4);
-    assert!(offset_of!(vox_experiment_sample, cell_size) == 8);
-    assert!(offset_of!(vox_experiment_sample, mean_ns) == 16);
-    assert!(offset_of!(vox_experiment_sample, contacts) == 24);
-    assert!(offset_of!(vox_experiment_sample, visited_cells) == 32);
-    assert!(offset_of!(vox_experiment_sample, visited_entries) == 40);
-    assert!(offset_of!(vox_experiment_sample, candidates) == 48);
-    assert!(size_of::<vox_time_fit>() == 136);
-    assert!(align_of::<vox_time_fit>() == 8);
-    assert!(offset_of!(vox_time_fit, struct_size) == 0);
-    assert!(offset_of!(vox_time_fit, degree) == 4);
-    assert!(offset_of!(vox_time_fit, range_min) == 8);
-    assert!(offset_of!(vox_time_fit, range_max) == 16);
-    assert!(offset_of!(vox_time_fit, coefficients) == 24);
-    assert!(offset_of!(vox_time_fit, r_squared) == 96);
-    assert!(offset_of!(vox_time_fit, prediction_error) == 104);
-    assert!(offset_of!(vox_time_fit, cell_size) == 112);
-    assert!(offset_of!(vox_time_fit, time) == 120);
-    assert!(offset_of!(vox_time_fit, bracketed) == 128);
-    assert!(offset_of!(vox_time_fit, reserved) == 132);
-};
-
-#[cfg(all(target_pointer_width = "32", not(target_arch = "x86")))]
-const _: () = {
-    use core::mem::{align_of, offset_of, size_of};
-    assert!(size_of::<vox_allocator>() == 12);
-    assert!(align_of::<vox_allocator>() == 4);
-    assert!(offset_of!(vox_allocator, allocate) == 0);
-    assert!(offset_of!(vox_allocator, release) == 4);
-    assert!(offset_of!(vox_allocator, user) == 8);
-    assert!(size_of::<vox_log>() == 8);
-    assert!(align_of::<vox_log>() == 4);
-    assert!(offset_of!(vox_log, write) == 0);
-    assert!(offset_of!(vox_log, user) == 4);
-    assert!(size_of::<vox_task_system>() == 12);
-    assert!(align_of::<vox_task_system>() == 4);
-    assert!(offset_of!(vox_task_system, enqueue) == 0);
-    assert!(offset_of!(vox_task_system, finish) == 4);
-    assert!(offset_of!(vox_task_system, user) == 8);
-    assert!(size_of::<vox_grid_desc>() == 136);
-    assert!(align_of::<vox_grid_desc>() == 8);
-    assert!(offset_of!(vox_grid_desc, struct_size) == 0);
-    assert!(offset_of!(vox_grid_desc, engine) == 4);
-    assert!(offset_of!(vox_grid_desc, storage) == 8);
-    assert!(offset_of!(vox_grid_desc, hash) == 12);
-    assert!(offset_of!(vox_grid_desc, cell_size) == 16);
-    assert!(offset_of!(vox_grid_desc, world_min) == 24);
-    assert!(offset_of!(vox_grid_desc, world_max) == 48);
-    assert!(offset_of!(vox_grid_desc, byte_budget) == 72);
-    assert!(offset_of!(vox_grid_desc, hash_table_size) == 80);
-    assert!(offset_of!(vox_grid_desc, allocator) == 88);
-    assert!(offset_of!(vox_grid_desc, log) == 100);
-    assert!(offset_of!(vox_grid_desc, tasks) == 108);
-    assert!(offset_of!(vox_grid_desc, worker_count) == 120);
-    assert!(offset_of!(vox_grid_desc, flags) == 124);
-    assert!(offset_of!(vox_grid_desc, closest_budget) == 128);
-    assert!(size_of::<vox_filter>() == 48);
-    assert!(align_of::<vox_filter>() == 8);
-    assert!(offset_of!(vox_filter, struct_size) == 0);
-    assert!(offset_of!(vox_filter, group) == 4);
-    assert!(offset_of!(vox_filter, category) == 8);
-    assert!(offset_of!(vox_filter, mask) == 16);
-    assert!(offset_of!(vox_filter, self_collision) == 24);
-    assert!(offset_of!(vox_filter, self_rings) == 28);
-    assert!(offset_of!(vox_filter, self_rest_distance) == 32);
-    assert!(offset_of!(vox_filter, penetration_mask) == 40);
-    assert!(size_of::<vox_mesh_desc>() == 96);
-    assert!(align_of::<vox_mesh_desc>() == 8);
-    assert!(offset_of!(vox_mesh_desc, struct_size) == 0);
-    assert!(offset_of!(vox_mesh_desc, flags) == 4);
-    assert!(offset_of!(vox_mesh_desc, positions) == 8);
-    assert!(offset_of!(vox_mesh_desc, position_byte_stride) == 16);
-    assert!(offset_of!(vox_mesh_desc, tets) == 24);
-    assert!(offset_of!(vox_mesh_desc, tet_count) == 32);
-    assert!(offset_of!(vox_mesh_desc, vertex_count) == 40);
-    assert!(offset_of!(vox_mesh_desc, user_data) == 48);
-    assert!(offset_of!(vox_mesh_desc, position_format) == 56);
-    assert!(offset_of!(vox_mesh_desc, reserved) == 60);
-    assert!(offset_of!(vox_mesh_desc, filter) == 64);
-    assert!(offset_of!(vox_mesh_desc, rest_positions) == 68);
-    assert!(offset_of!(vox_mesh_desc, rest_position_byte_stride) == 72);
-    assert!(offset_of!(vox_mesh_desc, position_component_byte_stride) == 80);
-    assert!(offset_of!(vox_mesh_desc, rest_position_component_byte_stride) == 88);
-    assert!(size_of::<vox_mesh_info>() == 176);
-    assert!(align_of::<vox_mesh_info>() == 8);
-    assert!(offset_of!(vox_mesh_info, struct_size) == 0);
-    assert!(offset_of!(vox_mesh_info, slot) == 4);
-    assert!(offset_of!(vox_mesh_info, user_data) == 8);
-    assert!(offset_of!(vox_mesh_info, vertex_count) == 16);
-    assert!(offset_of!(vox_mesh_info, tet_count) == 24);
-    assert!(offset_of!(vox_mesh_info, enabled_tet_count) == 32);
-    assert!(offset_of!(vox_mesh_info, enabled) == 40);
-    assert!(offset_of!(vox_mesh_info, flags) == 44);
-    assert!(offset_of!(vox_mesh_info, position_format) == 48);
-    assert!(offset_of!(vox_mesh_info, has_transform) == 52);
-    assert!(offset_of!(vox_mesh_info, positions) == 56);
-    assert!(offset_of!(vox_mesh_info, position_byte_stride) == 64);
-    assert!(offset_of!(vox_mesh_info, position_component_byte_stride) == 72);
-    assert!(offset_of!(vox_mesh_info, transform) == 80);
-    assert!(size_of::<vox_vertices_desc>() == 64);
-    assert!(align_of::<vox_vertices_desc>() == 8);
-    assert!(offset_of!(vox_vertices_desc, struct_size) == 0);
-    assert!(offset_of!(vox_vertices_desc, reserved) == 4);
-    assert!(offset_of!(vox_vertices_desc, count) == 8);
-    assert!(offset_of!(vox_vertices_desc, positions) == 16);
-    assert!(offset_of!(vox_vertices_desc, position_byte_stride) == 24);
-    assert!(offset_of!(vox_vertices_desc, copies_of) == 32);
-    assert!(offset_of!(vox_vertices_desc, rest_positions) == 36);
-    assert!(offset_of!(vox_vertices_desc, rest_position_byte_stride) == 40);
-    assert!(offset_of!(vox_vertices_desc, position_component_byte_stride) == 48);
-    assert!(offset_of!(vox_vertices_desc, rest_position_component_byte_stride) == 56);
-    assert!(size_of::<vox_failure>() == 56);
-    assert!(align_of::<vox_failure>() == 8);
-    assert!(offset_of!(vox_failure, struct_size) == 0);
-    assert!(offset_of!(vox_failure, result) == 4);
-    assert!(offset_of!(vox_failure, mesh) == 8);
-    assert!(offset_of!(vox_failure, slot) == 12);
-    assert!(offset_of!(vox_failure, user_data) == 16);
-    assert!(offset_of!(vox_failure, vertex) == 24);
-    assert!(offset_of!(vox_failure, reserved) == 28);
-    assert!(offset_of!(vox_failure, position) == 32);
-    assert!(size_of::<vox_contact>() == 32);
-    assert!(align_of::<vox_contact>() == 4);
-    assert!(offset_of!(vox_contact, mesh_a) == 0);
-    assert!(offset_of!(vox_contact, vertex) == 4);
-    assert!(offset_of!(vox_contact, mesh_b) == 8);
-    assert!(offset_of!(vox_contact, tet) == 12);
-    assert!(offset_of!(vox_contact, barycentric) == 16);
-    assert!(size_of::<vox_contact_view>() == 24);
-    assert!(align_of::<vox_contact_view>() == 8);
-    assert!(offset_of!(vox_contact_view, data) == 0);
-    assert!(offset_of!(vox_contact_view, byte_stride) == 4);
-    assert!(offset_of!(vox_contact_view, count) == 8);
-    assert!(offset_of!(vox_contact_view, epoch) == 16);
-    assert!(size_of::<vox_interior_view>() == 24);
-    assert!(align_of::<vox_interior_view>() == 8);
-    assert!(offset_of!(vox_interior_view, data) == 0);
-    assert!(offset_of!(vox_interior_view, byte_stride) == 4);
-    assert!(offset_of!(vox_interior_view, count) == 8);
-    assert!(offset_of!(vox_interior_view, epoch) == 16);
-    assert!(size_of::<vox_penetration>() == 40);
-    assert!(align_of::<vox_penetration>() == 8);
-    assert!(offset_of!(vox_penetration, mesh_a) == 0);
-    assert!(offset_of!(vox_penetration, vertex) == 4);
-    assert!(offset_of!(vox_penetration, mesh_b) == 8);
-    assert!(offset_of!(vox_penetration, state) == 12);
-    assert!(offset_of!(vox_penetration, contact) == 16);
-    assert!(offset_of!(vox_penetration, depth) == 24);
-    assert!(offset_of!(vox_penetration, direction) == 28);
-    assert!(size_of::<vox_penetration_view>() == 24);
-    assert!(align_of::<vox_penetration_view>() == 8);
-    assert!(offset_of!(vox_penetration_view, data) == 0);
-    assert!(offset_of!(vox_penetration_view, byte_stride) == 4);
-    assert!(offset_of!(vox_penetration_view, count) == 8);
-    assert!(offset_of!(vox_penetration_view, epoch) == 16);
-    assert!(size_of::<vox_depth>() == 32);
-    assert!(align_of::<vox_depth>() == 8);
-    assert!(offset_of!(vox_depth, depth) == 0);
-    assert!(offset_of!(vox_depth, direction) == 8);
-    assert!(size_of::<vox_depth_view>() == 24);
-    assert!(align_of::<vox_depth_view>() == 8);
-    assert!(offset_of!(vox_depth_view, data) == 0);
-    assert!(offset_of!(vox_depth_view, byte_stride) == 4);
-    assert!(offset_of!(vox_depth_view, count) == 8);
-    assert!(offset_of!(vox_depth_view, epoch) == 16);
-    assert!(size_of::<vox_pair>() == 48);
-    assert!(align_of::<vox_pair>() == 8);
-    assert!(offset_of!(vox_pair, mesh_a) == 0);
-    assert!(offset_of!(vox_pair, mesh_b) == 4);
-    assert!(offset_of!(vox_pair, user_data_a) == 8);
-    assert!(offset_of!(vox_pair, user_data_b) == 16);
-    assert!(offset_of!(vox_pair, first) == 24);
-    assert!(offset_of!(vox_pair, a_in_b) == 32);
-    assert!(offset_of!(vox_pair, b_in_a) == 40);
-    assert!(size_of::<vox_pair_view>() == 32);
-    assert!(align_of::<vox_pair_view>() == 8);
-    assert!(offset_of!(vox_pair_view, data) == 0);
-    assert!(offset_of!(vox_pair_view, byte_stride) == 4);
-    assert!(offset_of!(vox_pair_view, count) == 8);
-    assert!(offset_of!(vox_pair_view, epoch) == 16);
-    assert!(offset_of!(vox_pair_view, contacts) == 24);
-    assert!(size_of::<vox_touch_event>() == 32);
-    assert!(align_of::<vox_touch_event>() == 8);
-    assert!(offset_of!(vox_touch_event, mesh_a) == 0);
-    assert!(offset_of!(vox_touch_event, mesh_b) == 4);
-    assert!(offset_of!(vox_touch_event, user_data_a) == 8);
-    assert!(offset_of!(vox_touch_event, user_data_b) == 16);
-    assert!(offset_of!(vox_touch_event, kind) == 24);
-    assert!(offset_of!(vox_touch_event, pair) == 28);
-    assert!(size_of::<vox_touch_view>() == 48);
-    assert!(align_of::<vox_touch_view>() == 8);
-    assert!(offset_of!(vox_touch_view, data) == 0);
-    assert!(offset_of!(vox_touch_view, byte_stride) == 4);
-    assert!(offset_of!(vox_touch_view, count) == 8);
-    assert!(offset_of!(vox_touch_view, epoch) == 16);
-    assert!(offset_of!(vox_touch_view, began) == 24);
-    assert!(offset_of!(vox_touch_view, persisted) == 32);
-    assert!(offset_of!(vox_touch_view, ended) == 40);
-    assert!(size_of::<vox_contact_event>() == 16);
-    assert!(align_of::<vox_contact_event>() == 4);
-    assert!(offset_of!(vox_contact_event, mesh_a) == 0);
-    assert!(offset_of!(vox_contact_event, vertex) == 4);
-    assert!(offset_of!(vox_contact_event, mesh_b) == 8);
-    assert!(offset_of!(vox_contact_event, kind) == 12);
-    assert!(size_of::<vox_contact_event_view>() == 40);
-    assert!(align_of::<vox_contact_event_view>() == 8);
-    assert!(offset_of!(vox_contact_event_view, data) == 0);
-    assert!(offset_of!(vox_contact_event_view, byte_stride) == 4);
-    assert!(offset_of!(vox_contact_event_view, count) == 8);
-    assert!(offset_of!(vox_contact_event_view, epoch) == 16);
-    assert!(offset_of!(vox_contact_event_view, began) == 24);
-    assert!(offset_of!(vox_contact_event_view, ended) == 32);
-    assert!(size_of::<vox_reading>() == 168);
-    assert!(align_of::<vox_reading>() == 8);
-    assert!(offset_of!(vox_reading, contact) == 0);
-    assert!(offset_of!(vox_reading, known) == 8);
-    assert!(offset_of!(vox_reading, state) == 12);
-    assert!(offset_of!(vox_reading, depth) == 16);
-    assert!(offset_of!(vox_reading, direction) == 20);
-    assert!(offset_of!(vox_reading, position) == 32);
-    assert!(offset_of!(vox_reading, distance) == 56);
-    assert!(offset_of!(vox_reading, surface_position) == 64);
-    assert!(offset_of!(vox_reading, barycentric) == 88);
-    assert!(offset_of!(vox_reading, normal) == 112);
-    assert!(offset_of!(vox_reading, triangle) == 136);
-    assert!(offset_of!(vox_reading, reserved) == 148);
-    assert!(offset_of!(vox_reading, user_data_a) == 152);
-    assert!(offset_of!(vox_reading, user_data_b) == 160);
-    assert!(size_of::<vox_reading_view>() == 24);
-    assert!(align_of::<vox_reading_view>() == 8);
-    assert!(offset_of!(vox_reading_view, data) == 0);
-    assert!(offset_of!(vox_reading_view, byte_stride) == 4);
-    assert!(offset_of!(vox_reading_view, count) == 8);
-    assert!(offset_of!(vox_reading_view, epoch) == 16);
-    assert!(size_of::<vox_readings_desc>() == 24);
-    assert!(align_of::<vox_readings_desc>() == 8);
-    assert!(offset_of!(vox_readings_desc, struct_size) == 0);
-    assert!(offset_of!(vox_readings_desc, what) == 4);
-    assert!(offset_of!(vox_readings_desc, mesh_a) == 8);
-    assert!(offset_of!(vox_readings_desc, mesh_b) == 12);
-    assert!(offset_of!(vox_readings_desc, closest_budget) == 16);
-    assert!(size_of::<vox_point_hit>() == 28);
-    assert!(align_of::<vox_point_hit>() == 4);
-    assert!(offset_of!(vox_point_hit, point) == 0);
-    assert!(offset_of!(vox_point_hit, mesh) == 4);
-    assert!(offset_of!(vox_point_hit, tet) == 8);
-    assert!(offset_of!(vox_point_hit, barycentric) == 12);
-    assert!(size_of::<vox_tet_hit>() == 8);
-    assert!(align_of::<vox_tet_hit>() == 4);
-    assert!(offset_of!(vox_tet_hit, mesh) == 0);
-    assert!(offset_of!(vox_tet_hit, tet) == 4);
-    assert!(size_of::<vox_surface_hit>() == 72);
-    assert!(align_of::<vox_surface_hit>() == 8);
-    assert!(offset_of!(vox_surface_hit, mesh) == 0);
-    assert!(offset_of!(vox_surface_hit, tet) == 4);
-    assert!(offset_of!(vox_surface_hit, facet) == 8);
-    assert!(offset_of!(vox_surface_hit, reserved) == 12);
-    assert!(offset_of!(vox_surface_hit, barycentric) == 16);
-    assert!(offset_of!(vox_surface_hit, position) == 40);
-    assert!(offset_of!(vox_surface_hit, distance) == 64);
-    assert!(size_of::<vox_closest_desc>() == 64);
-    assert!(align_of::<vox_closest_desc>() == 8);
-    assert!(offset_of!(vox_closest_desc, struct_size) == 0);
-    assert!(offset_of!(vox_closest_desc, format) == 4);
-    assert!(offset_of!(vox_closest_desc, points) == 8);
-    assert!(offset_of!(vox_closest_desc, byte_stride) == 16);
-    assert!(offset_of!(vox_closest_desc, point_count) == 24);
-    assert!(offset_of!(vox_closest_desc, mask) == 32);
-    assert!(offset_of!(vox_closest_desc, max_distance) == 40);
-    assert!(offset_of!(vox_closest_desc, excluded) == 48);
-    assert!(offset_of!(vox_closest_desc, reserved) == 52);
-    assert!(offset_of!(vox_closest_desc, component_byte_stride) == 56);
-    assert!(size_of::<vox_closest_hit>() == 96);
-    assert!(align_of::<vox_closest_hit>() == 8);
-    assert!(offset_of!(vox_closest_hit, mesh) == 0);
-    assert!(offset_of!(vox_closest_hit, tet) == 4);
-    assert!(offset_of!(vox_closest_hit, facet) == 8);
-    assert!(offset_of!(vox_closest_hit, inside) == 12);
-    assert!(offset_of!(vox_closest_hit, barycentric) == 16);
-    assert!(offset_of!(vox_closest_hit, position) == 40);
-    assert!(offset_of!(vox_closest_hit, normal) == 64);
-    assert!(offset_of!(vox_closest_hit, distance) == 88);
-    assert!(size_of::<vox_ray_hit>() == 64);
-    assert!(align_of::<vox_ray_hit>() == 8);
-    assert!(offset_of!(vox_ray_hit, mesh) == 0);
-    assert!(offset_of!(vox_ray_hit, tet) == 4);
-    assert!(offset_of!(vox_ray_hit, t) == 8);
-    assert!(offset_of!(vox_ray_hit, surface_mesh) == 16);
-    assert!(offset_of!(vox_ray_hit, surface_tet) == 20);
-    assert!(offset_of!(vox_ray_hit, surface_facet) == 24);
-    assert!(offset_of!(vox_ray_hit, surface_side) == 28);
-    assert!(offset_of!(vox_ray_hit, surface_t) == 32);
-    assert!(offset_of!(vox_ray_hit, surface_barycentric) == 40);
-    assert!(size_of::<vox_facet_hit>() == 48);
-    assert!(align_of::<vox_facet_hit>() == 8);
-    assert!(offset_of!(vox_facet_hit, mesh) == 0);
-    assert!(offset_of!(vox_facet_hit, tet) == 4);
-    assert!(offset_of!(vox_facet_hit, facet) == 8);
-    assert!(offset_of!(vox_facet_hit, side) == 12);
-    assert!(offset_of!(vox_facet_hit, t) == 16);
-    assert!(offset_of!(vox_facet_hit, barycentric) == 24);
-    assert!(size_of::<vox_counters>() == 256);
-    assert!(align_of::<vox_counters>() == 8);
-    assert!(offset_of!(vox_counters, struct_size) == 0);
-    assert!(offset_of!(vox_counters, meshes) == 4);
-    assert!(offset_of!(vox_counters, vertices) == 8);
-    assert!(offset_of!(vox_counters, tets) == 16);
-    assert!(offset_of!(vox_counters, cells) == 24);
-    assert!(offset_of!(vox_counters, entries) == 32);
-    assert!(offset_of!(vox_counters, fullest_cell) == 40);
-    assert!(offset_of!(vox_counters, visited_cells) == 48);
-    assert!(offset_of!(vox_counters, visited_entries) == 56);
-    assert!(offset_of!(vox_counters, candidates) == 64);
-    assert!(offset_of!(vox_counters, exact_tests) == 72);
-    assert!(offset_of!(vox_counters, contacts) == 80);
-    assert!(offset_of!(vox_counters, skipped_degenerate) == 88);
-    assert!(offset_of!(vox_counters, bytes) == 96);
-    assert!(offset_of!(vox_counters, peak_bytes) == 104);
-    assert!(offset_of!(vox_counters, moved_meshes) == 112);
-    assert!(offset_of!(vox_counters, carried_contacts) == 120);
-    assert!(offset_of!(vox_counters, penetrations) == 128);
-    assert!(offset_of!(vox_counters, leaving_edges) == 136);
-    assert!(offset_of!(vox_counters, edge_tests) == 144);
-    assert!(offset_of!(vox_counters, closest_searches) == 152);
-    assert!(offset_of!(vox_counters, closest_tests) == 160);
-    assert!(offset_of!(vox_counters, disabled_meshes) == 168);
-    assert!(offset_of!(vox_counters, filtered) == 176);
-    assert!(offset_of!(vox_counters, cell_size_changes) == 184);
-    assert!(offset_of!(vox_counters, unknown_penetrations) == 192);
-    assert!(offset_of!(vox_counters, carried_penetrations) == 200);
-    assert!(offset_of!(vox_counters, skipped_meshes) == 208);
-    assert!(offset_of!(vox_counters, meshes_without_tets) == 216);
-    assert!(offset_of!(vox_counters, total_touches_began) == 224);
-    assert!(offset_of!(vox_counters, total_touches_ended) == 232);
-    assert!(offset_of!(vox_counters, total_contacts_began) == 240);
-    assert!(offset_of!(vox_counters, total_contacts_ended) == 248);
-    assert!(size_of::<vox_profile>() == 112);
-    assert!(align_of::<vox_profile>() == 8);
-    assert!(offset_of!(vox_profile, struct_size) == 0);
-    assert!(offset_of!(vox_profile, reserved) == 4);
-    assert!(offset_of!(vox_profile, step_ns) == 8);
-    assert!(offset_of!(vox_profile, bin_ns) == 16);
-    assert!(offset_of!(vox_profile, broad_ns) == 24);
-    assert!(offset_of!(vox_profile, narrow_ns) == 32);
-    assert!(offset_of!(vox_profile, contacts_ns) == 40);
-    assert!(offset_of!(vox_profile, depth_ns) == 48);
-    assert!(offset_of!(vox_profile, events_ns) == 56);
-    assert!(offset_of!(vox_profile, stream_ns) == 64);
-    assert!(offset_of!(vox_profile, winding_ns) == 72);
-    assert!(offset_of!(vox_profile, broad_phase_ns) == 80);
-    assert!(offset_of!(vox_profile, windows_ns) == 88);
-    assert!(offset_of!(vox_profile, lookup_ns) == 96);
-    assert!(offset_of!(vox_profile, decide_ns) == 104);
-    assert!(size_of::<vox_suggest_desc>() == 96);
-    assert!(align_of::<vox_suggest_desc>() == 8);
-    assert!(offset_of!(vox_suggest_desc, struct_size) == 0);
-    assert!(offset_of!(vox_suggest_desc, model) == 4);
-    assert!(offset_of!(vox_suggest_desc, size_reading) == 8);
-    assert!(offset_of!(vox_suggest_desc, area_reading) == 12);
-    assert!(offset_of!(vox_suggest_desc, p_nc) == 16);
-    assert!(offset_of!(vox_suggest_desc, cost_ratio) == 24);
-    assert!(offset_of!(vox_suggest_desc, world_edge) == 32);
-    assert!(offset_of!(vox_suggest_desc, zone_loss) == 40);
-    assert!(offset_of!(vox_suggest_desc, mean_edge_factor) == 48);
-    assert!(offset_of!(vox_suggest_desc, resolution) == 56);
-    assert!(offset_of!(vox_suggest_desc, byte_budget) == 64);
-    assert!(offset_of!(vox_suggest_desc, storage) == 72);
-    assert!(offset_of!(vox_suggest_desc, reserved) == 76);
-    assert!(offset_of!(vox_suggest_desc, allocator) == 80);
-    assert!(size_of::<vox_geometry_stats>() == 160);
-    assert!(align_of::<vox_geometry_stats>() == 8);
-    assert!(offset_of!(vox_geometry_stats, vertices) == 0);
-    assert!(offset_of!(vox_geometry_stats, tets) == 8);
-    assert!(offset_of!(vox_geometry_stats, edges) == 16);
-    assert!(offset_of!(vox_geometry_stats, facets) == 24);
-    assert!(offset_of!(vox_geometry_stats, boundary_facets) == 32);
-    assert!(offset_of!(vox_geometry_stats, degenerate_tets) == 40);
-    assert!(offset_of!(vox_geometry_stats, mean_edge) == 48);
-    assert!(offset_of!(vox_geometry_stats, mean_longest_edge) == 56);
-    assert!(offset_of!(vox_geometry_stats, mean_box_side) == 64);
-    assert!(offset_of!(vox_geometry_stats, median_box_side) == 72);
-    assert!(offset_of!(vox_geometry_stats, mean_facet_area) == 80);
-    assert!(offset_of!(vox_geometry_stats, mean_tet_facet_area) == 88);
-    assert!(offset_of!(vox_geometry_stats, mean_boundary_facet_area) == 96);
-    assert!(offset_of!(vox_geometry_stats, mean_volume) == 104);
-    assert!(offset_of!(vox_geometry_stats, bounds_min) == 112);
-    assert!(offset_of!(vox_geometry_stats, bounds_max) == 136);
-    assert!(size_of::<vox_cell_size_rules>() == 48);
-    assert!(align_of::<vox_cell_size_rules>() == 8);
-    assert!(offset_of!(vox_cell_size_rules, mean_edge) == 0);
-    assert!(offset_of!(vox_cell_size_rules, mean_edge_multiple) == 8);
-    assert!(offset_of!(vox_cell_size_rules, object_512) == 16);
-    assert!(offset_of!(vox_cell_size_rules, resolution) == 24);
-    assert!(offset_of!(vox_cell_size_rules, mean_volume) == 32);
-    assert!(offset_of!(vox_cell_size_rules, median_box_side) == 40);
-    assert!(size_of::<vox_cost_sample>() == 16);
-    assert!(align_of::<vox_cost_sample>() == 8);
-    assert!(offset_of!(vox_cost_sample, cell_size) == 0);
-    assert!(offset_of!(vox_cost_sample, cost) == 8);
-    assert!(size_of::<vox_cost_share>() == 48);
-    assert!(align_of::<vox_cost_share>() == 8);
-    assert!(offset_of!(vox_cost_share, name) == 0);
-    assert!(offset_of!(vox_cost_share, count) == 24);
-    assert!(offset_of!(vox_cost_share, cost) == 32);
-    assert!(offset_of!(vox_cost_share, share) == 40);
-    assert!(size_of::<vox_suggestion>() == 1968);
-    assert!(align_of::<vox_suggestion>() == 8);
-    assert!(offset_of!(vox_suggestion, struct_size) == 0);
-    assert!(offset_of!(vox_suggestion, model) == 4);
-    assert!(offset_of!(vox_suggestion, cell_size) == 8);
-    assert!(offset_of!(vox_suggestion, cells_per_axis) == 16);
-    assert!(offset_of!(vox_suggestion, zone_min) == 24);
-    assert!(offset_of!(vox_suggestion, zone_max) == 32);
-    assert!(offset_of!(vox_suggestion, predicted_cost) == 40);
-    assert!(offset_of!(vox_suggestion, rules) == 48);
-    assert!(offset_of!(vox_suggestion, stats) == 96);
-    assert!(offset_of!(vox_suggestion, curve) == 256);
-    assert!(offset_of!(vox_suggestion, curve_count) == 1280);
-    assert!(offset_of!(vox_suggestion, term_count) == 1284);
-    assert!(offset_of!(vox_suggestion, terms) == 1288);
-    assert!(offset_of!(vox_suggestion, rule_costs) == 1864);
-    assert!(offset_of!(vox_suggestion, budget_cell_size) == 1912);
-    assert!(offset_of!(vox_suggestion, uniform_loss) == 1920);
-    assert!(offset_of!(vox_suggestion, levels) == 1928);
-    assert!(offset_of!(vox_suggestion, level_count) == 1960);
-    assert!(offset_of!(vox_suggestion, reserved) == 1964);
-    assert!(size_of::<vox_cost_prediction>() == 600);
-    assert!(align_of::<vox_cost_prediction>() == 8);
-    assert!(offset_of!(vox_cost_prediction, struct_size) == 0);
-    assert!(offset_of!(vox_cost_prediction, term_count) == 4);
-    assert!(offset_of!(vox_cost_prediction, cell_size) == 8);
-    assert!(offset_of!(vox_cost_prediction, cost) == 16);
-    assert!(offset_of!(vox_cost_prediction, terms) == 24);
-    assert!(size_of::<vox_cost_weights>() == 136);
-    assert!(align_of::<vox_cost_weights>() == 8);
-    assert!(offset_of!(vox_cost_weights, struct_size) == 0);
-    assert!(offset_of!(vox_cost_weights, measured) == 4);
-    assert!(offset_of!(vox_cost_weights, reference_classify_vertex) == 8);
-    assert!(offset_of!(vox_cost_weights, reference_prepare_tet) == 16);
-    assert!(offset_of!(vox_cost_weights, reference_visit_cell) == 24);
-    assert!(offset_of!(vox_cost_weights, reference_scan_cell) == 32);
-    assert!(offset_of!(vox_cost_weights, reference_read_vertex) == 40);
-    assert!(offset_of!(vox_cost_weights, reference_test_box) == 48);
-    assert!(offset_of!(vox_cost_weights, reference_test_tet) == 56);
-    assert!(offset_of!(vox_cost_weights, reference_clear_bucket) == 64);
-    assert!(offset_of!(vox_cost_weights, fast_bin_vertex) == 72);
-    assert!(offset_of!(vox_cost_weights, fast_clear_cell) == 80);
-    assert!(offset_of!(vox_cost_weights, fast_visit_tile) == 88);
-    assert!(offset_of!(vox_cost_weights, fast_visit_row) == 96);
-    assert!(offset_of!(vox_cost_weights, fast_read_vertex) == 104);
-    assert!(offset_of!(vox_cost_weights, fast_test_vertex) == 112);
-    assert!(offset_of!(vox_cost_weights, reference_changed_list) == 120);
-    assert!(offset_of!(vox_cost_weights, reference_fetch_vertex) == 128);
-    assert!(size_of::<vox_cost_term>() == 16);
-    assert!(align_of::<vox_cost_term>() == 8);
-    assert!(offset_of!(vox_cost_term, coefficient) == 0);
-    assert!(offset_of!(vox_cost_term, power) == 8);
-    assert!(size_of::<vox_cost_bounds>() == 32);
-    assert!(align_of::<vox_cost_bounds>() == 8);
-    assert!(offset_of!(vox_cost_bounds, struct_size) == 0);
-    assert!(offset_of!(vox_cost_bounds, reserved) == 4);
-    assert!(offset_of!(vox_cost_bounds, min) == 8);
-    assert!(offset_of!(vox_cost_bounds, max) == 16);
-    assert!(offset_of!(vox_cost_bounds, zone_loss) == 24);
-    assert!(size_of::<vox_cost_minimum>() == 1064);
-    assert!(align_of::<vox_cost_minimum>() == 8);
-    assert!(offset_of!(vox_cost_minimum, struct_size) == 0);
-    assert!(offset_of!(vox_cost_minimum, curve_count) == 4);
-    assert!(offset_of!(vox_cost_minimum, cell_size) == 8);
-    assert!(offset_of!(vox_cost_minimum, cost) == 16);
-    assert!(offset_of!(vox_cost_minimum, zone_min) == 24);
-    assert!(offset_of!(vox_cost_minimum, zone_max) == 32);
-    assert!(offset_of!(vox_cost_minimum, curve) == 40);
-    assert!(size_of::<vox_io_load_desc>() == 36);
-    assert!(align_of::<vox_io_load_desc>() == 4);
-    assert!(offset_of!(vox_io_load_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_load_desc, format) == 4);
-    assert!(offset_of!(vox_io_load_desc, mesh_index) == 8);
-    assert!(offset_of!(vox_io_load_desc, reserved) == 12);
-    assert!(offset_of!(vox_io_load_desc, allocator) == 16);
-    assert!(offset_of!(vox_io_load_desc, progress) == 28);
-    assert!(offset_of!(vox_io_load_desc, progress_user) == 32);
-    assert!(size_of::<vox_io_source>() == 12);
-    assert!(align_of::<vox_io_source>() == 4);
-    assert!(offset_of!(vox_io_source, name) == 0);
-    assert!(offset_of!(vox_io_source, data) == 4);
-    assert!(offset_of!(vox_io_source, size) == 8);
-    assert!(size_of::<vox_io_mesh_view>() == 48);
-    assert!(align_of::<vox_io_mesh_view>() == 8);
-    assert!(offset_of!(vox_io_mesh_view, positions) == 0);
-    assert!(offset_of!(vox_io_mesh_view, vertex_count) == 8);
-    assert!(offset_of!(vox_io_mesh_view, tets) == 16);
-    assert!(offset_of!(vox_io_mesh_view, tet_count) == 24);
-    assert!(offset_of!(vox_io_mesh_view, triangles) == 32);
-    assert!(offset_of!(vox_io_mesh_view, triangle_count) == 40);
-    assert!(size_of::<vox_io_report>() == 208);
-    assert!(align_of::<vox_io_report>() == 8);
-    assert!(offset_of!(vox_io_report, struct_size) == 0);
-    assert!(offset_of!(vox_io_report, format) == 4);
-    assert!(offset_of!(vox_io_report, vertices) == 8);
-    assert!(offset_of!(vox_io_report, tets) == 16);
-    assert!(offset_of!(vox_io_report, triangles) == 24);
-    assert!(offset_of!(vox_io_report, skipped_elements) == 32);
-    assert!(offset_of!(vox_io_report, second_order_tets) == 40);
-    assert!(offset_of!(vox_io_report, inverted_tets) == 48);
-    assert!(offset_of!(vox_io_report, degenerate_tets) == 56);
-    assert!(offset_of!(vox_io_report, nearly_flat_tets) == 64);
-    assert!(offset_of!(vox_io_report, duplicate_tets) == 72);
-    assert!(offset_of!(vox_io_report, degenerate_triangles) == 80);
-    assert!(offset_of!(vox_io_report, duplicate_vertices) == 88);
-    assert!(offset_of!(vox_io_report, unused_vertices) == 96);
-    assert!(offset_of!(vox_io_report, boundary_facets) == 104);
-    assert!(offset_of!(vox_io_report, non_manifold_facets) == 112);
-    assert!(offset_of!(vox_io_report, open_edges) == 120);
-    assert!(offset_of!(vox_io_report, misoriented_edges) == 128);
-    assert!(offset_of!(vox_io_report, components) == 136);
-    assert!(offset_of!(vox_io_report, volume) == 144);
-    assert!(offset_of!(vox_io_report, bounds_min) == 152);
-    assert!(offset_of!(vox_io_report, bounds_max) == 176);
-    assert!(offset_of!(vox_io_report, unit_in_metres) == 200);
-    assert!(size_of::<vox_io_tetrahedralize_desc>() == 64);
-    assert!(align_of::<vox_io_tetrahedralize_desc>() == 8);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, kind) == 4);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, cell) == 8);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, max_tets) == 16);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, max_distance) == 24);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, coarsen) == 32);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, reserved) == 36);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, progress) == 40);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, progress_user) == 44);
-    assert!(offset_of!(vox_io_tetrahedralize_desc, allocator) == 48);
-    assert!(size_of::<vox_io_quality>() == 88);
-    assert!(align_of::<vox_io_quality>() == 8);
-    assert!(offset_of!(vox_io_quality, struct_size) == 0);
-    assert!(offset_of!(vox_io_quality, reserved) == 4);
-    assert!(offset_of!(vox_io_quality, vertices) == 8);
-    assert!(offset_of!(vox_io_quality, tets) == 16);
-    assert!(offset_of!(vox_io_quality, boundary_facets) == 24);
-    assert!(offset_of!(vox_io_quality, min_dihedral) == 32);
-    assert!(offset_of!(vox_io_quality, max_dihedral) == 40);
-    assert!(offset_of!(vox_io_quality, volume) == 48);
-    assert!(offset_of!(vox_io_quality, surface_volume) == 56);
-    assert!(offset_of!(vox_io_quality, mesh_to_surface) == 64);
-    assert!(offset_of!(vox_io_quality, surface_to_mesh) == 72);
-    assert!(offset_of!(vox_io_quality, hausdorff) == 80);
-    assert!(size_of::<vox_io_point_data>() == 16);
-    assert!(align_of::<vox_io_point_data>() == 4);
-    assert!(offset_of!(vox_io_point_data, name) == 0);
-    assert!(offset_of!(vox_io_point_data, values) == 4);
-    assert!(offset_of!(vox_io_point_data, components) == 8);
-    assert!(offset_of!(vox_io_point_data, reserved) == 12);
-    assert!(size_of::<vox_io_write_desc>() == 48);
-    assert!(align_of::<vox_io_write_desc>() == 8);
-    assert!(offset_of!(vox_io_write_desc, struct_size) == 0);
-    assert!(offset_of!(vox_io_write_desc, format) == 4);
-    assert!(offset_of!(vox_io_write_desc, binary) == 8);
-    assert!(offset_of!(vox_io_write_desc, reserved) == 12);
-    assert!(offset_of!(vox_io_write_desc, point_data) == 16);
-    assert!(offset_of!(vox_io_write_desc, point_data_count) == 24);
-    assert!(offset_of!(vox_io_write_desc, cell_data) == 32);
-    assert!(offset_of!(vox_io_write_desc, cell_data_count) == 40);
-    assert!(size_of::<vox_io_sink>() == 8);
-    assert!(align_of::<vox_io_sink>() == 4);
-    assert!(offset_of!(vox_io_sink, write) == 0);
-    assert!(offset_of!(vox_io_sink, user) == 4);
-    assert!(size_of::<vox_sim_desc>() == 136);
-    assert!(align_of::<vox_sim_desc>() == 8);
-    assert!(offset_of!(vox_sim_desc, struct_size) == 0);
-    assert!(offset_of!(vox_sim_desc, substeps) == 4);
-    assert!(offset_of!(vox_sim_desc, detect_every) == 8);
-    assert!(offset_of!(vox_sim_desc, reserved) == 12);
-    assert!(offset_of!(vox_sim_desc, gravity) == 16);
-    assert!(offset_of!(vox_sim_desc, max_time_step) == 40);
-    assert!(offset_of!(vox_sim_desc, floor_normal) == 48);
-    assert!(offset_of!(vox_sim_desc, floor_offset) == 72);
-    assert!(offset_of!(vox_sim_desc, friction) == 80);
-    assert!(offset_of!(vox_sim_desc, contact_compliance) == 88);
-    assert!(offset_of!(vox_sim_desc, max_push_speed) == 96);
-    assert!(offset_of!(vox_sim_desc, contact_slop) == 104);
-    assert!(offset_of!(vox_sim_desc, grid) == 112);
-    assert!(offset_of!(vox_sim_desc, log) == 116);
-    assert!(offset_of!(vox_sim_desc, allocator) == 124);
-    assert!(size_of::<vox_sim_body_desc>() == 80);
-    assert!(align_of::<vox_sim_body_desc>() == 8);
-    assert!(offset_of!(vox_sim_body_desc, struct_size) == 0);
-    assert!(offset_of!(vox_sim_body_desc, flags) == 4);
-    assert!(offset_of!(vox_sim_body_desc, positions) == 8);
-    assert!(offset_of!(vox_sim_body_desc, rest_positions) == 12);
-    assert!(offset_of!(vox_sim_body_desc, velocities) == 16);
-    assert!(offset_of!(vox_sim_body_desc, tets) == 20);
-    assert!(offset_of!(vox_sim_body_desc, vertex_count) == 24);
-    assert!(offset_of!(vox_sim_body_desc, tet_count) == 32);
-    assert!(offset_of!(vox_sim_body_desc, density) == 40);
-    assert!(offset_of!(vox_sim_body_desc, youngs_modulus) == 48);
-    assert!(offset_of!(vox_sim_body_desc, bulk_modulus) == 56);
-    assert!(offset_of!(vox_sim_body_desc, damping) == 64);
-    assert!(offset_of!(vox_sim_body_desc, user_data) == 72);
-    assert!(size_of::<vox_sim_body_view>() == 40);
-    assert!(align_of::<vox_sim_body_view>() == 8);
-    assert!(offset_of!(vox_sim_body_view, positions) == 0);
-    assert!(offset_of!(vox_sim_body_view, velocities) == 4);
-    assert!(offset_of!(vox_sim_body_view, masses) == 8);
-    assert!(offset_of!(vox_sim_body_view, grid_positions) == 12);
-    assert!(offset_of!(vox_sim_body_view, tets) == 16);
-    assert!(offset_of!(vox_sim_body_view, vertex_count) == 24);
-    assert!(offset_of!(vox_sim_body_view, tet_count) == 32);
-    assert!(size_of::<vox_sim_energies>() == 96);
-    assert!(align_of::<vox_sim_energies>() == 8);
-    assert!(offset_of!(vox_sim_energies, struct_size) == 0);
-    assert!(offset_of!(vox_sim_energies, reserved) == 4);
-    assert!(offset_of!(vox_sim_energies, kinetic) == 8);
-    assert!(offset_of!(vox_sim_energies, potential) == 16);
-    assert!(offset_of!(vox_sim_energies, elastic) == 24);
-    assert!(offset_of!(vox_sim_energies, mass) == 32);
-    assert!(offset_of!(vox_sim_energies, momentum) == 40);
-    assert!(offset_of!(vox_sim_energies, centre) == 64);
-    assert!(offset_of!(vox_sim_energies, max_speed) == 88);
-    assert!(size_of::<vox_sim_counts>() == 144);
-    assert!(align_of::<vox_sim_counts>() == 8);
-    assert!(offset_of!(vox_sim_counts, struct_size) == 0);
-    assert!(offset_of!(vox_sim_counts, bodies) == 4);
-    assert!(offset_of!(vox_sim_counts, vertices) == 8);
-    assert!(offset_of!(vox_sim_counts, tets) == 16);
-    assert!(offset_of!(vox_sim_counts, edges) == 24);
-    assert!(offset_of!(vox_sim_counts, volumes) == 32);
-    assert!(offset_of!(vox_sim_counts, flat_tets) == 40);
-    assert!(offset_of!(vox_sim_counts, inverted_tets) == 48);
-    assert!(offset_of!(vox_sim_counts, raised_masses) == 56);
-    assert!(offset_of!(vox_sim_counts, softened) == 64);
-    assert!(offset_of!(vox_sim_counts, steps) == 72);
-    assert!(offset_of!(vox_sim_counts, substeps) == 80);
-    assert!(offset_of!(vox_sim_counts, detections) == 88);
-    assert!(offset_of!(vox_sim_counts, clamped_steps) == 96);
-    assert!(offset_of!(vox_sim_counts, penetrations) == 104);
-    assert!(offset_of!(vox_sim_counts, floor_contacts) == 112);
-    assert!(offset_of!(vox_sim_counts, step_ns) == 120);
-    assert!(offset_of!(vox_sim_counts, detect_ns) == 128);
-    assert!(offset_of!(vox_sim_counts, solve_ns) == 136);
-    assert!(size_of::<vox_experiment_desc>() == 72);
-    assert!(align_of::<vox_experiment_desc>() == 8);
-    assert!(offset_of!(vox_experiment_desc, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_desc, frames) == 4);
-    assert!(offset_of!(vox_experiment_desc, a) == 8);
-    assert!(offset_of!(vox_experiment_desc, b) == 12);
-    assert!(offset_of!(vox_experiment_desc, sim) == 16);
-    assert!(offset_of!(vox_experiment_desc, grid) == 20);
-    assert!(offset_of!(vox_experiment_desc, axis) == 24);
-    assert!(offset_of!(vox_experiment_desc, contact_share) == 48);
-    assert!(offset_of!(vox_experiment_desc, time_step) == 56);
-    assert!(offset_of!(vox_experiment_desc, turn) == 64);
-    assert!(offset_of!(vox_experiment_desc, reserved) == 68);
-    assert!(size_of::<vox_experiment_facts>() == 112);
-    assert!(align_of::<vox_experiment_facts>() == 8);
-    assert!(offset_of!(vox_experiment_facts, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_facts, frames) == 4);
-    assert!(offset_of!(vox_experiment_facts, vertices) == 8);
-    assert!(offset_of!(vox_experiment_facts, tets) == 16);
-    assert!(offset_of!(vox_experiment_facts, contacts) == 24);
-    assert!(offset_of!(vox_experiment_facts, hash) == 32);
-    assert!(offset_of!(vox_experiment_facts, distance) == 40);
-    assert!(offset_of!(vox_experiment_facts, mean_share) == 48);
-    assert!(offset_of!(vox_experiment_facts, shares) == 56);
-    assert!(offset_of!(vox_experiment_facts, bounds_min) == 64);
-    assert!(offset_of!(vox_experiment_facts, bounds_max) == 88);
-    assert!(size_of::<vox_experiment_sample>() == 56);
-    assert!(align_of::<vox_experiment_sample>() == 8);
-    assert!(offset_of!(vox_experiment_sample, struct_size) == 0);
-    assert!(offset_of!(vox_experiment_sample, reserved) == 4);
-    assert!(offset_of!(vox_experiment_sample, cell_size) == 8);
-    assert!(offset_of!(vox_experiment_sample, mean_ns) == 16);
-    assert!(offset_of!(vox_experiment_sample, contacts) == 24);
-    assert!(offset_of!(vox_experiment_sample, visited_cells) == 32);
-    assert!(offset_of!(vox_experiment_sample, visited_entries) == 40);
-    assert!(offset_of!(vox_experiment_sample, candidates) == 48);
-    assert!(size_of::<vox_time_fit>() == 136);
-    assert!(align_of::<vox_time_fit>() == 8);
-    assert!(offset_of!(vox_time_fit, struct_size) == 0);
-    assert!(offset_of!(vox_time_fit, degree) == 4);
-    assert!(offset_of!(vox_time_fit, range_min) == 8);
-    assert!(offset_of!(vox_time_fit, range_max) == 16);
-    assert!(offset_of!(vox_time_fit, coefficients) == 24);
-    assert!(offset_of!(vox_time_fit, r_squared) == 96);
-    assert!(offset_of!(vox_time_fit, prediction_error) == 104);
-    assert!(offset_of!(vox_time_fit, cell_size) == 112);
-    assert!(offset_of!(vox_time_fit, time) == 120);
-    assert!(offset_of!(vox_time_fit, bracketed) == 128);
-    assert!(offset_of!(vox_time_fit, reserved) == 132);
-};
+// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit machines
+// that align everything to its own size].
+macro_rules! layouts {
+    ($($name:ident: size $size:tt, alignment $alignment:tt, { $($field:ident: $offset:tt),* })*) => {
+        #[cfg(any(target_pointer_width = "64", all(target_pointer_width = "32", not(target_arch = "x86"))))]
+        const _: () = {
+            use core::mem::{align_of, offset_of, size_of};
+            const MODEL: usize = if cfg!(target_pointer_width = "64") { 0 } else { 1 };
+            $(
+                assert!(size_of::<$name>() == $size[MODEL], concat!("size of ", stringify!($name)));
+                assert!(align_of::<$name>() == $alignment[MODEL], concat!("alignment of ", stringify!($name)));
+                $(assert!(
+                    offset_of!($name, $field) == $offset[MODEL],
+                    concat!("offset of ", stringify!($name), ".", stringify!($field))
+                );)*
+            )*
+        };
+    };
+}
+layouts! {
+    vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
+    vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
+    vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
+    vox_grid_desc: size [168, 136], alignment [8, 8], { struct_size: [0, 0], engine: [4, 4], storage: [8, 8],
+        hash: [12, 12], cell_size: [16, 16], world_min: [24, 24], world_max: [48, 48], byte_budget: [72, 72],
+        hash_table_size: [80, 80], allocator: [88, 88], log: [112, 100], tasks: [128, 108], worker_count: [152, 120],
+        flags: [156, 124], closest_budget: [160, 128] }
+    vox_filter: size [48, 48], alignment [8, 8], { struct_size: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
+        self_collision: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32], penetration_mask: [40, 40] }
+    vox_mesh_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
+        position_byte_stride: [16, 16], tets: [24, 24], tet_count: [32, 32], vertex_count: [40, 40],
+        user_data: [48, 48], position_format: [56, 56], reserved: [60, 60], filter: [64, 64], rest_positions: [72, 68],
+        rest_position_byte_stride: [80, 72], position_component_byte_stride: [88, 80],
+        rest_position_component_byte_stride: [96, 88] }
+    vox_mesh_info: size [176, 176], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
+        vertex_count: [16, 16], tet_count: [24, 24], enabled_tet_count: [32, 32], enabled: [40, 40], flags: [44, 44],
+        position_format: [48, 48], has_transform: [52, 52], positions: [56, 56], position_byte_stride: [64, 64],
+        position_component_byte_stride: [72, 72], transform: [80, 80] }
+    vox_vertices_desc: size [72, 64], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], count: [8, 8],
+        positions: [16, 16], position_byte_stride: [24, 24], copies_of: [32, 32], rest_positions: [40, 36],
+        rest_position_byte_stride: [48, 40], position_component_byte_stride: [56, 48],
+        rest_position_component_byte_stride: [64, 56] }
+    vox_failure: size [56, 56], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], mesh: [8, 8], slot: [12, 12],
+        user_data: [16, 16], vertex: [24, 24], reserved: [28, 28], position: [32, 32] }
+    vox_contact: size [32, 32], alignment [4, 4], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], tet: [12, 12],
+        barycentric: [16, 16] }
+    vox_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_interior_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_penetration: size [40, 40], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], state: [12, 12],
+        contact: [16, 16], depth: [24, 24], direction: [28, 28] }
+    vox_penetration_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_depth: size [32, 32], alignment [8, 8], { depth: [0, 0], direction: [8, 8] }
+    vox_depth_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_pair: size [48, 48], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
+        user_data_b: [16, 16], first: [24, 24], a_in_b: [32, 32], b_in_a: [40, 40] }
+    vox_pair_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16], contacts: [32, 24] }
+    vox_touch_event: size [32, 32], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
+        user_data_b: [16, 16], kind: [24, 24], pair: [28, 28] }
+    vox_touch_view: size [56, 48], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16], began: [32, 24], persisted: [40, 32], ended: [48, 40] }
+    vox_contact_event: size [16, 16], alignment [4, 4], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8],
+        kind: [12, 12] }
+    vox_contact_event_view: size [48, 40], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16], began: [32, 24], ended: [40, 32] }
+    vox_reading: size [168, 168], alignment [8, 8], { contact: [0, 0], known: [8, 8], state: [12, 12], depth: [16, 16],
+        direction: [20, 20], position: [32, 32], distance: [56, 56], surface_position: [64, 64], barycentric: [88, 88],
+        normal: [112, 112], triangle: [136, 136], reserved: [148, 148], user_data_a: [152, 152],
+        user_data_b: [160, 160] }
+    vox_reading_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_readings_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], what: [4, 4], mesh_a: [8, 8],
+        mesh_b: [12, 12], closest_budget: [16, 16] }
+    vox_point_hit: size [28, 28], alignment [4, 4], { point: [0, 0], mesh: [4, 4], tet: [8, 8], barycentric: [12, 12] }
+    vox_tet_hit: size [8, 8], alignment [4, 4], { mesh: [0, 0], tet: [4, 4] }
+    vox_surface_hit: size [72, 72], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], reserved: [12, 12],
+        barycentric: [16, 16], position: [40, 40], distance: [64, 64] }
+    vox_closest_desc: size [64, 64], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], points: [8, 8],
+        byte_stride: [16, 16], point_count: [24, 24], mask: [32, 32], max_distance: [40, 40], excluded: [48, 48],
+        reserved: [52, 52], component_byte_stride: [56, 56] }
+    vox_closest_hit: size [96, 96], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
+        barycentric: [16, 16], position: [40, 40], normal: [64, 64], distance: [88, 88] }
+    vox_ray_hit: size [64, 64], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], t: [8, 8], surface_mesh: [16, 16],
+        surface_tet: [20, 20], surface_facet: [24, 24], surface_side: [28, 28], surface_t: [32, 32],
+        surface_barycentric: [40, 40] }
+    vox_facet_hit: size [48, 48], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], side: [12, 12],
+        t: [16, 16], barycentric: [24, 24] }
+    vox_counters: size [256, 256], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
+        tets: [16, 16], cells: [24, 24], entries: [32, 32], fullest_cell: [40, 40], visited_cells: [48, 48],
+        visited_entries: [56, 56], candidates: [64, 64], exact_tests: [72, 72], contacts: [80, 80],
+        skipped_degenerate: [88, 88], bytes: [96, 96], peak_bytes: [104, 104], moved_meshes: [112, 112],
+        carried_contacts: [120, 120], penetrations: [128, 128], leaving_edges: [136, 136], edge_tests: [144, 144],
+        closest_searches: [152, 152], closest_tests: [160, 160], disabled_meshes: [168, 168], filtered: [176, 176],
+        cell_size_changes: [184, 184], unknown_penetrations: [192, 192], carried_penetrations: [200, 200],
+        skipped_meshes: [208, 208], meshes_without_tets: [216, 216], total_touches_began: [224, 224],
+        total_touches_ended: [232, 232], total_contacts_began: [240, 240], total_contacts_ended: [248, 248] }
+    vox_profile: size [112, 112], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
+        bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
+        events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
+        lookup_ns: [96, 96], decide_ns: [104, 104] }
+    vox_suggest_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
+        area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
+        mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], storage: [72, 72], reserved: [76, 76],
+        allocator: [80, 80] }
+    vox_geometry_stats: size [160, 160], alignment [8, 8], { vertices: [0, 0], tets: [8, 8], edges: [16, 16],
+        facets: [24, 24], boundary_facets: [32, 32], degenerate_tets: [40, 40], mean_edge: [48, 48],
+        mean_longest_edge: [56, 56], mean_box_side: [64, 64], median_box_side: [72, 72], mean_facet_area: [80, 80],
+        mean_tet_facet_area: [88, 88], mean_boundary_facet_area: [96, 96], mean_volume: [104, 104],
+        bounds_min: [112, 112], bounds_max: [136, 136] }
+    vox_cell_size_rules: size [48, 48], alignment [8, 8], { mean_edge: [0, 0], mean_edge_multiple: [8, 8],
+        object_512: [16, 16], resolution: [24, 24], mean_volume: [32, 32], median_box_side: [40, 40] }
+    vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
+    vox_cost_share: size [48, 48], alignment [8, 8], { name: [0, 0], count: [24, 24], cost: [32, 32], share: [40, 40] }
+    vox_suggestion: size [1968, 1968], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], cell_size: [8, 8],
+        cells_per_axis: [16, 16], zone_min: [24, 24], zone_max: [32, 32], predicted_cost: [40, 40], rules: [48, 48],
+        stats: [96, 96], curve: [256, 256], curve_count: [1280, 1280], term_count: [1284, 1284], terms: [1288, 1288],
+        rule_costs: [1864, 1864], budget_cell_size: [1912, 1912], uniform_loss: [1920, 1920], levels: [1928, 1928],
+        level_count: [1960, 1960], reserved: [1964, 1964] }
+    vox_cost_prediction: size [600, 600], alignment [8, 8], { struct_size: [0, 0], term_count: [4, 4],
+        cell_size: [8, 8], cost: [16, 16], terms: [24, 24] }
+    vox_cost_weights: size [136, 136], alignment [8, 8], { struct_size: [0, 0], measured: [4, 4],
+        reference_classify_vertex: [8, 8], reference_prepare_tet: [16, 16], reference_visit_cell: [24, 24],
+        reference_scan_cell: [32, 32], reference_read_vertex: [40, 40], reference_test_box: [48, 48],
+        reference_test_tet: [56, 56], reference_clear_bucket: [64, 64], fast_bin_vertex: [72, 72],
+        fast_clear_cell: [80, 80], fast_visit_tile: [88, 88], fast_visit_row: [96, 96], fast_read_vertex: [104, 104],
+        fast_test_vertex: [112, 112], reference_changed_list: [120, 120], reference_fetch_vertex: [128, 128] }
+    vox_cost_term: size [16, 16], alignment [8, 8], { coefficient: [0, 0], power: [8, 8] }
+    vox_cost_bounds: size [32, 32], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], min: [8, 8],
+        max: [16, 16], zone_loss: [24, 24] }
+    vox_cost_minimum: size [1064, 1064], alignment [8, 8], { struct_size: [0, 0], curve_count: [4, 4],
+        cell_size: [8, 8], cost: [16, 16], zone_min: [24, 24], zone_max: [32, 32], curve: [40, 40] }
+    vox_io_load_desc: size [56, 36], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh_index: [8, 8],
+        reserved: [12, 12], allocator: [16, 16], progress: [40, 28], progress_user: [48, 32] }
+    vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
+    vox_io_mesh_view: size [48, 48], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
+        tet_count: [24, 24], triangles: [32, 32], triangle_count: [40, 40] }
+    vox_io_report: size [208, 208], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], vertices: [8, 8],
+        tets: [16, 16], triangles: [24, 24], skipped_elements: [32, 32], second_order_tets: [40, 40],
+        inverted_tets: [48, 48], degenerate_tets: [56, 56], nearly_flat_tets: [64, 64], duplicate_tets: [72, 72],
+        degenerate_triangles: [80, 80], duplicate_vertices: [88, 88], unused_vertices: [96, 96],
+        boundary_facets: [104, 104], non_manifold_facets: [112, 112], open_edges: [120, 120],
+        misoriented_edges: [128, 128], components: [136, 136], volume: [144, 144], bounds_min: [152, 152],
+        bounds_max: [176, 176], unit_in_metres: [200, 200] }
+    vox_io_tetrahedralize_desc: size [80, 64], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], cell: [8, 8],
+        max_tets: [16, 16], max_distance: [24, 24], coarsen: [32, 32], reserved: [36, 36], progress: [40, 40],
+        progress_user: [48, 44], allocator: [56, 48] }
+    vox_io_quality: size [88, 88], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], vertices: [8, 8],
+        tets: [16, 16], boundary_facets: [24, 24], min_dihedral: [32, 32], max_dihedral: [40, 40], volume: [48, 48],
+        surface_volume: [56, 56], mesh_to_surface: [64, 64], surface_to_mesh: [72, 72], hausdorff: [80, 80] }
+    vox_io_point_data: size [24, 16], alignment [8, 4], { name: [0, 0], values: [8, 4], components: [16, 8],
+        reserved: [20, 12] }
+    vox_io_write_desc: size [48, 48], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], binary: [8, 8],
+        reserved: [12, 12], point_data: [16, 16], point_data_count: [24, 24], cell_data: [32, 32],
+        cell_data_count: [40, 40] }
+    vox_io_sink: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
+    vox_sim_desc: size [160, 136], alignment [8, 8], { struct_size: [0, 0], substeps: [4, 4], detect_every: [8, 8],
+        reserved: [12, 12], gravity: [16, 16], max_time_step: [40, 40], floor_normal: [48, 48], floor_offset: [72, 72],
+        friction: [80, 80], contact_compliance: [88, 88], max_push_speed: [96, 96], contact_slop: [104, 104],
+        grid: [112, 112], log: [120, 116], allocator: [136, 124] }
+    vox_sim_body_desc: size [96, 80], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
+        rest_positions: [16, 12], velocities: [24, 16], tets: [32, 20], vertex_count: [40, 24], tet_count: [48, 32],
+        density: [56, 40], youngs_modulus: [64, 48], bulk_modulus: [72, 56], damping: [80, 64], user_data: [88, 72] }
+    vox_sim_body_view: size [56, 40], alignment [8, 8], { positions: [0, 0], velocities: [8, 4], masses: [16, 8],
+        grid_positions: [24, 12], tets: [32, 16], vertex_count: [40, 24], tet_count: [48, 32] }
+    vox_sim_energies: size [96, 96], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], kinetic: [8, 8],
+        potential: [16, 16], elastic: [24, 24], mass: [32, 32], momentum: [40, 40], centre: [64, 64],
+        max_speed: [88, 88] }
+    vox_sim_counts: size [144, 144], alignment [8, 8], { struct_size: [0, 0], bodies: [4, 4], vertices: [8, 8],
+        tets: [16, 16], edges: [24, 24], volumes: [32, 32], flat_tets: [40, 40], inverted_tets: [48, 48],
+        raised_masses: [56, 56], softened: [64, 64], steps: [72, 72], substeps: [80, 80], detections: [88, 88],
+        clamped_steps: [96, 96], penetrations: [104, 104], floor_contacts: [112, 112], step_ns: [120, 120],
+        detect_ns: [128, 128], solve_ns: [136, 136] }
+    vox_experiment_desc: size [88, 72], alignment [8, 8], { struct_size: [0, 0], frames: [4, 4], a: [8, 8], b: [16, 12],
+        sim: [24, 16], grid: [32, 20], axis: [40, 24], contact_share: [64, 48], time_step: [72, 56], turn: [80, 64],
+        reserved: [84, 68] }
+    vox_experiment_facts: size [112, 112], alignment [8, 8], { struct_size: [0, 0], frames: [4, 4], vertices: [8, 8],
+        tets: [16, 16], contacts: [24, 24], hash: [32, 32], distance: [40, 40], mean_share: [48, 48], shares: [56, 56],
+        bounds_min: [64, 64], bounds_max: [88, 88] }
+    vox_experiment_sample: size [56, 56], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
+        mean_ns: [16, 16], contacts: [24, 24], visited_cells: [32, 32], visited_entries: [40, 40],
+        candidates: [48, 48] }
+    vox_time_fit: size [136, 136], alignment [8, 8], { struct_size: [0, 0], degree: [4, 4], range_min: [8, 8],
+        range_max: [16, 16], coefficients: [24, 24], r_squared: [96, 96], prediction_error: [104, 104],
+        cell_size: [112, 112], time: [120, 120], bracketed: [128, 128], reserved: [132, 132] }
+}
