@@ -19,12 +19,14 @@ END = '''
 
 def declare(library: Any, name: str, check: Any = None) -> None:
     """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
-    of those in CHECKED."""
+    of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)
         found.restype, found.argtypes = result, parameters
-        if check and function in CHECKED:
-            found.errcheck = check
+        if result is vox_result:
+            found.restype = c_int32  # so that ctypes gives a plain number
+            if check:
+                found.errcheck = check
 '''.split("\n")
 
 
@@ -116,6 +118,7 @@ class Python:
         for e in sections(self.api, "enums"):
             lines += ["", "", f"class {pascal(e['name'])}(enum.{'IntFlag' if e['flags'] else 'IntEnum'}):"]
             lines += [f"    {name} = {value}" for name, value, _ in short_values(e)]
+        lines += ["", "", "class vox_result(c_int32):", '    """Marks the functions that can fail."""']
         lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.", "dtypes: dict[str, Any] = {}", "", ""]
         for c in sections(self.api, "callbacks"):
             lines.append(f"{c['name']} = {self.function_type(c)}")
@@ -129,14 +132,9 @@ class Python:
             for f in part["functions"]:
                 types = [self.parameter(p) for p in f["parameters"]]
                 types = f"({', '.join(types)}{',' if len(types) == 1 else ''})"
-                lines += wrapped(f'"{f["name"]}": ({self.result(f["result"])}, {types}),', " " * 8, further=" " * 12)
+                result = "vox_result" if f["result"]["base"] == "vox_result" else self.result(f["result"])
+                lines += wrapped(f'"{f["name"]}": ({result}, {types}),', " " * 8, further=" " * 12)
             lines.append("    },")
-        lines += ["}",
-                  "# Functions whose result is a vox_result: a failure unless it is 0.",
-                  "CHECKED = {"]
-        for f in sections(self.api, "functions"):
-            if f["result"].get("base") == "vox_result":
-                lines.append(f'    "{f["name"]}",')
         lines += ["}", *END]
         return "\n".join(lines)
 
