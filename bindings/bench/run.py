@@ -84,7 +84,7 @@ def instructions(command, path, passes):
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("build")
-    arguments.add_argument("--rounds", type=int, default=100)
+    arguments.add_argument("--rounds", type=int, default=300)
     arguments.add_argument("--passes", type=int, default=5)
     arguments.add_argument("--instructions", action="store_true")
     given = arguments.parse_args()
