@@ -104,6 +104,13 @@ class Description(unittest.TestCase):
                 self.assertLessEqual(set(functions), names, event)
         self.assertEqual(set(API["events"]), {"return", "failure", "epoch", "rebind"})
 
+    def test_packages_have_the_version_of_the_library(self):
+        for path, pattern in (("csharp/package.json", r'"version": "(.*)"'), ("js/package.json", r'"version": "(.*)"'),
+                              ("rust/Cargo.toml", r'^version = "(.*)"'),
+                              ("rust/voxtet/Cargo.toml", r'"../voxtet-sys", version = "(.*)"')):
+            with open(os.path.join(BINDINGS, path), encoding="utf-8") as file:
+                self.assertEqual(re.findall(pattern, file.read(), flags=re.M), [API["version"]], "bindings/" + path)
+
     def test_everything_has_words(self):
         for kind in ("functions", "constants", "opaque", "aliases", "callbacks", "inline"):
             for d in sections(API, kind):
