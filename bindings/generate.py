@@ -55,4 +55,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except describe.Unclear as error:
+        sys.exit(str(error))
