@@ -44,23 +44,22 @@ class Describer:
         self.faults = []
         self.events = events
         self.functions = {d.name: d for d in self.all if d.kind == "function"}
-        self.read, self.written = {}, {}  # struct: functions that it is given to, that fill it
+        self.read, self.written = set(), set()  # structs that functions are given, that functions fill
         for function in self.functions.values():
             for parameter in function.parameters:
                 t = self.type_of(parameter[0])
                 if t["kind"] == "struct" and not function.name.endswith("_init"):
-                    self.note_use(self.read if t.get("const") else self.written, t["base"], function.name)
+                    self.note_use(self.read if t.get("const") else self.written, t["base"])
 
-    def note_use(self, uses, struct, function):
+    def note_use(self, uses, struct):
         """Also of the structs inside it, and of those that it points to."""
-        found = uses.setdefault(struct, [])
-        if function in found:
+        if struct in uses:
             return
-        found.append(function)
+        uses.add(struct)
         for type_text, _ in self.types[struct].fields:
             t = self.type_of(type_text) if "(*)" not in type_text else {"kind": "function"}
             if t["kind"] == "struct":
-                self.note_use(uses, t["base"], function)
+                self.note_use(uses, t["base"])
 
     # ---- types ----
 
@@ -331,7 +330,7 @@ class Describer:
         return found
 
     def constants(self, parsed):
-        for name, (number, _, section) in parsed.numbers.items():
+        for name, (number, section) in parsed.numbers.items():
             limit = re.search(r"_MAX_|_CAPACITY$", name) is not None
             yield {"name": name, "value": number, "limit": limit, "section": section, "doc": parsed.constants[name]}
 
@@ -350,7 +349,7 @@ class Describer:
                 "size": {m: layouts[m][0] for m in MODELS}, "alignment": {m: layouts[m][1] for m in MODELS},
                 "grows": d.fields[0][1] == "struct_size",
                 "init": init if any(f.name == init for f in self.all) else None,
-                "read_by": self.read.get(d.name, []), "written_by": self.written.get(d.name, []), "fields": fields}
+                "fields": fields}
 
     def opaque(self, d):
         threads = "one" if "VOX_ONE_THREAD" in d.marks else "any" if "VOX_ANY_THREAD" in d.marks else "readers or one"

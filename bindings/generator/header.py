@@ -41,7 +41,7 @@ class Header:
     sections: dict  # name: the comments that stand by themselves in it
     declarations: list
     constants: dict  # numbers that are #defined, by name: the comment above or beside
-    numbers: dict = field(default_factory=dict)  # the same: (number, line, section)
+    numbers: dict = field(default_factory=dict)  # the same: (number, section)
 
     def of_kind(self, *kinds):
         return [d for d in self.declarations if d.kind in kinds]
@@ -182,7 +182,7 @@ def parse(text):
         constant = re.match(r"#define (VOX_\w+) \(?(-?[0-9.x]\w*)\)?", code)
         if constant and not constant[1].startswith("VOX_VERSION"):
             header.constants[constant[1]] = comments_in(statement) or (words_of(above) if above else "")
-            header.numbers[constant[1]] = (int(constant[2].rstrip("u"), 0), line, section)
+            header.numbers[constant[1]] = (int(constant[2].rstrip("u"), 0), section)
         if code.startswith("#"):
             continue
         comment = words_of(above) if above else ""

@@ -79,7 +79,7 @@ class Description(unittest.TestCase):
         for place, pointer in found:
             with self.subTest(place=place):
                 self.assertIn(pointer["direction"], ("in", "out", "inout"))
-                for target in [pointer] + [pointer[key] for key in ("target",) if key in pointer]:
+                for target in [pointer, pointer["target"]] if "target" in pointer else [pointer]:
                     self.assertIn(target["nullable"], (True, False, "if empty"))
                     if pointer["kind"] not in ("function", "callback"):
                         self.assertTrue(isinstance(target["length"], int) or target["length"])
