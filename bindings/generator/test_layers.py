@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import types
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BINDINGS = os.path.dirname(HERE)
@@ -24,14 +23,7 @@ def run(*command, **options):
 
 
 def python():
-    """Without numpy, its dtypes are the dicts that they are made from."""
-    try:
-        import numpy
-    except ImportError:
-        numpy = sys.modules["numpy"] = types.ModuleType("numpy")
-        numpy.dtype = dict
-    sys.path.insert(0, os.path.join(BINDINGS, "python", "src", "voxtet"))
-    import _c
+    from python_layer import _c
     model = {8: "lp64", 4: "wasm32"}[ctypes.sizeof(ctypes.c_void_p)]
     for s in STRUCTS:
         here = getattr(_c, s["name"])
@@ -41,7 +33,7 @@ def python():
     assert set(_c.dtypes) == whole_structs(API)
     for name, dtype in _c.dtypes.items():
         fields = next(s for s in STRUCTS if s["name"] == name)["fields"]
-        if numpy.dtype is dict:
+        if _c.dtype is dict:
             found = list(zip(dtype["names"], dtype["offsets"]))
         else:
             found = [(f, dtype.fields[f][1]) for f in dtype.names]

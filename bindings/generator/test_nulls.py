@@ -5,17 +5,11 @@ import ctypes
 import json
 import os
 import sys
-import types
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 BINDINGS = os.path.dirname(HERE)
-sys.path[:0] = [HERE, os.path.join(BINDINGS, "python", "src", "voxtet")]
-try:
-    import numpy  # noqa: F401
-except ImportError:
-    sys.modules["numpy"] = types.ModuleType("numpy")
-    sys.modules["numpy"].dtype = dict
-import _c  # noqa: E402
+sys.path.insert(0, HERE)
+from python_layer import _c  # noqa: E402
 
 with open(os.path.join(BINDINGS, "api.json"), encoding="utf-8") as file:
     API = json.load(file)
