@@ -119,14 +119,16 @@ class Python:
             lines += ["", "", f"class {pascal(e['name'])}(enum.{'IntFlag' if e['flags'] else 'IntEnum'}):"]
             lines += [f"    {name} = {value}" for name, value, _ in short_values(e)]
         lines += ["", "", "class vox_result(c_int32):", '    """Marks the functions that can fail."""']
-        lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.", "dtypes: dict[str, Any] = {}", "", ""]
+        lines += ["", "", "# Of structs without pointers: for arrays over the library's memory.",
+                  "dtypes: dict[str, Any] = {}", "", ""]
         for c in sections(self.api, "callbacks"):
             lines.append(f"{c['name']} = {self.function_type(c)}")
         lines.append("")
         whole = whole_structs(self.api)
         for s in sections(self.api, "structs"):
             lines += self.struct(s, whole)
-        lines += ["# Of each library: name, type of the result, types of the parameters.", "FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {"]
+        lines += ["# Of each library: name, type of the result, types of the parameters.",
+                  "FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {"]
         for part in self.api["headers"]:
             lines.append(f'    "{part["name"]}": {{')
             for f in part["functions"]:

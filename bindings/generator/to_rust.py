@@ -8,8 +8,8 @@ KEYWORDS = {"type", "move", "in", "ref", "where", "box", "priv", "match", "loop"
 
 # What asserts sizes and offsets: a table, and a macro over it.
 LAYOUTS = """
-// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit machines
-// that align everything to its own size].
+// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit
+// machines that align everything to its own size].
 macro_rules! layouts {
     ($($name:ident: size $size:tt, alignment $alignment:tt, { $($field:ident: $offset:tt),* })*) => {
         #[cfg(any(target_pointer_width = "64", all(target_pointer_width = "32", not(target_arch = "x86"))))]
@@ -72,9 +72,14 @@ class Rust:
     def name(member):
         return "r#" + member["name"] if member["name"] in KEYWORDS else member["name"]
 
-    @staticmethod
-    def models(numbers):
-        return f"[{numbers['lp64']},\N{NO-BREAK SPACE}{numbers['wasm32']}]"
+    def layout(self, s):
+        """An entry of the table of sizes and offsets. No line ends within a field."""
+        def models(numbers):
+            return f"[{numbers['lp64']}, {numbers['wasm32']}]"
+        stay = "\N{NO-BREAK SPACE}"
+        fields = ", ".join(f"{self.name(f)}: {models(f['offset'])}".replace(" ", stay) for f in s["fields"])
+        entry = f"{s['name']}: size {models(s['size'])}, alignment {models(s['alignment'])}, {{ {fields}{stay}}}"
+        return [line.replace(stay, " ") for line in wrapped(entry, "    ", further=" " * 8)]
 
     def text(self):
         lines = [f"// {GENERATED}", "#![allow(non_camel_case_types, rustdoc::all, clippy::all)]", "",
@@ -113,9 +118,7 @@ class Rust:
             lines.append("}")
         lines += LAYOUTS
         for s in sections(self.api, "structs"):
-            fields = ", ".join(f"{self.name(f)}:\N{NO-BREAK SPACE}{self.models(f['offset'])}" for f in s["fields"])
-            entry = f"{s['name']}: size {self.models(s['size'])}, alignment {self.models(s['alignment'])}, {{ {fields}\N{NO-BREAK SPACE}}}"
-            lines += [line.replace("\N{NO-BREAK SPACE}", " ") for line in wrapped(entry, "    ", further=" " * 8)]
+            lines += self.layout(s)
         lines.append("}")
         return "\n".join(lines) + "\n"
 

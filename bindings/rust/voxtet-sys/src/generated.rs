@@ -2637,8 +2637,8 @@ extern "C" {
     ) -> vox_result;
 }
 
-// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit machines
-// that align everything to its own size].
+// Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit
+// machines that align everything to its own size].
 macro_rules! layouts {
     ($($name:ident: size $size:tt, alignment $alignment:tt, { $($field:ident: $offset:tt),* })*) => {
         #[cfg(any(target_pointer_width = "64", all(target_pointer_width = "32", not(target_arch = "x86"))))]
