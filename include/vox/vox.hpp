@@ -268,23 +268,36 @@ private:
 #endif
 };
 
-// A struct that a function fills.
+// What a function fills: zero, but for a struct_size.
+template <class T, class = void>
+struct has_size : std::false_type {};
+template <class T>
+struct has_size<T, std::void_t<decltype(T::struct_size)>> : std::true_type {};
 template <class T>
 T sized() noexcept {
     T value{};
-    value.struct_size = static_cast<std::uint32_t>(sizeof value);
+    if constexpr (has_size<T>::value) value.struct_size = static_cast<std::uint32_t>(sizeof value);
     return value;
 }
 
-// Room for `guess` of what `call` copies, and more if there is more.
-template <class T, class F>
-returns<std::vector<T>> collect(std::size_t guess, F&& call) {
+// A call that ends with where to write one value: that value.
+template <class T, class F, class... A>
+returns<T> filled(F&& call, A... arguments) {
+    T value = sized<T>();
+    const vox_result result = call(arguments..., &value);
+    return give(result, value);
+}
+
+// A call that ends with room for several values, and where to write how many there are: all of them. There is room for
+// `guess` of them at first.
+template <class T, class F, class... A>
+returns<std::vector<T>> collect(std::size_t guess, F&& call, A... arguments) {
     std::vector<T> found(guess);
     std::uint64_t count = 0;
-    vox_result result = call(found.data(), std::uint64_t{found.size()}, &count);
+    vox_result result = call(arguments..., found.data(), found.size(), &count);
     if (result == VOX_OK && count > found.size()) {
         found.resize(static_cast<std::size_t>(count));
-        result = call(found.data(), std::uint64_t{found.size()}, &count);
+        result = call(arguments..., found.data(), found.size(), &count);
     }
     if (result == VOX_OK) found.resize(static_cast<std::size_t>(count));
     return give(result, std::move(found));
@@ -867,73 +880,26 @@ inline constexpr std::uint64_t all_meshes = UINT64_MAX; // a mask
 
 namespace detail {
 
+// The functions of C by their last word; a constant could not hold the address of one in a DLL.
 struct of_grid {
-    template <class... A>
-    static vox_result point(A... a) {
-        return vox_grid_query_point(a...);
-    }
-    template <class... A>
-    static vox_result points(A... a) {
-        return vox_grid_query_points(a...);
-    }
-    template <class... A>
-    static vox_result box(A... a) {
-        return vox_grid_query_box(a...);
-    }
-    template <class... A>
-    static vox_result closest(A... a) {
-        return vox_grid_query_closest(a...);
-    }
-    template <class... A>
-    static vox_result closest_points(A... a) {
-        return vox_grid_query_closest_points(a...);
-    }
-    template <class... A>
-    static vox_result ray(A... a) {
-        return vox_grid_query_ray(a...);
-    }
-    template <class... A>
-    static vox_result ray_hits(A... a) {
-        return vox_grid_query_ray_hits(a...);
-    }
-    template <class... A>
-    static vox_result ray_any(A... a) {
-        return vox_grid_query_ray_any(a...);
-    }
+    static auto point() noexcept { return vox_grid_query_point; }
+    static auto points() noexcept { return vox_grid_query_points; }
+    static auto box() noexcept { return vox_grid_query_box; }
+    static auto closest() noexcept { return vox_grid_query_closest; }
+    static auto closest_points() noexcept { return vox_grid_query_closest_points; }
+    static auto ray() noexcept { return vox_grid_query_ray; }
+    static auto ray_hits() noexcept { return vox_grid_query_ray_hits; }
+    static auto ray_any() noexcept { return vox_grid_query_ray_any; }
 };
 struct of_query_view {
-    template <class... A>
-    static vox_result point(A... a) {
-        return vox_query_view_point(a...);
-    }
-    template <class... A>
-    static vox_result points(A... a) {
-        return vox_query_view_points(a...);
-    }
-    template <class... A>
-    static vox_result box(A... a) {
-        return vox_query_view_box(a...);
-    }
-    template <class... A>
-    static vox_result closest(A... a) {
-        return vox_query_view_closest(a...);
-    }
-    template <class... A>
-    static vox_result closest_points(A... a) {
-        return vox_query_view_closest_points(a...);
-    }
-    template <class... A>
-    static vox_result ray(A... a) {
-        return vox_query_view_ray(a...);
-    }
-    template <class... A>
-    static vox_result ray_hits(A... a) {
-        return vox_query_view_ray_hits(a...);
-    }
-    template <class... A>
-    static vox_result ray_any(A... a) {
-        return vox_query_view_ray_any(a...);
-    }
+    static auto point() noexcept { return vox_query_view_point; }
+    static auto points() noexcept { return vox_query_view_points; }
+    static auto box() noexcept { return vox_query_view_box; }
+    static auto closest() noexcept { return vox_query_view_closest; }
+    static auto closest_points() noexcept { return vox_query_view_closest_points; }
+    static auto ray() noexcept { return vox_query_view_ray; }
+    static auto ray_hits() noexcept { return vox_query_view_ray_hits; }
+    static auto ray_any() noexcept { return vox_query_view_ray_any; }
 };
 
 // vox_grid_query_X and vox_query_view_X. Those with several answers return them all, or write the first ones to `out`
@@ -942,10 +908,10 @@ template <class Self, class Api>
 class queries {
 public:
     returns<std::vector<vox_point_hit>> query_point(const point& p, std::uint64_t mask = all_meshes) const {
-        return collect<vox_point_hit>(8, [&](auto... out) { return Api::point(self(), p.data(), mask, out...); });
+        return collect<vox_point_hit>(8, Api::point(), self(), p.data(), mask);
     }
     returns<std::uint64_t> query_point(const point& p, span<vox_point_hit> out, std::uint64_t mask = all_meshes) const {
-        return write([&](auto... to) { return Api::point(self(), p.data(), mask, to...); }, out);
+        return filled<std::uint64_t>(Api::point(), self(), p.data(), mask, out.data(), out.size());
     }
     returns<std::vector<vox_point_hit>> query_points(const points& p, std::uint64_t mask = all_meshes) const {
         return collect<vox_point_hit>(static_cast<std::size_t>(p.count),
@@ -953,22 +919,19 @@ public:
     }
     returns<std::uint64_t> query_points(const points& p, span<vox_point_hit> out,
                                         std::uint64_t mask = all_meshes) const {
-        return write([&](auto... to) { return ask(p, mask, to...); }, out);
+        return filled<std::uint64_t>([&](std::uint64_t* count) { return ask(p, mask, out.data(), out.size(), count); });
     }
     returns<std::vector<vox_tet_hit>> query_box(const point& min, const point& max,
                                                 std::uint64_t mask = all_meshes) const {
-        return collect<vox_tet_hit>(
-            16, [&](auto... out) { return Api::box(self(), min.data(), max.data(), mask, out...); });
+        return collect<vox_tet_hit>(16, Api::box(), self(), min.data(), max.data(), mask);
     }
     returns<std::uint64_t> query_box(const point& min, const point& max, span<vox_tet_hit> out,
                                      std::uint64_t mask = all_meshes) const {
-        return write([&](auto... to) { return Api::box(self(), min.data(), max.data(), mask, to...); }, out);
+        return filled<std::uint64_t>(Api::box(), self(), min.data(), max.data(), mask, out.data(), out.size());
     }
     returns<vox_surface_hit> query_closest(const point& p, double radius = std::numeric_limits<double>::infinity(),
                                            std::uint64_t mask = all_meshes) const {
-        vox_surface_hit hit{};
-        const vox_result result = Api::closest(self(), p.data(), radius, mask, &hit);
-        return give(result, hit);
+        return filled<vox_surface_hit>(Api::closest(), self(), p.data(), radius, mask);
     }
     // One hit a point.
     returns<std::vector<vox_closest_hit>>
@@ -987,36 +950,27 @@ public:
         return give(ask(p, out.data(), max_distance, mask, excluded));
     }
     returns<vox_ray_hit> query_ray(const point& from, const point& to, std::uint64_t mask = all_meshes) const {
-        vox_ray_hit hit{};
-        const vox_result result = Api::ray(self(), from.data(), to.data(), mask, &hit);
-        return give(result, hit);
+        return filled<vox_ray_hit>(Api::ray(), self(), from.data(), to.data(), mask);
     }
     returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to,
                                                        std::uint64_t mask = all_meshes,
                                                        vox_mesh excluded = VOX_NULL_MESH) const {
-        return collect<vox_facet_hit>(
-            16, [&](auto... out) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, out...); });
+        return collect<vox_facet_hit>(16, Api::ray_hits(), self(), from.data(), to.data(), mask, excluded);
     }
     returns<std::uint64_t> query_ray_hits(const point& from, const point& to, span<vox_facet_hit> out,
                                           std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
-        return write([&](auto... at) { return Api::ray_hits(self(), from.data(), to.data(), mask, excluded, at...); },
-                     out);
+        return filled<std::uint64_t>(Api::ray_hits(), self(), from.data(), to.data(), mask, excluded, out.data(),
+                                     out.size());
     }
     returns<bool> query_ray_any(const point& from, const point& to, std::uint64_t mask = all_meshes,
                                 vox_mesh excluded = VOX_NULL_MESH) const {
         std::uint32_t any = 0;
-        const vox_result result = Api::ray_any(self(), from.data(), to.data(), mask, excluded, &any);
+        const vox_result result = Api::ray_any()(self(), from.data(), to.data(), mask, excluded, &any);
         return give(result, any == 1);
     }
 
 private:
     auto self() const noexcept { return static_cast<const Self*>(this)->get(); }
-    template <class F, class T>
-    static returns<std::uint64_t> write(F&& call, span<T> out) {
-        std::uint64_t count = 0;
-        const vox_result result = call(out.data(), std::uint64_t{out.size()}, &count);
-        return give(result, count);
-    }
     vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room,
                    std::uint64_t* count) const {
         vox_result result = p.misfit.result();
@@ -1025,7 +979,7 @@ private:
             result = fail(VOX_ERROR_UNSUPPORTED, "query_points: numbers of a point are %llu bytes apart, not %llu",
                           p.component_byte_stride, number);
         if (result != VOX_OK) return result;
-        return Api::points(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
+        return Api::points()(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
     }
     vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask,
                    vox_mesh excluded) const {
@@ -1040,7 +994,7 @@ private:
         desc.max_distance = max_distance;
         desc.mask = mask;
         desc.excluded = excluded;
-        return Api::closest_points(self(), &desc, hits);
+        return Api::closest_points()(self(), &desc, hits);
     }
 };
 
@@ -1060,16 +1014,10 @@ public:
     static query_view adopt(vox_query_view* raw) noexcept { return query_view(raw); }
     const vox_query_view* get() const noexcept { return view_; }
     // vox_query_view_epoch
-    returns<std::uint64_t> epoch() const {
-        std::uint64_t epoch = 0;
-        const vox_result result = vox_query_view_epoch(view_, &epoch);
-        return detail::give(result, epoch);
-    }
+    returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_query_view_epoch, view_); }
     // vox_query_view_user_data
     returns<std::uint64_t> user_data(vox_mesh mesh) const {
-        std::uint64_t data = 0;
-        const vox_result result = vox_query_view_user_data(view_, mesh, &data);
-        return detail::give(result, data);
+        return detail::filled<std::uint64_t>(vox_query_view_user_data, view_, mesh);
     }
 
 private:
@@ -1142,7 +1090,7 @@ public:
     // vox_grid_set_cell_size
     returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); }
     // vox_grid_cell_size
-    returns<double> cell_size() const { return value(vox_grid_cell_size); }
+    returns<double> cell_size() const { return detail::filled<double>(vox_grid_cell_size, get()); }
     // vox_grid_set_worker_count
     returns<void> set_worker_count(std::uint32_t count) {
         return detail::give(vox_grid_set_worker_count(get(), count));
@@ -1150,7 +1098,7 @@ public:
     // vox_grid_set_flags
     returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); }
     // vox_grid_get_flags
-    returns<std::uint32_t> flags() const { return value(vox_grid_get_flags); }
+    returns<std::uint32_t> flags() const { return detail::filled<std::uint32_t>(vox_grid_get_flags, get()); }
 
     // -- meshes
 
@@ -1164,29 +1112,21 @@ public:
     }
     // vox_mesh_insert
     returns<vox_mesh> insert(const vox_mesh_desc& desc) {
-        vox_mesh mesh = VOX_NULL_MESH;
-        const vox_result result = vox_mesh_insert(get(), &desc, &mesh);
-        return detail::give(result, mesh);
+        return detail::filled<vox_mesh>(vox_mesh_insert, get(), &desc);
     }
     // vox_mesh_remove
     returns<void> remove(vox_mesh mesh) { return detail::give(rebound(mesh, vox_mesh_remove(get(), mesh))); }
     // vox_mesh_is_valid
     bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; }
     // vox_grid_meshes
-    returns<std::vector<vox_mesh>> meshes() const {
-        return detail::collect<vox_mesh>(16, [&](auto... out) { return vox_grid_meshes(get(), out...); });
-    }
+    returns<std::vector<vox_mesh>> meshes() const { return detail::collect<vox_mesh>(16, vox_grid_meshes, get()); }
     // vox_mesh_get_info
     returns<vox_mesh_info> info(vox_mesh mesh) const {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
-        const vox_result result = vox_mesh_get_info(get(), mesh, &info);
-        return detail::give(result, info);
+        return detail::filled<vox_mesh_info>(vox_mesh_get_info, get(), mesh);
     }
     // vox_mesh_user_data
     returns<std::uint64_t> user_data(vox_mesh mesh) const {
-        std::uint64_t data = 0;
-        const vox_result result = vox_mesh_user_data(get(), mesh, &data);
-        return detail::give(result, data);
+        return detail::filled<std::uint64_t>(vox_mesh_user_data, get(), mesh);
     }
     // vox_mesh_copy_tets: corners, and whether each is enabled.
     returns<std::vector<std::array<std::uint32_t, 4>>> tets_of(vox_mesh mesh) const {
@@ -1196,8 +1136,7 @@ public:
         });
     }
     returns<std::vector<std::uint8_t>> tets_enabled(vox_mesh mesh) const {
-        return detail::collect<std::uint8_t>(
-            0, [&](auto... out) { return vox_mesh_copy_tets(get(), mesh, nullptr, out...); });
+        return detail::collect<std::uint8_t>(0, vox_mesh_copy_tets, get(), mesh, nullptr);
     }
     // vox_mesh_bind_strided_positions. Fails unless there are as many as the mesh has vertices.
     returns<void> bind(vox_mesh mesh, const borrowed_points& positions) {
@@ -1254,11 +1193,7 @@ public:
         return detail::give(vox_mesh_set_filter(get(), mesh, &filter));
     }
     // vox_mesh_filter
-    returns<vox_filter> filter(vox_mesh mesh) const {
-        vox_filter filter = detail::sized<vox_filter>();
-        const vox_result result = vox_mesh_filter(get(), mesh, &filter);
-        return detail::give(result, filter);
-    }
+    returns<vox_filter> filter(vox_mesh mesh) const { return detail::filled<vox_filter>(vox_mesh_filter, get(), mesh); }
     // vox_mesh_set_enabled
     returns<void> set_enabled(vox_mesh mesh, bool enabled) {
         return detail::give(vox_mesh_set_enabled(get(), mesh, enabled));
@@ -1359,9 +1294,7 @@ public:
     returns<void> step() { return done(vox_grid_step(get())); }
     // vox_grid_failure
     returns<vox_failure> failure(std::uint32_t index = 0) const {
-        vox_failure failure = detail::sized<vox_failure>();
-        const vox_result result = vox_grid_failure(get(), index, &failure);
-        return detail::give(result, failure);
+        return detail::filled<vox_failure>(vox_grid_failure, get(), index);
     }
     // vox_grid_contacts
     returns<view<const vox_contact>> contacts() const& { return read(vox_grid_contacts); }
@@ -1407,17 +1340,15 @@ public:
     void reading_depths() const&& = delete;
 
     // vox_grid_epoch
-    returns<std::uint64_t> epoch() const { return value(vox_grid_epoch); }
+    returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_grid_epoch, get()); }
     // vox_grid_hash
-    returns<std::uint64_t> hash() const { return value(vox_grid_hash); }
+    returns<std::uint64_t> hash() const { return detail::filled<std::uint64_t>(vox_grid_hash, get()); }
     // vox_mesh_copy_contacts, vox_pair_copy_contacts
     returns<std::vector<vox_contact>> contacts_of(vox_mesh mesh) const {
-        return detail::collect<vox_contact>(16,
-                                            [&](auto... out) { return vox_mesh_copy_contacts(get(), mesh, out...); });
+        return detail::collect<vox_contact>(16, vox_mesh_copy_contacts, get(), mesh);
     }
     returns<std::vector<vox_contact>> contacts_of(vox_mesh a, vox_mesh b) const {
-        return detail::collect<vox_contact>(16,
-                                            [&](auto... out) { return vox_pair_copy_contacts(get(), a, b, out...); });
+        return detail::collect<vox_contact>(16, vox_pair_copy_contacts, get(), a, b);
     }
     // vox_grid_prepare_readings, vox_grid_prepare_readings_of
     returns<void> prepare_readings() { return prepared(vox_grid_prepare_readings(get())); }
@@ -1426,12 +1357,10 @@ public:
     }
     // vox_mesh_copy_readings, vox_pair_copy_readings
     returns<std::vector<vox_reading>> readings_of(vox_mesh mesh) const {
-        return detail::collect<vox_reading>(16,
-                                            [&](auto... out) { return vox_mesh_copy_readings(get(), mesh, out...); });
+        return detail::collect<vox_reading>(16, vox_mesh_copy_readings, get(), mesh);
     }
     returns<std::vector<vox_reading>> readings_of(vox_mesh a, vox_mesh b) const {
-        return detail::collect<vox_reading>(16,
-                                            [&](auto... out) { return vox_pair_copy_readings(get(), a, b, out...); });
+        return detail::collect<vox_reading>(16, vox_pair_copy_readings, get(), a, b);
     }
     // vox_grid_save
     returns<std::vector<std::byte>> save() const {
@@ -1452,20 +1381,16 @@ public:
         return detail::give(result, std::move(taken));
     }
     // vox_grid_counters
-    returns<vox_counters> counters() const {
-        vox_counters counters = detail::sized<vox_counters>();
-        const vox_result result = vox_grid_counters(get(), &counters);
-        return detail::give(result, counters);
-    }
+    returns<vox_counters> counters() const { return detail::filled<vox_counters>(vox_grid_counters, get()); }
     // vox_grid_profile
-    returns<vox_profile> profile() const {
-        vox_profile profile = detail::sized<vox_profile>();
-        const vox_result result = vox_grid_profile(get(), &profile);
-        return detail::give(result, profile);
-    }
+    returns<vox_profile> profile() const { return detail::filled<vox_profile>(vox_grid_profile, get()); }
     // vox_grid_suggest_cell_size, with desc null or given
-    returns<vox_suggestion> suggest_cell_size() const { return suggest(nullptr); }
-    returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc) const { return suggest(&desc); }
+    returns<vox_suggestion> suggest_cell_size() const {
+        return detail::filled<vox_suggestion>(vox_grid_suggest_cell_size, get(), nullptr);
+    }
+    returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc) const {
+        return detail::filled<vox_suggestion>(vox_grid_suggest_cell_size, get(), &desc);
+    }
 
 private:
     friend class unique_mesh;
@@ -1485,12 +1410,6 @@ private:
         made.grid_.get_deleter().watching->grid = raw;
 #endif
         return detail::give(result, std::move(made));
-    }
-    template <class T>
-    returns<T> value(vox_result (*of)(const vox_grid*, T*)) const {
-        T found{};
-        const vox_result result = of(get(), &found);
-        return detail::give(result, found);
     }
     detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_mesh mesh = VOX_NULL_MESH) const {
         return detail::guard(grid_.get_deleter().watching, epoch, until, mesh);
@@ -1544,11 +1463,6 @@ private:
         desc.user_data = user_data;
         if (result != VOX_OK) return detail::give(result, vox_mesh{VOX_NULL_MESH});
         return insert(desc);
-    }
-    returns<vox_suggestion> suggest(const vox_suggest_desc* desc) const {
-        vox_suggestion suggestion = detail::sized<vox_suggestion>();
-        const vox_result result = vox_grid_suggest_cell_size(get(), desc, &suggestion);
-        return detail::give(result, suggestion);
     }
 
     std::unique_ptr<vox_grid, detail::grid_deleter> grid_;
@@ -1647,30 +1561,18 @@ inline const char* build_info() noexcept { return vox_build_info(); }         //
 // vox_suggest_cell_size
 inline returns<vox_suggestion> suggest_cell_size(span<const vox_mesh_desc> meshes,
                                                  const vox_suggest_desc& desc = vox_default_suggest_desc()) {
-    vox_suggestion suggestion = detail::sized<vox_suggestion>();
-    const vox_result result = vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &suggestion);
-    return detail::give(result, suggestion);
+    return detail::filled<vox_suggestion>(vox_suggest_cell_size, &desc, meshes.data(), meshes.size());
 }
 
 // vox_cost_predict
 inline returns<vox_cost_prediction> predict_cost(span<const vox_mesh_desc> meshes, double cell_size,
                                                  const vox_suggest_desc& desc = vox_default_suggest_desc()) {
-    vox_cost_prediction prediction = detail::sized<vox_cost_prediction>();
-    const vox_result result = vox_cost_predict(&desc, meshes.data(), meshes.size(), cell_size, &prediction);
-    return detail::give(result, prediction);
+    return detail::filled<vox_cost_prediction>(vox_cost_predict, &desc, meshes.data(), meshes.size(), cell_size);
 }
 
 // vox_cost_calibrate, vox_cost_get_weights, vox_cost_set_weights; without an argument those shipped with the library.
-inline returns<vox_cost_weights> calibrate() {
-    vox_cost_weights weights = detail::sized<vox_cost_weights>();
-    const vox_result result = vox_cost_calibrate(&weights);
-    return detail::give(result, weights);
-}
-inline returns<vox_cost_weights> cost_weights() {
-    vox_cost_weights weights = detail::sized<vox_cost_weights>();
-    const vox_result result = vox_cost_get_weights(&weights);
-    return detail::give(result, weights);
-}
+inline returns<vox_cost_weights> calibrate() { return detail::filled<vox_cost_weights>(vox_cost_calibrate); }
+inline returns<vox_cost_weights> cost_weights() { return detail::filled<vox_cost_weights>(vox_cost_get_weights); }
 inline returns<void> set_cost_weights(const vox_cost_weights& weights) {
     return detail::give(vox_cost_set_weights(&weights));
 }
@@ -1706,16 +1608,12 @@ returns<vox_cost_minimum> minimise(F&& cost, const vox_cost_bounds& bounds) {
 
 // vox_cost_minimise_terms
 inline returns<vox_cost_minimum> minimise(span<const vox_cost_term> terms, const vox_cost_bounds& bounds) {
-    vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
-    const vox_result result = vox_cost_minimise_terms(terms.data(), terms.size(), &bounds, &minimum);
-    return detail::give(result, minimum);
+    return detail::filled<vox_cost_minimum>(vox_cost_minimise_terms, terms.data(), terms.size(), &bounds);
 }
 
 // vox_zone_distance
 inline returns<double> zone_distance(double n, double n_min, double n_opt, double n_max) {
-    double epsilon = 0;
-    const vox_result result = vox_zone_distance(n, n_min, n_opt, n_max, &epsilon);
-    return detail::give(result, epsilon);
+    return detail::filled<double>(vox_zone_distance, n, n_min, n_opt, n_max);
 }
 
 // The curve of a vox_suggestion or vox_cost_minimum; the terms of a vox_suggestion or vox_cost_prediction.

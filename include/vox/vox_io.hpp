@@ -63,11 +63,7 @@ public:
     const vox_io_mesh* get() const noexcept { return mesh_.get(); }
 
     // vox_io_mesh_get. The spans live as long as the mesh.
-    returns<vox_io_mesh_view> view() const& {
-        vox_io_mesh_view view{};
-        const vox_result result = vox_io_mesh_get(get(), &view);
-        return detail::give(result, view);
-    }
+    returns<vox_io_mesh_view> view() const& { return detail::filled<vox_io_mesh_view>(vox_io_mesh_get, get()); }
     void view() const&& = delete;
     // Three numbers a vertex, four corners a tetrahedron, three a triangle; empty for a null mesh.
     span<const double> positions() const& noexcept {
@@ -93,11 +89,7 @@ public:
     }
     void desc() const&& = delete;
     // vox_io_mesh_report
-    returns<vox_io_report> report() const {
-        vox_io_report report = detail::sized<vox_io_report>();
-        const vox_result result = vox_io_mesh_report(get(), &report);
-        return detail::give(result, report);
-    }
+    returns<vox_io_report> report() const { return detail::filled<vox_io_report>(vox_io_mesh_report, get()); }
     // vox_io_mesh_warnings
     const char* warnings() const& noexcept { return vox_io_mesh_warnings(get()); }
     void warnings() const&& = delete;
@@ -140,9 +132,7 @@ private:
         return view;
     }
     returns<vox_io_quality> measured(const vox_io_mesh* surface) const {
-        vox_io_quality quality = detail::sized<vox_io_quality>();
-        const vox_result result = vox_io_measure_quality(get(), surface, &quality);
-        return detail::give(result, quality);
+        return detail::filled<vox_io_quality>(vox_io_measure_quality, get(), surface);
     }
     std::unique_ptr<vox_io_mesh, deleter> mesh_;
 };

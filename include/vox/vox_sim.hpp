@@ -55,17 +55,13 @@ public:
     returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); }
     // vox_sim_body_insert
     returns<vox_mesh> insert(const vox_sim_body_desc& desc) {
-        vox_mesh body = VOX_NULL_MESH;
-        const vox_result result = vox_sim_body_insert(get(), &desc, &body);
-        return detail::give(result, body);
+        return detail::filled<vox_mesh>(vox_sim_body_insert, get(), &desc);
     }
     // vox_sim_body_remove
     returns<void> remove(vox_mesh body) { return detail::give(vox_sim_body_remove(get(), body)); }
     // vox_sim_body_get. The arrays live until the body is removed; every step writes them.
     returns<vox_sim_body_view> body(vox_mesh body) const& {
-        vox_sim_body_view view{};
-        const vox_result result = vox_sim_body_get(get(), body, &view);
-        return detail::give(result, view);
+        return detail::filled<vox_sim_body_view>(vox_sim_body_get, get(), body);
     }
     void body(vox_mesh body) const&& = delete;
     // vox_sim_body_set_state. An empty span leaves positions or velocities as they are.
@@ -87,16 +83,10 @@ public:
     }
     // vox_sim_energy
     returns<vox_sim_energies> energy(vox_mesh body = VOX_NULL_MESH) const {
-        vox_sim_energies energies = detail::sized<vox_sim_energies>();
-        const vox_result result = vox_sim_energy(get(), body, &energies);
-        return detail::give(result, energies);
+        return detail::filled<vox_sim_energies>(vox_sim_energy, get(), body);
     }
     // vox_sim_counters
-    returns<vox_sim_counts> counters() const {
-        vox_sim_counts counts = detail::sized<vox_sim_counts>();
-        const vox_result result = vox_sim_counters(get(), &counts);
-        return detail::give(result, counts);
-    }
+    returns<vox_sim_counts> counters() const { return detail::filled<vox_sim_counts>(vox_sim_counters, get()); }
 
 private:
     struct deleter {
@@ -128,16 +118,12 @@ public:
     const vox_experiment* get() const noexcept { return experiment_.get(); }
     // vox_experiment_get. Its shares live as long as the experiment.
     returns<vox_experiment_facts> facts() const& {
-        vox_experiment_facts facts = detail::sized<vox_experiment_facts>();
-        const vox_result result = vox_experiment_get(get(), &facts);
-        return detail::give(result, facts);
+        return detail::filled<vox_experiment_facts>(vox_experiment_get, get());
     }
     void facts() const&& = delete;
     // vox_experiment_suggest
     returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc = vox_default_suggest_desc()) const {
-        vox_suggestion suggestion = detail::sized<vox_suggestion>();
-        const vox_result result = vox_experiment_suggest(get(), &desc, &suggestion);
-        return detail::give(result, suggestion);
+        return detail::filled<vox_suggestion>(vox_experiment_suggest, get(), &desc);
     }
     // vox_experiment_measure. `frame_ns` is empty or takes the time of each frame.
     returns<vox_experiment_sample> measure(double cell_size, span<std::uint64_t> frame_ns = {}) {
@@ -189,9 +175,7 @@ inline returns<vox_time_fit> fit_times(span<const double> cell_sizes, span<const
 }
 // vox_fit_time_at
 inline returns<double> time_at(const vox_time_fit& fit, double cell_size) {
-    double time = 0;
-    const vox_result result = vox_fit_time_at(&fit, cell_size, &time);
-    return detail::give(result, time);
+    return detail::filled<double>(vox_fit_time_at, &fit, cell_size);
 }
 // vox_fit_zone: its smallest and largest cell size
 inline returns<std::pair<double, double>> zone(const vox_time_fit& fit, double limit) {
