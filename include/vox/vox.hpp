@@ -64,7 +64,8 @@
 #define VOX_HPP_CHECKED 1
 #endif
 
-// Files compiled in different modes may be linked together: their names differ.
+// Files compiled in different modes may be linked together: their names differ, but for vox::error, so that each
+// catches what others throw.
 #if VOX_HPP_THROWS && VOX_HPP_CHECKED
 #define VOX_HPP_MODE throwing_checked
 #elif VOX_HPP_THROWS
@@ -76,6 +77,38 @@
 #endif
 
 namespace vox {
+
+// ---- errors -------------------------------------------------------------------------------------
+
+// A failed call: its result and the text of vox_last_error().
+class error : public std::exception {
+public:
+    // The failure that this thread's vox_last_error() describes.
+    explicit error(vox_result result) noexcept : error(result, vox_last_error()) {}
+    error(vox_result result, const char* text) noexcept : result_(result), text_(copy_of(text)) {}
+    error(const error& other) noexcept
+        : std::exception(other), result_(other.result_), text_(copy_of(other.text_.get())) {}
+    error& operator=(const error& other) noexcept {
+        result_ = other.result_;
+        text_ = copy_of(other.text_.get());
+        return *this;
+    }
+    ~error() override = default;
+    vox_result result() const noexcept { return result_; }
+    const char* what() const noexcept override { return text_ ? text_.get() : vox_result_string(result_); }
+
+private:
+    // Null without memory: then the result's name is the text.
+    static std::unique_ptr<char[]> copy_of(const char* text) noexcept {
+        const std::size_t size = text ? std::strlen(text) + 1 : 0;
+        std::unique_ptr<char[]> copy(size > 1 ? new (std::nothrow) char[size] : nullptr);
+        if (copy) std::memcpy(copy.get(), text, size);
+        return copy;
+    }
+    vox_result result_;
+    std::unique_ptr<char[]> text_;
+};
+
 inline namespace VOX_HPP_MODE {
 
 // ---- spans --------------------------------------------------------------------------------------
@@ -115,36 +148,7 @@ private:
 };
 #endif
 
-// ---- errors -------------------------------------------------------------------------------------
-
-// A failed call: its result and the text of vox_last_error().
-class error : public std::exception {
-public:
-    // The failure that this thread's vox_last_error() describes.
-    explicit error(vox_result result) noexcept : error(result, vox_last_error()) {}
-    error(vox_result result, const char* text) noexcept : result_(result), text_(copy_of(text)) {}
-    error(const error& other) noexcept
-        : std::exception(other), result_(other.result_), text_(copy_of(other.text_.get())) {}
-    error& operator=(const error& other) noexcept {
-        result_ = other.result_;
-        text_ = copy_of(other.text_.get());
-        return *this;
-    }
-    ~error() override = default;
-    vox_result result() const noexcept { return result_; }
-    const char* what() const noexcept override { return text_ ? text_.get() : vox_result_string(result_); }
-
-private:
-    // Null without memory: then the result's name is the text.
-    static std::unique_ptr<char[]> copy_of(const char* text) noexcept {
-        const std::size_t size = text ? std::strlen(text) + 1 : 0;
-        std::unique_ptr<char[]> copy(size > 1 ? new (std::nothrow) char[size] : nullptr);
-        if (copy) std::memcpy(copy.get(), text, size);
-        return copy;
-    }
-    vox_result result_;
-    std::unique_ptr<char[]> text_;
-};
+// ---- values or errors ---------------------------------------------------------------------------
 
 // A value, or the error that there is instead of it; as much of std::expected as is needed. Reading the value of an
 // error prints its text and aborts.

@@ -14,6 +14,9 @@
 // Compiled without exceptions and unchecked, in a file of its own.
 extern "C" std::uint64_t hash_without_exceptions(vox_grid* grid);
 
+// Compiled with exceptions and unchecked, in another one.
+void fail_without_checks(vox_grid* grid);
+
 // Vectors as other libraries have them.
 namespace other {
 struct glm_like {
@@ -302,6 +305,13 @@ START_TEST(errors_have_code_and_text) {
         ck_assert_int_eq(assigned.result(), VOX_ERROR_INVALID_HANDLE);
     }
     ck_assert_str_eq(vox::error(VOX_ERROR_BUDGET, "").what(), "VOX_ERROR_BUDGET");
+}
+END_TEST
+
+// Also where another file, compiled in another mode, throws it.
+START_TEST(errors_are_the_same_in_every_mode) {
+    vox::grid grid;
+    throws([&] { fail_without_checks(grid.get()); }, VOX_ERROR_INVALID_ARGUMENT, "-1");
 }
 END_TEST
 
@@ -993,7 +1003,8 @@ int main() {
     tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, readings_equal_those_of_c,
                    meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
                    cell_sizes_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call, versions);
-    tcase_add_each(add_case(suite, "errors"), errors_have_code_and_text, arrays_of_another_size_are_errors);
+    tcase_add_each(add_case(suite, "errors"), errors_have_code_and_text, errors_are_the_same_in_every_mode,
+                   arrays_of_another_size_are_errors);
     tcase_add_each(add_case(suite, "ownership"), grids_move_and_release, meshes_are_removed_by_their_owner,
                    grids_of_c_and_back);
     tcase_add_each(add_case(suite, "views"), views_know_when_they_have_ended,
