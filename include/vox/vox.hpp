@@ -113,11 +113,19 @@ inline namespace VOX_HPP_MODE {
 
 // ---- spans --------------------------------------------------------------------------------------
 
+namespace detail {
+// A view, whose elements may have gaps between them.
+template <class R, class = void>
+struct has_stride : std::false_type {};
+template <class R>
+struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
+} // namespace detail
+
 #if defined(__cpp_lib_span)
 template <class T>
 using span = std::span<T>;
 #else
-// As much of std::span as is needed before C++20.
+// As much of std::span as is needed before C++20. A view is none, since it may have gaps.
 template <class T>
 class span {
 public:
@@ -131,6 +139,7 @@ public:
     template <class R, class = std::enable_if_t<
                            !std::is_array_v<std::remove_reference_t<R>> &&
                            !std::is_same_v<std::remove_cv_t<std::remove_reference_t<R>>, span> &&
+                           !detail::has_stride<R>::value &&
                            (std::is_lvalue_reference_v<R> || std::is_const_v<T>)&&std::is_convertible_v<
                                std::remove_pointer_t<decltype(std::data(std::declval<R&>()))> (*)[], T (*)[]>>>
     constexpr span(R&& range) noexcept : data_(std::data(range)), size_(static_cast<std::size_t>(std::size(range))) {}
@@ -633,11 +642,6 @@ template <class R>
 struct corners<R, std::enable_if_t<is_index<number_of<R>>>>
     : std::bool_constant<element<element_of<R>>::count == 1 || element<element_of<R>>::count == 4> {};
 
-template <class R, class = void>
-struct has_stride : std::false_type {};
-template <class R>
-struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
-
 // Types that own nothing, so that a temporary may be borrowed.
 template <class R, class = void>
 struct owns_nothing : std::false_type {};
@@ -697,6 +701,9 @@ public:
         if constexpr (E::count == 1 || detail::matrix<R>::value) {
             count = size / 3;
             if (size % 3 != 0) misfit = {"positions: %llu numbers are not three for each vertex", size, 0};
+            if constexpr (detail::has_stride<R>::value)
+                if (range.byte_stride() != sizeof(number))
+                    misfit = {"positions: a view whose numbers are %llu bytes apart", range.byte_stride(), 0};
         } else {
             static_assert(sizeof(detail::element_of<R>) >= 3 * sizeof(number));
             count = size;
@@ -744,6 +751,9 @@ public:
                 misfit = {"tets: in a matrix of %llu x %llu the corners of a tet do not lie one after the other",
                           static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols())};
         } else {
+            if constexpr (detail::has_stride<R>::value)
+                if (range.byte_stride() != sizeof(detail::element_of<R>))
+                    misfit = {"tets: a view whose elements are %llu bytes apart", range.byte_stride(), 0};
             size *= element<detail::element_of<R>>::count;
         }
         count = size / 4;

@@ -708,6 +708,25 @@ START_TEST(arrays_of_all_kinds) {
 }
 END_TEST
 
+// Where a call takes a packed array, a view that leaves gaps is refused.
+START_TEST(views_with_gaps) {
+    const Scene scene;
+    const std::uint64_t hash = hash_with(scene, scene.a, scene.tets);
+    using corners = std::array<std::uint32_t, 4>;
+    const auto* fours = reinterpret_cast<const corners*>(scene.tets.data());
+    const vox::view<const float> numbers(scene.a.data(), 4, scene.a.size()), half(scene.a.data(), 8, 6);
+    const vox::view<const std::uint32_t> indices(scene.tets.data(), 4, scene.tets.size()),
+        odd(scene.tets.data(), 8, 8);
+    const vox::view<const corners> tets(fours, 16, scene.tet_count()), every_second(fours, 32, 2);
+    ck_assert_uint_eq(hash_with(scene, numbers, tets), hash);
+    ck_assert_uint_eq(hash_with(scene, numbers, indices), hash);
+    throws([&] { hash_with(scene, half, tets); }, VOX_ERROR_INVALID_ARGUMENT, "8 bytes apart");
+    throws([&] { hash_with(scene, numbers, odd); }, VOX_ERROR_INVALID_ARGUMENT, "8 bytes apart");
+    throws([&] { hash_with(scene, numbers, every_second); }, VOX_ERROR_INVALID_ARGUMENT, "32 bytes apart");
+    static_assert(!std::is_constructible_v<vox::span<const std::uint32_t>, vox::view<const std::uint32_t>&>);
+}
+END_TEST
+
 // ---- callables ----
 
 START_TEST(logs_are_callables) {
@@ -1009,7 +1028,8 @@ int main() {
                    grids_of_c_and_back);
     tcase_add_each(add_case(suite, "views"), views_know_when_they_have_ended,
                    readings_and_mapped_positions_end_by_themselves, views_are_ranges);
-    tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds);
+    tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds,
+                   views_with_gaps);
     tcase_add_each(add_case(suite, "callables"), logs_are_callables, task_systems_are_callables,
                    cost_functions_are_callables);
     return run_suite(suite);
