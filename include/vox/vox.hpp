@@ -269,6 +269,13 @@ public:
 #endif
         return true;
     }
+    // Also keeps what another has caught, which then has nothing; the first exception stays.
+    void take([[maybe_unused]] catcher& other) noexcept {
+#if VOX_HPP_CATCHES
+        std::exception_ptr theirs = std::exchange(other.thrown_, nullptr);
+        if (!thrown_) thrown_ = std::move(theirs);
+#endif
+    }
     void rethrow() {
 #if VOX_HPP_CATCHES
         if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
@@ -1532,8 +1539,9 @@ inline returns<void> step(span<grid> grids, std::uint32_t worker_count = 0, span
     const vox_task_system system = own.task_system();
     const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &system : nullptr, worker_count,
                                              results.empty() ? nullptr : results.data());
+    for (grid& one : grids)
+        if (const auto& kept = one.grid_.get_deleter().kept) own.caught.take(kept->caught);
     own.caught.rethrow();
-    for (grid& one : grids) one.rethrow();
     return detail::give(result);
 }
 

@@ -791,6 +791,36 @@ START_TEST(task_systems_are_callables) {
 }
 END_TEST
 
+// Of what the task systems of several grids throw in one call, nothing is left for a later one.
+START_TEST(one_exception_a_call) {
+    const Scene scene(20);
+    bool fails = true;
+    const auto run_all = [&](std::uint64_t items, std::uint64_t, const vox::task& run) {
+        if (fails) throw std::runtime_error("no threads");
+        run(0, items, 0);
+    };
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.worker_count = 2;
+    std::vector<vox::grid> grids;
+    for (int i = 0; i < 2; ++i) {
+        grids.emplace_back(desc, vox::log_function(), run_all);
+        grids.back().insert(scene.a, scene.tets);
+        grids.back().insert(scene.b, scene.tets);
+    }
+    try {
+        vox::step(grids, 1);
+        ck_abort_msg("nothing was thrown");
+    } catch (const std::runtime_error& error) {
+        ck_assert_str_eq(error.what(), "no threads");
+    }
+    fails = false;
+    for (vox::grid& grid : grids) {
+        grid.step();
+        ck_assert_uint_gt(grid.contacts().size(), 0);
+    }
+}
+END_TEST
+
 START_TEST(cost_functions_are_callables) {
     const vox_cost_bounds bounds = vox::cost_bounds(0.125, 8);
     const auto cost = [](double d) { return d + 1 / d; };
@@ -1031,6 +1061,6 @@ int main() {
     tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds,
                    views_with_gaps);
     tcase_add_each(add_case(suite, "callables"), logs_are_callables, task_systems_are_callables,
-                   cost_functions_are_callables);
+                   one_exception_a_call, cost_functions_are_callables);
     return run_suite(suite);
 }
