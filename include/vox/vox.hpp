@@ -32,6 +32,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -333,21 +334,12 @@ namespace detail {
 // What the views of a grid look at. It outlives the grid.
 struct watch {
     explicit watch(const vox_grid* watched) noexcept : grid(watched) {}
-    const vox_grid* grid;                                    // null once it was destroyed
-    std::uint64_t prepared = 0;                              // readings, so many times
-    std::vector<std::pair<vox_mesh, std::uint64_t>> rebound; // meshes whose mapped positions ended, so many times
+    const vox_grid* grid;                                // null once it was destroyed
+    std::uint64_t prepared = 0;                          // readings, so many times
+    std::unordered_map<vox_mesh, std::uint64_t> rebound; // mapped positions of a mesh ended, so many times
     std::uint64_t rebound_of(vox_mesh mesh) const noexcept {
-        for (const auto& [id, times] : rebound)
-            if (id == mesh) return times;
-        return 0;
-    }
-    void rebind(vox_mesh mesh) {
-        for (auto& [id, times] : rebound)
-            if (id == mesh) {
-                ++times;
-                return;
-            }
-        rebound.emplace_back(mesh, 1);
+        const auto found = rebound.find(mesh);
+        return found == rebound.end() ? 0 : found->second;
     }
 };
 using watched = std::shared_ptr<watch>;
@@ -1103,7 +1095,9 @@ public:
     const vox_grid* get() const noexcept { return grid_.get(); }
 
     // vox_grid_clear
-    returns<void> clear() { return detail::give(vox_grid_clear(get())); }
+    returns<void> clear() {
+        return detail::give(noted(vox_grid_clear(get()), [](auto& watch) { watch.rebound.clear(); }));
+    }
     // vox_grid_reserve
     returns<void> reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
         return detail::give(vox_grid_reserve(get(), mesh_count, contact_count));
@@ -1136,7 +1130,9 @@ public:
         return detail::filled<vox_mesh>(vox_mesh_insert, get(), &desc);
     }
     // vox_mesh_remove
-    returns<void> remove(vox_mesh mesh) { return detail::give(rebound(mesh, vox_mesh_remove(get(), mesh))); }
+    returns<void> remove(vox_mesh mesh) {
+        return detail::give(noted(vox_mesh_remove(get(), mesh), [&](auto& watch) { watch.rebound.erase(mesh); }));
+    }
     // vox_mesh_is_valid
     bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; }
     // vox_grid_meshes
@@ -1456,17 +1452,19 @@ private:
         rethrow();
         return detail::give(result);
     }
-    returns<void> prepared(vox_result result) {
+    // In a checked build, notes for views what a call that has succeeded has ended.
+    template <class F>
+    vox_result noted(vox_result result, [[maybe_unused]] F&& note) {
 #if VOX_HPP_CHECKED
-        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) ++watching->prepared;
+        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) note(*watching);
 #endif
-        return done(result);
+        return result;
+    }
+    returns<void> prepared(vox_result result) {
+        return done(noted(result, [](auto& watch) { ++watch.prepared; }));
     }
     vox_result rebound(vox_mesh mesh, vox_result result) {
-#if VOX_HPP_CHECKED
-        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) watching->rebind(mesh);
-#endif
-        return (void)mesh, result;
+        return noted(result, [&](auto& watch) { ++watch.rebound[mesh]; });
     }
     template <class T>
     static vox_result same_format(vox_mesh mesh, const vox_mesh_info& info) {
@@ -1514,6 +1512,7 @@ public:
         if (mesh == VOX_NULL_MESH) return;
 #if VOX_HPP_CHECKED
         if (!watching_ || !watching_->grid) return; // with its grid
+        watching_->rebound.erase(mesh);
 #endif
         (void)vox_mesh_remove(grid_, mesh); // may be gone already
     }

@@ -10,6 +10,9 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 // Compiled without exceptions and unchecked, in a file of its own.
 extern "C" std::uint64_t hash_without_exceptions(vox_grid* grid);
@@ -454,6 +457,25 @@ START_TEST(meshes_are_removed_by_their_owner) {
 #endif
 }
 END_TEST
+
+#if VOX_HPP_CHECKED && defined(__GLIBC__)
+// What a checked build notes of meshes whose positions ended goes with them.
+START_TEST(meshes_that_come_and_go_leave_nothing) {
+    const Scene scene;
+    vox::grid grid;
+    const auto come_and_go = [&](int times) {
+        for (int i = 0; i < times; ++i) {
+            const vox_mesh mesh = grid.insert(scene.a);
+            grid.bind(mesh, scene.b);
+            grid.remove(mesh);
+        }
+        return mallinfo2().uordblks + mallinfo2().hblkhd;
+    };
+    const std::size_t bytes = come_and_go(1000);
+    ck_assert_uint_le(come_and_go(20000), bytes + 65536);
+}
+END_TEST
+#endif
 
 START_TEST(grids_of_c_and_back) {
     const Scene scene;
@@ -1058,6 +1080,9 @@ int main() {
                    grids_of_c_and_back);
     tcase_add_each(add_case(suite, "views"), views_know_when_they_have_ended,
                    readings_and_mapped_positions_end_by_themselves, views_are_ranges);
+#if VOX_HPP_CHECKED && defined(__GLIBC__)
+    tcase_add_each(add_case(suite, "memory"), meshes_that_come_and_go_leave_nothing);
+#endif
     tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds,
                    views_with_gaps);
     tcase_add_each(add_case(suite, "callables"), logs_are_callables, task_systems_are_callables,
