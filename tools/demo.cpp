@@ -213,7 +213,7 @@ void add_demo(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     Command command = line.add("demo", "Two deforming bodies collide; needs no file");
     command.option("--tets", options->tets, "Approximate number of tetrahedra of each body")
-        .range(std::uint64_t{1}, std::uint64_t{100000000});
+        .range(1, 100000000);
     command.option("--frames", options->frames, "Number of frames").range(1, 1000000);
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run(*options); });

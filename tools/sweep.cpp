@@ -460,7 +460,7 @@ void add_sweep(CommandLine& line) {
     command
         .option("--ball", options->ball, "Instead of files, use balls of radius 1 with about TETS tetrahedra")
         .shown_as("TETS")
-        .range(std::uint64_t{1}, std::uint64_t{VOX_MAX_TETS / 4});
+        .range(1, VOX_MAX_TETS / 4);
     add_fill(command, options->fill);
     command.option("--axis", options->axis, "Direction X Y Z from A to B")
         .count(3)

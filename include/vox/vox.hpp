@@ -192,21 +192,11 @@ private:
     std::variant<vox::error, T> state_;
 };
 template <>
-class [[nodiscard]] expected<void> {
+class [[nodiscard]] expected<void> : public expected<std::monostate> {
 public:
-    expected() noexcept = default;
-    expected(vox::error error) : error_(std::in_place_index<1>, std::move(error)) {}
-    bool has_value() const noexcept { return error_.index() == 0; }
-    explicit operator bool() const noexcept { return has_value(); }
-    const vox::error& error() const noexcept { return *std::get_if<1>(&error_); }
-    void value() const noexcept {
-        if (has_value()) return;
-        std::fprintf(stderr, "vox: %s\n", error().what());
-        std::abort();
-    }
-
-private:
-    std::variant<std::monostate, vox::error> error_;
+    expected() : expected<std::monostate>(std::monostate()) {}
+    expected(vox::error error) : expected<std::monostate>(std::move(error)) {}
+    void value() const { (void)expected<std::monostate>::value(); }
 };
 
 #if VOX_HPP_THROWS

@@ -11,7 +11,10 @@
 #include <stdexcept>
 #include <string>
 #if defined(__GLIBC__)
+#if __GLIBC_PREREQ(2, 33)
 #include <malloc.h>
+#define HAS_MALLINFO2
+#endif
 #endif
 
 // Compiled without exceptions and unchecked, in a file of its own.
@@ -458,7 +461,7 @@ START_TEST(meshes_are_removed_by_their_owner) {
 }
 END_TEST
 
-#if VOX_HPP_CHECKED && defined(__GLIBC__)
+#if VOX_HPP_CHECKED && defined(HAS_MALLINFO2)
 // What a checked build notes of meshes whose positions ended goes with them.
 START_TEST(meshes_that_come_and_go_leave_nothing) {
     const Scene scene;
@@ -1080,7 +1083,7 @@ int main() {
                    grids_of_c_and_back);
     tcase_add_each(add_case(suite, "views"), views_know_when_they_have_ended,
                    readings_and_mapped_positions_end_by_themselves, views_are_ranges);
-#if VOX_HPP_CHECKED && defined(__GLIBC__)
+#if VOX_HPP_CHECKED && defined(HAS_MALLINFO2)
     tcase_add_each(add_case(suite, "memory"), meshes_that_come_and_go_leave_nothing);
 #endif
     tcase_add_each(add_case(suite, "arrays"), temporaries_are_not_borrowed, arrays_of_all_kinds,

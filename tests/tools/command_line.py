@@ -269,7 +269,7 @@ class CommandLine(Files):
         odd = self.write("a&b <c>.msh", msh(TWO_TETS[:5], TETS))
         run_json("suggest", odd, "--svg", path)
         self.assertIn("a&b <c>.msh", "".join(xml.etree.ElementTree.parse(path).getroot().itertext()))
-        self.refused(1, "cannot be written", "suggest", self.two, "--svg", os.path.join(self.folder.name, "no", "such.svg"))
+        self.refused(1, "cannot be written", "suggest", self.two, "--svg", self.path("no/such.svg"))
 
     def test_suggest_solves_the_cubic(self):
         """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
@@ -406,7 +406,7 @@ class CommandLine(Files):
         lines = ["v %d %d %d" % corner for corner in corners] + ["f %d %d %d %d" % face for face in faces]
         cube = self.write("cube.obj", "\n".join(lines) + "\n")
         for out, more in ("cube.msh", []), ("cube.vtu", ["--binary"]), ("cubes.msh", ["--kind", "cubes"]):
-            out = os.path.join(self.folder.name, out)
+            out = self.path(out)
             found = run_json("tetrahedralize", cube, "-o", out, "--cell", 0.1, *more)
             self.assertEqual(found["file"], out)
             self.assertAlmostEqual(found["surface_volume"], 1, 9)
@@ -434,7 +434,7 @@ class CommandLine(Files):
         for out, words in (("out.stl", r"out.stl: expected a name that ends with .msh or .vtu"),
                            (os.path.join("no", "out.msh"), "out.msh: cannot be written: No such file"),
                            ("", "cannot be written|expected a name")):
-            path = os.path.join(self.folder.name, out)
+            path = self.path(out)
             self.refused(1, words, "tetrahedralize", "missing.obj", "-o", path)
             self.assertNotIn(b".part", run("tetrahedralize", "missing.obj", "-o", path).stderr)
         kept = self.write("kept.msh", "kept")

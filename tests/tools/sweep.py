@@ -195,7 +195,7 @@ class Sweep(Files):
             with self.subTest(bad=bad):
                 self.refused(1, pattern, *BALL, "--rounds", 1, "--resume", self.write(f"bad{number}.csv", bad + "\n"))
         self.refused(1, "line 1 is not the header", *BALL, "--rounds", 1, "--resume", self.write("no.csv", "garbage"))
-        self.refused(1, "cannot be written", *BALL, "--rounds", 1, "--csv", os.path.join(self.folder.name, "no", "x.csv"))
+        self.refused(1, "cannot be written", *BALL, "--rounds", 1, "--csv", self.path("no/x.csv"))
         self.refused(1, "cannot be written", *BALL, "--rounds", 1, "--resume", self.folder.name)
 
     @unittest.skipUnless(hasattr(signal, "SIGSTOP"), "no signals here")
