@@ -1080,7 +1080,8 @@ public:
     // Takes over a grid made in C, to destroy it; with borrow() it stays its owner's, who keeps it alive.
     static grid adopt(vox_grid* raw) { return grid(raw, true); }
     static grid borrow(vox_grid* raw) { return grid(raw, false); }
-    // For calls in C. The grid keeps its owner.
+    // For calls in C. The grid keeps its owner. What a parallel_for throws in such a call comes out of the next one here;
+    // until then it runs nothing.
     vox_grid* get() noexcept { return grid_.get(); }
     const vox_grid* get() const noexcept { return grid_.get(); }
 
