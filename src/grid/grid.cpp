@@ -426,9 +426,11 @@ void vox_grid::forget_contacts() noexcept {
 // others already.
 void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
     const auto detect_once = [&] {
-        if (fast_)
+        if (fast_ && !shared_tets_.empty())
             lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(),
                        workers_);
+        else
+            lone_.forget(); // small bodies share their tets: there are none
         gather_bodies(counters);
         if (fast_)
             detect_fast(carry, counters, profile);

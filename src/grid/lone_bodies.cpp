@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t few_bodies = 64, most_large_vertices = 16;
 constexpr std::size_t task_slots = 512; // are worth a task: some ten microseconds
 
-// False where a coordinate is not finite.
-bool add(Box& box, const Positions& positions, std::uint32_t count) noexcept {
+// The box around positions; empty where one is not finite: the step fails then, or leaves the body out.
+Box box_around(const Positions& positions, std::uint32_t count) noexcept {
+    Box box = empty_box;
     bool finite = true;
     for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3f p = positions[v];
@@ -25,7 +26,7 @@ bool add(Box& box, const Positions& positions, std::uint32_t count) noexcept {
             box.hi[a] = x[a] > box.hi[a] ? x[a] : box.hi[a];
         }
     }
-    return finite;
+    return finite ? box : empty_box;
 }
 
 } // namespace
@@ -41,7 +42,8 @@ void LoneBodies::look_at(MeshSlot& slot, std::size_t index, bool all_rounded) {
     if (!is_small) return;
     const Positions positions = slot.mesh.positions();
     const std::uint32_t count = slot.mesh.vertex_count();
-    seen.is_small = add(box, positions, count);
+    box = box_around(positions, count);
+    seen.is_small = !is_empty(box);
     if (!seen.is_small) return; // the engine finds out what is wrong
     slot.body = MeshSlot::none; // unless it turns out to be one
     seen.vertices = count & 15;
@@ -67,7 +69,7 @@ void LoneBodies::find(MeshTable& meshes, bool all_rounded, fast::PairBuffers& bu
     if (small < few_bodies || large_vertices > most_large_vertices * small) return;
     for (std::size_t s = 0; large_vertices > 0 && s < count; ++s)
         if (slots_[s].is_large)
-            add(boxes_[s], meshes.slot(s).mesh.positions(), meshes.slot(s).mesh.vertex_count());
+            boxes_[s] = box_around(meshes.slot(s).mesh.positions(), meshes.slot(s).mesh.vertex_count());
     if (!fast::find_met_boxes(boxes_, buffers, met_)) return;
     for (std::size_t s = 0; s < count; ++s) {
         Slot& seen = slots_[s];

@@ -73,6 +73,8 @@ public:
     static constexpr std::uint32_t most_vertices = block_size;
     static constexpr std::size_t most_tets = 16;
 
+    // Whether no mesh shares any.
+    bool empty() const noexcept { return all_.empty(); }
     // Those equal to `tets`. Throws what the memory throws.
     std::shared_ptr<PreparedTets> find_or_add(std::span<const Tet> tets, std::uint32_t vertex_count);
 

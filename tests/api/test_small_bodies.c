@@ -227,9 +227,31 @@ START_TEST(bad_positions) {
 }
 END_TEST
 
+/* A body that is left out for its position keeps no other one from being left out for being alone. */
+START_TEST(bytes_beside_a_bad_body) {
+    enum { count = 5000 };
+    static float at[count][12];
+    vox_grid_desc desc = engine_desc();
+    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    vox_grid* grid = grid_of(&desc);
+    for (int i = 0; i < count; ++i) {
+        place_tet(at[i], 2 * (float)i, 0, 0);
+        if (i == count / 2) at[i][0] = -INFINITY;
+        const vox_mesh_desc of_tet = tet_desc(at[i]);
+        insert_mesh(grid, &of_tet);
+    }
+    for (int step = 0; step < 2; ++step) ck_ok(vox_grid_step(grid));
+    const vox_counters counters = counters_of(grid);
+    ck_assert_uint_eq(counters.skipped_meshes, 1);
+    ck_assert_uint_eq(counters.meshes, count - 1);
+    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_le(counters.peak_bytes / count, 650);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, bytes_of_a_body, shared_memory_is_given_back, contacts_of_wandering_bodies,
-                   coming_back, bad_positions);
+                   coming_back, bad_positions, bytes_beside_a_bad_body);
 }
 
 int main(void) {
