@@ -326,6 +326,7 @@ void vox_grid::find_penetrations() {
 
 void vox_grid::stop_finding_penetrations() noexcept {
     meshes_.for_each([](vox_mesh, MeshSlot& slot) { slot.mesh.drop_topology(); });
+    shared_tets_.drop_topologies();
     depth_.reset();
     trees_.forget_all();
     penetrations_ = Penetrations(&memory_);

@@ -72,4 +72,11 @@ std::shared_ptr<PreparedTets> SharedTets::find_or_add(std::span<const Tet> tets,
     return made;
 }
 
+void SharedTets::drop_topologies() noexcept {
+    for (Shared* shared : all_) {
+        shared->topology = Topology(all_.get_allocator().resource());
+        shared->has_topology = false;
+    }
+}
+
 } // namespace vox

@@ -77,6 +77,8 @@ public:
     bool empty() const noexcept { return all_.empty(); }
     // Those equal to `tets`. Throws what the memory throws.
     std::shared_ptr<PreparedTets> find_or_add(std::span<const Tet> tets, std::uint32_t vertex_count);
+    // Releases their topologies, once all meshes have dropped these.
+    void drop_topologies() noexcept;
 
 private:
     struct Shared;

@@ -249,9 +249,37 @@ START_TEST(bytes_beside_a_bad_body) {
 }
 END_TEST
 
+/* What penetrations need goes with the flag, also where bodies share it. */
+START_TEST(flags_give_memory_back) {
+    static const uint32_t tets[8] = {0, 1, 2, 3, 3, 2, 1, 0};
+    static float at[8][12];
+    vox_grid_desc desc = engine_desc();
+    desc.flags &= ~(uint32_t)VOX_GRID_PENETRATIONS;
+    vox_grid* grid = grid_of(&desc);
+    for (int i = 0; i < 8; ++i) {
+        place_tet(at[i], 3 * (float)i, 0, 0);
+        const vox_mesh_desc of_tets = vox_mesh_desc_floats(at[i], corners, tets + 4 * (i / 4), 1);
+        insert_mesh(grid, &of_tets);
+    }
+    const uint64_t before = counters_of(grid).bytes;
+    for (int round = 0; round < 2; ++round) {
+        ck_ok(vox_grid_set_flags(grid, VOX_GRID_PENETRATIONS));
+        ck_assert_uint_gt(counters_of(grid).bytes, before);
+        ck_ok(vox_grid_set_flags(grid, 0));
+        ck_assert_uint_eq(counters_of(grid).bytes, before);
+    }
+    /* And with the flag again, penetrations are found. */
+    place_tet(at[0], 3.25f, 0.125f, 0.125f);
+    ck_ok(vox_grid_set_flags(grid, VOX_GRID_PENETRATIONS));
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_gt(counters_of(grid).penetrations, 0);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, bytes_of_a_body, shared_memory_is_given_back, contacts_of_wandering_bodies,
-                   coming_back, bad_positions, bytes_beside_a_bad_body);
+                   coming_back, bad_positions, bytes_beside_a_bad_body, flags_give_memory_back);
 }
 
 int main(void) {
