@@ -74,16 +74,18 @@ void write(const vox_io_mesh& mesh, const vox_io_write_desc& desc,
 // Writes to a file beside `path` and moves it there at the end. If `path` is not a regular file (a pipe, a
 // terminal), it is written directly.
 void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const std::string& path) {
+    const std::filesystem::path to = path_of(path);
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path_of(path), error);
+    const std::filesystem::file_status status = std::filesystem::status(to, error);
     if (std::filesystem::is_directory(status)) fail(path, EISDIR);
     const bool direct = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
     const std::string target = direct ? path : path + ".part";
+    const std::filesystem::path part = path_of(target); // now, as `close` must not fail
     bool done = false;
     {
         const auto close = [&](std::FILE* file) {
             (void)std::fclose(file);
-            if (!direct && !done) (void)std::filesystem::remove(path_of(target), error);
+            if (!direct && !done) (void)std::filesystem::remove(part, error);
         };
         std::unique_ptr<std::FILE, decltype(close)> file(open_to_write(target), close);
         if (!file) fail(path, errno);
@@ -94,10 +96,10 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
         done = true;
     }
     if (direct) return;
-    std::filesystem::rename(path_of(target), path_of(path), error);
+    std::filesystem::rename(part, to, error);
     if (error) {
         const std::string reason = error.message();
-        (void)std::filesystem::remove(path_of(target), error);
+        (void)std::filesystem::remove(part, error);
         throw Error(VOX_ERROR_FILE, format("%s: %s", path.c_str(), reason.c_str()));
     }
 }

@@ -4,6 +4,7 @@
 
 #include <vox/vox_io.h>
 
+#include <cstdio>
 #include <string>
 
 namespace {
@@ -82,6 +83,19 @@ START_TEST(each_allocation_of_bodies_and_writers) {
 }
 END_TEST
 
+// Of a file that is not finished nothing stays.
+START_TEST(each_allocation_of_a_written_file) {
+    const std::string path = "vox_test_io_heap_file.vtu", part = path + ".part";
+    heap::fail_each([&](heap::Life& life) {
+        Held held;
+        (void)(life([&] { return vox_io_make_ball(1, 0.7, &held.mesh); }) &&
+               life([&] { return vox_io_write(held.mesh, path.c_str(), nullptr); }));
+        ck_assert_int_ne(std::remove(part.c_str()), 0);
+    });
+    std::remove(path.c_str());
+}
+END_TEST
+
 START_TEST(each_allocation_of_a_fill) {
     vox_io_mesh* surface = nullptr;
     ck_ok(vox_io_load(VOX_TEST_DATA "/cube.off", nullptr, &surface));
@@ -130,6 +144,7 @@ int main() {
     Suite* suite = suite_create("io heap");
     TCase* tests = add_case(suite, "heap");
     tcase_add_each(tests, each_allocation_of_a_load, each_allocation_of_bodies_and_writers,
-                   each_allocation_of_a_fill, nothing_besides_memory_of_the_caller);
+                   each_allocation_of_a_written_file, each_allocation_of_a_fill,
+                   nothing_besides_memory_of_the_caller);
     return run_suite(suite);
 }
