@@ -11,6 +11,16 @@
 #include <stdexcept>
 #include <string>
 
+// The compiler checks the arguments against a pattern like printf's: the parameter of that number, from 1, or
+// from 2 in a class.
+#if defined(__MINGW_PRINTF_FORMAT)
+#define VOX_PRINTF(pattern) __attribute__((format(__MINGW_PRINTF_FORMAT, pattern, pattern + 1)))
+#elif defined(__GNUC__)
+#define VOX_PRINTF(pattern) __attribute__((format(printf, pattern, pattern + 1)))
+#else
+#define VOX_PRINTF(pattern)
+#endif
+
 namespace vox {
 
 // A failure, with the result code for the caller and the text for vox_last_error().
@@ -49,13 +59,8 @@ inline void write_text(char* text, std::size_t size, const char* pattern, va_lis
 }
 
 // printf into a string, for messages with numbers, as in throw Error(code, format("tet %u names ...", t)).
-#if defined(__MINGW_PRINTF_FORMAT)
-__attribute__((format(__MINGW_PRINTF_FORMAT, 1, 2)))
-#elif defined(__GNUC__)
-__attribute__((format(printf, 1, 2)))
-#endif
-inline std::string
-format(const char* pattern, ...) {
+VOX_PRINTF(1)
+inline std::string format(const char* pattern, ...) {
     char text[1024];
     va_list arguments;
     va_start(arguments, pattern);

@@ -1,6 +1,7 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
+#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
@@ -128,11 +129,8 @@ private:
     double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
     // A warning about a call that has succeeded: it takes no memory, so that it cannot fail.
-#if defined(__GNUC__)
-    __attribute__((format(printf, 2, 3)))
-#endif
-    void
-    warn(const char* pattern, ...) const noexcept;
+    VOX_PRINTF(2)
+    void warn(const char* pattern, ...) const noexcept;
     void list_query_bodies();
 
     vox::MemoryShare share_; // first, as all else is released to it
