@@ -3,8 +3,8 @@
 #pragma once
 
 #include "io/mesh_data.hpp"
-#include "io/solids/lattice.hpp"
 #include "io/progress.hpp"
+#include "io/solids/lattice.hpp"
 
 #include <functional>
 

@@ -1,8 +1,8 @@
 // Finds which nodes of a lattice are inside a triangle surface, and where lattice edges leave it.
 #pragma once
 
-#include "io/solids/lattice.hpp"
 #include "io/progress.hpp"
+#include "io/solids/lattice.hpp"
 
 #include <vox/vox_io.h>
 
