@@ -229,6 +229,8 @@ class Mistakes(unittest.TestCase):
         self.fails(r"rings = 9 is not a whole number in \[0, 8\]", rings="9")
         self.fails(r"rings = 1.5 is not a whole number in \[0, 8\]", rings="1.5")
         self.fails(r"workers = 1e\+09 is not a whole number in \[0, 256\]", workers="1e9")
+        for key in ("workers", "rings", "stiffness", "damping", "timeconst"):
+            self.fails(key + r' = "true" is not a number', **{key: "true"})
         self.fails(r'self = "' + "x" * 100 + '" is not a number', self="x" * 5000)
 
     def test_of_names(self):
@@ -261,6 +263,18 @@ class Mistakes(unittest.TestCase):
         self.assertEqual(len(warnings), 1, warnings)
         self.assertRegex(warnings[0], "vox.contact: no forces: .*vertex 7")
         self.assertEqual(d.sensor("found").data[0], count)
+
+    def test_what_turns_it_off_empties_the_sensor(self):
+        m = overlapping()
+        d = mujoco.MjData(m)
+        off = mujoco.mjtDisableBit
+        for flags in (off.mjDSBL_CONTACT, off.mjDSBL_SPRING | off.mjDSBL_DAMPER):
+            m.opt.disableflags = 0
+            mujoco.mj_forward(m, d)
+            self.assertGreater(d.sensor("found").data[0], 0)
+            m.opt.disableflags = flags
+            mujoco.mj_forward(m, d)
+            self.assertEqual(d.sensor("found").data.tolist(), [0, 0])
 
     def test_a_grid_of_nothing(self):
         m = overlapping()

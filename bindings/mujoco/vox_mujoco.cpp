@@ -32,21 +32,23 @@ struct Settings {
     double rings = 0;
 };
 
+enum class Kind { real, whole, boolean };
+
 // A number that an instance can be configured with, and the range it has to be in.
 struct Key {
     const char* name;
     double Settings::*value;
     double least, greatest;
-    bool whole;
+    Kind kind;
 };
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<Key, 6> keys = {{
-    {"timeconst", &Settings::timeconst, 0, infinity, false},
-    {"stiffness", &Settings::stiffness, 0, infinity, false},
-    {"damping", &Settings::damping, 0, infinity, false},
-    {"self", &Settings::self, 0, 1, true},
-    {"rings", &Settings::rings, 0, VOX_MAX_RINGS, true},
-    {"workers", &Settings::workers, 0, VOX_MAX_WORKERS, true},
+    {"timeconst", &Settings::timeconst, 0, infinity, Kind::real},
+    {"stiffness", &Settings::stiffness, 0, infinity, Kind::real},
+    {"damping", &Settings::damping, 0, infinity, Kind::real},
+    {"self", &Settings::self, 0, 1, Kind::boolean},
+    {"rings", &Settings::rings, 0, VOX_MAX_RINGS, Kind::whole},
+    {"workers", &Settings::workers, 0, VOX_MAX_WORKERS, Kind::whole},
 }};
 constexpr const char* flexes_key = "flexes";
 
@@ -91,11 +93,12 @@ Settings read_settings(const mjModel* m, int instance) {
         std::istringstream in(text);
         in.imbue(std::locale::classic()); // a point, whatever the program's locale
         double value = text == "true";
-        const bool word = text == "true" || text == "false";
+        const bool word = key.kind == Kind::boolean && (text == "true" || text == "false");
         if (!word && (!(in >> value) || !(in >> std::ws).eof() || !std::isfinite(value)))
             fail("%s = \"%.100s\" is not a number", key.name, text.c_str());
-        if (value < key.least || value > key.greatest || (key.whole && value != std::floor(value)))
-            fail("%s = %g is not %s in [%g, %g]", key.name, value, key.whole ? "a whole number" : "a number",
+        const bool whole = key.kind != Kind::real;
+        if (value < key.least || value > key.greatest || (whole && value != std::floor(value)))
+            fail("%s = %g is not %s in [%g, %g]", key.name, value, whole ? "a whole number" : "a number",
                  key.least, key.greatest);
         settings.*key.value = value;
     }
@@ -346,6 +349,13 @@ void destroy(mjData* d, int instance) {
     d->plugin_data[instance] = 0;
 }
 
+// Without springs and dampers MuJoCo computes no passive forces: what the last ones found is no longer true.
+bool is_off(const mjModel* m) {
+    constexpr int no_passive_forces = mjDSBL_SPRING | mjDSBL_DAMPER;
+    const int off = m->opt.disableflags;
+    return (off & mjDSBL_CONTACT) || (off & no_passive_forces) == no_passive_forces;
+}
+
 void write_sensors(const Instance& instance, const mjModel* m, mjData* d, int id) {
     for (int sensor = 0; sensor < static_cast<int>(m->nsensor); ++sensor) {
         if (m->sensor_type[sensor] != mjSENS_PLUGIN || m->sensor_plugin[sensor] != id) continue;
@@ -358,13 +368,14 @@ void write_sensors(const Instance& instance, const mjModel* m, mjData* d, int id
 void compute(const mjModel* m, mjData* d, int id, int capability) {
     Instance* instance = get(d, id);
     if (!instance) return;
+    const bool off = is_off(m);
+    if (off || capability != mjPLUGIN_SENSOR) instance->penetrations = instance->greatest_depth = 0;
     if (capability == mjPLUGIN_SENSOR) {
         write_sensors(*instance, m, d, id);
         return;
     }
+    if (off) return;
     char text[1024] = "";
-    instance->penetrations = instance->greatest_depth = 0;
-    if (m->opt.disableflags & mjDSBL_CONTACT) return;
     try {
         find_penetrations(*instance, m, d);
         respond(*instance, m, d);
