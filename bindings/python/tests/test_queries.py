@@ -151,6 +151,25 @@ class Locate(unittest.TestCase):
             self.check(voxtet.locate(points, mesh), points)
         self.check(voxtet.locate(points[0], self.positions, self.tets), points[:1])
 
+    def test_a_mesh_of_a_grid_is_taken_as_it_collides(self):
+        with voxtet.Grid() as grid:
+            mesh = grid.add(self.positions.astype(np.float32), self.tets)
+            mesh.transform = np.array([[.3, -.9, .1, 7], [.7, .2, -.3, .1], [.1, .4, 1.1, -3]])
+            mesh.remove_tets([0, 3])
+            mesh.set_tets_enabled([5], False)
+            corners, _, there = mesh._as_it_collides()
+            mesh.append_tets([self.tets[0]])  # the index of the removed one is not reused
+            points = np.einsum("tcx,c->tx", corners[self.tets], [.2, .3, .4, .1])
+            found = voxtet.locate(points, mesh)
+            expected = np.where(there, np.arange(len(self.tets)), -1)
+            expected[0] = len(self.tets)
+            np.testing.assert_array_equal(found.tet, expected)
+            on_facets = corners[self.tets].mean(axis=1) / 2 + corners[self.tets[:, 0]] / 2
+            for those in (points, on_facets, corners):
+                mine, grids = voxtet.locate(those, mesh), voxtet.locate(those, grid)
+                np.testing.assert_array_equal(mine.tet, grids.tet)
+                np.testing.assert_array_equal(mine.barycentric, grids.barycentric)
+
     def test_unknown(self):
         with self.assertRaises(TypeError):
             voxtet.locate([[0, 0, 0]], "mesh")

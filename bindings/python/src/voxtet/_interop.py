@@ -7,14 +7,19 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from .mesh import Mesh
+
 _VTK_TETRA = 10
 
 
 def arrays_of(mesh: Any, tets: Any = None) -> tuple[Any, Any, Optional[NDArray[Any]]]:
-    """Positions, tets, and for a mesh of cells of many kinds, the index of the cell that each tetrahedron is."""
+    """Positions, tets, and where these are not all cells of the mesh, the index of the cell that each of them is."""
     if tets is not None:
         return mesh, tets, None
-    if hasattr(mesh, "positions") and hasattr(mesh, "tets"):  # voxtet.io.MeshData, a Mesh of a grid, a body of a sim
+    if isinstance(mesh, Mesh):
+        positions, found, there = mesh._as_it_collides()
+        return positions, found, None if there.all() else np.flatnonzero(there)
+    if hasattr(mesh, "positions") and hasattr(mesh, "tets"):  # voxtet.io.MeshData, a body of a sim
         return mesh.positions, mesh.tets, None
     if hasattr(mesh, "celltypes") and hasattr(mesh, "points"):  # pyvista.UnstructuredGrid
         cells = np.flatnonzero(mesh.celltypes == _VTK_TETRA)

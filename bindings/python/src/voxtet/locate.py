@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from .grid import Grid
 from ._interop import arrays_of
 from .mesh import Mesh
-from .queries import PointHits, QueryView
+from .queries import QueryView
 
 
 class Located(NamedTuple):
@@ -22,7 +22,9 @@ class Located(NamedTuple):
     mesh: NDArray[np.uint32]
 
 
-def _located(hits: PointHits, count: int, cells: Optional[NDArray[Any]]) -> Located:
+def _located(view: QueryView, where: ArrayLike, cells: Optional[NDArray[Any]] = None) -> Located:
+    hits = view.query_points(where)
+    count = 1 if np.shape(where) == (3,) else len(where)  # type: ignore[arg-type]
     tet = np.full(count, -1, np.int64)
     barycentric = np.zeros((count, 4), np.float32)
     mesh = np.zeros(count, np.uint32)
@@ -55,13 +57,12 @@ class Locator:
 
     def locate(self, points: ArrayLike) -> Located:
         """The tetrahedron (for a mesh of pyvista: the cell) of each point, (n, 3)."""
-        many = np.reshape(points, (1, 3)) if np.shape(points) == (3,) else points
-        return _located(self._view.query_points(many), len(many), self._cells)  # type: ignore[arg-type]
+        return _located(self._view, points, self._cells)
 
 
 def locate(points: ArrayLike, where: Union[Grid, QueryView, Locator, Mesh, Any], tets: Optional[ArrayLike] = None) -> Located:
     """The tetrahedron that each of the points, (n, 3), is in. `where`: positions, with `tets`; or a mesh of pyvista, meshio or
-    voxtet.io; or a grid, whose meshes are taken as they are now; or what was prepared before, a Locator or a QueryView.
+    voxtet.io; or a grid or a mesh of one, as they are now; or what was prepared before, a Locator or a QueryView.
 
     A point on a facet is in one of the tetrahedra beside it, never in none: decided exactly for the coordinates given. That
     is what VTK's locators, which test with a tolerance, cannot promise.
@@ -74,10 +75,9 @@ def locate(points: ArrayLike, where: Union[Grid, QueryView, Locator, Mesh, Any],
     """
     if isinstance(where, Locator):
         return where.locate(points)
-    many = np.reshape(points, (1, 3)) if np.shape(points) == (3,) else points
     if isinstance(where, QueryView):
-        return _located(where.query_points(many), len(many), None)  # type: ignore[arg-type]
+        return _located(where, points)
     if isinstance(where, Grid):
         with where.query_view() as view:
-            return _located(view.query_points(many), len(many), None)  # type: ignore[arg-type]
-    return Locator(where, tets).locate(many)
+            return _located(view, points)
+    return Locator(where, tets).locate(points)

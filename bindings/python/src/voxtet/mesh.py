@@ -264,6 +264,15 @@ class Mesh:
 
     # ---- tetrahedra and vertices ----
 
+    def _as_it_collides(self) -> tuple[Any, NDArray[np.uint32], NDArray[np.bool_]]:
+        """Positions with the transform, to the bit those that the grid computes; the tetrahedra that are there; and of all,
+        which they are."""
+        positions, (tets, enabled) = self.positions, self._tets()
+        if positions is not None and self.info.has_transform:
+            x, y, z = positions.T.astype(np.float64)
+            positions = np.stack([((m[0] * x + m[1] * y) + m[2] * z) + m[3] for m in self.transform], axis=1)
+        return positions, tets[enabled], enabled
+
     @property
     def tets(self) -> NDArray[np.uint32]:
         """A copy of the corners of all tetrahedra, (n, 4), with those that are disabled or removed."""

@@ -24,12 +24,10 @@ def plot(grid: Grid, plotter: Optional[pyvista.Plotter] = None, *, opacity: floa
         plotter = pyvista.Plotter(**options)
     positions = {}
     for number, mesh in enumerate(grid):
-        points = mesh.positions
+        points, tets, _ = mesh._as_it_collides()
         if points is None or not mesh.enabled:
             continue
-        matrix = mesh.transform
-        points = positions[mesh.id] = points @ matrix[:, :3].T + matrix[:, 3]
-        tets = mesh.tets[mesh.tets_enabled]
+        positions[mesh.id] = points
         colour = _COLOURS[number % len(_COLOURS)]
         if len(tets):
             faces = np.insert(boundary(tets).astype(np.int64), 0, 3, axis=1)
