@@ -5,6 +5,7 @@ import os
 import pickle
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -85,6 +86,22 @@ class Files(unittest.TestCase):
             voxtet.io.load(3.5)
         with self.assertRaises(voxtet.InvalidMeshError):
             voxtet.io.MeshData(self.positions, [[0, 1, 2, 999]])
+
+    def test_ctrl_c_while_writing(self):
+        """Python notices it in the function that takes the bytes: it ends the writing, and is not lost."""
+        for when in (1, 2):
+            calls = []
+
+            def interrupted(address, size):
+                calls.append(size)
+                if len(calls) == when:
+                    raise KeyboardInterrupt
+                return bytes(size)
+
+            big = voxtet.io.make_ball(1, 0.1)
+            with unittest.mock.patch("ctypes.string_at", interrupted), self.assertRaises(KeyboardInterrupt):
+                voxtet.io.write(big, "vtu")
+            self.assertEqual(len(calls), when)
 
     def test_pickle(self):
         again = pickle.loads(pickle.dumps(self.data))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from typing import Any, TypeVar
+from typing import Any, Callable, Optional, TypeVar
 
 from . import _c
 from .errors import error_of
@@ -89,6 +89,31 @@ def sized(kind: type[_Struct]) -> Any:
     out = kind()
     out.struct_size = ctypes.sizeof(kind)
     return out
+
+
+class Relay:
+    """A function for the library to call, and what it raised: a callback must not raise. From then on it answers `stopped`,
+    which ends the call of the library. `with relay:` around that call raises it; also Ctrl-C, which Python notices in it."""
+
+    def __init__(self, function: Callable[..., Any], stopped: Any) -> None:
+        self._function = function
+        self._stopped = stopped
+        self._raised: Optional[BaseException] = None
+
+    def __call__(self, *arguments: Any) -> Any:
+        if self._raised is None:
+            try:
+                return self._function(*arguments)
+            except BaseException as error:
+                self._raised = error
+        return self._stopped
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, *_: object) -> None:
+        if self._raised is not None:
+            raise self._raised from None
 
 
 class Handle:

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _c
 from ._arguments import U32, choice, copied_rows, indices, integer, real
 from ._interop import arrays_of, triangles_of
-from ._library import Handle, described, load_part, sized
+from ._library import Handle, Relay, described, load_part, sized
 from .errors import FileError, InvalidArgumentError, MissingFileError
 from .results import borrow_of
 
@@ -266,16 +266,14 @@ def write(mesh: Any, format: Union[str, _c.IoWriteFormat], *, binary: bool = Fal
     writing = _Writing(data, format, binary, point_data, cell_data)
     parts: list[bytes] = []
 
-    def sink(address: int, size: int, _user: Any) -> int:
-        try:
-            parts.append(ctypes.string_at(address, size))
-        except MemoryError:
-            return 1
+    def append(address: int, size: int, _user: Any) -> int:
+        parts.append(ctypes.string_at(address, size))
         return 0
 
-    struct = _c.vox_io_sink()
+    sink, struct = Relay(append, 1), _c.vox_io_sink()
     struct.write = _c.vox_io_sink_write(sink)
-    _io.vox_io_write_to(data._handle.pointer, writing.desc, struct)
+    with sink:
+        _io.vox_io_write_to(data._handle.pointer, writing.desc, struct)
     return b"".join(parts)
 
 
@@ -289,24 +287,13 @@ def tetrahedralize(surface: Any, cell: float = 0.0, *, kind: str = "stuffed", ma
     desc.kind, desc.cell = choice(_c.IoSolidKind, kind, "kind"), real(cell, "cell")
     desc.max_tets, desc.max_distance = integer(max_tets, "max_tets"), real(max_distance, "max_distance")
     desc.coarsen = integer(coarsen, "coarsen", 0, U32)
-    raised: list[BaseException] = []
-
-    def called(fraction: float, _user: Any) -> int:
-        try:
-            return int(bool(progress is not None and progress(fraction)))
-        except BaseException as error:  # also Ctrl-C, which Python notices here; raised once the library has returned
-            raised.append(error)
-            return 1
-
+    called = Relay(lambda fraction, _user: int(bool(progress is not None and progress(fraction))), 1)
     desc.progress = _c.vox_io_tetrahedralize_desc_progress(called)
     pointer = ctypes.c_void_p()
-    try:
+    with called:
         _io.vox_io_tetrahedralize(data._handle.pointer, desc, pointer)
-    except Exception:
-        if raised:
-            raise raised[0] from None
-        raise
-    return MeshData._of(pointer)
+        made = MeshData._of(pointer)
+    return made
 
 
 def _surface(mesh: Any) -> tuple[Any, None, Any]:

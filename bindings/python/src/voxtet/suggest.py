@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import io
+import math
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import choice, integer, real
-from ._library import described, sized, vox
+from ._library import Relay, described, sized, vox
 from .errors import InvalidArgumentError
 from .mesh import Topology
 from .results import Records, record_type
@@ -320,23 +321,10 @@ def minimise(cost: Union[Callable[[float], float], Iterable[tuple[float, float]]
         terms = [_c.vox_cost_term(real(c, "coefficient"), real(p, "power")) for c, p in cost]
         vox.vox_cost_minimise_terms((_c.vox_cost_term * len(terms))(*terms), len(terms), bounds, out)
         return Minimum(out)
-    raised: list[BaseException] = []
     function = cost
-
-    def called(size: float, _user: Any) -> float:
-        if raised:
-            return float("nan")
-        try:
-            return float(function(size))
-        except BaseException as error:  # raised once the library has returned
-            raised.append(error)
-            return float("nan")
-
-    try:
+    called = Relay(lambda size, _user: float(function(size)), math.nan)
+    with called:
         vox.vox_cost_minimise(_c.vox_cost_function(called), None, bounds, out)
-    finally:
-        if raised:
-            raise raised[0]
     return Minimum(out)
 
 
