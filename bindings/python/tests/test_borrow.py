@@ -113,6 +113,31 @@ class Borrowed(GridCase):
         del readings
         self.grid.step()
 
+    def test_another_thread_leaves_the_with(self):
+        """... while this one waits for the grid: what it gets is guarded, or it raises."""
+        self.grid.prepare_readings()
+        for name in ("contacts", "pair_contacts", "events", "readings"):
+            with self.subTest(name):
+                borrowed, lock = self.grid.borrowed(), self.grid._lock
+                results = borrowed.__enter__()
+
+                class LeavesMeanwhile:
+                    def __enter__(self):
+                        borrowed.__exit__()
+
+                    def __exit__(self, *_):
+                        pass
+
+                self.grid._lock = LeavesMeanwhile()
+                try:
+                    kept = getattr(results, name)
+                except voxtet.InvalidStateError:
+                    continue
+                finally:
+                    self.grid._lock = lock
+                self.refused({name: self.grid.step})
+                del kept
+
     def test_nothing_to_borrow(self):
         self.first += 100
         self.grid.step()

@@ -315,27 +315,32 @@ class Borrowed(Results):
         self._lease: Optional[Lease] = None
         self._readings_lease: Optional[Lease] = None
 
-    def _source(self) -> Grid:
-        if self._lease is None:
+    def _held(self) -> Lease:
+        lease = self._lease  # read once: another thread may leave the `with` at any time
+        if lease is None:
             raise InvalidStateError("borrowed results are there inside of `with grid.borrowed() as results` only")
+        return lease
+
+    def _source(self) -> Grid:
+        self._held()
         return self._grid
 
     def _array(self, view: View) -> Any:  # as the general one, but for calls that take half a microsecond
         function, struct, records, dtype, of_readings = view
-        if of_readings or self._lease is None:
+        lease = self._lease
+        if of_readings or lease is None:
             return super()._array(view)
         grid = self._grid
         with grid._lock:
             out = struct()
             function(grid._pointer, out)
-            return borrow_of(out.data, out.count, out.byte_stride, records, dtype, self._lease)
+            return borrow_of(out.data, out.count, out.byte_stride, records, dtype, lease)
 
     def _make(self, view: View, address: int, count: int, stride: int) -> Any:
-        lease = self._lease
+        lease = self._held()
         if view.of_readings:
-            if self._readings_lease is None:
-                self._readings_lease = Lease(self._grid._handle, self._grid._borrowed_readings)
-            lease = self._readings_lease
+            lease = self._readings_lease or Lease(self._grid._handle, self._grid._borrowed_readings)
+            self._readings_lease = lease
         return borrow_of(address, count, stride, view.records, view.dtype, lease)
 
     @property
