@@ -167,6 +167,23 @@ class Simulation(unittest.TestCase):
         self.assertEqual([b.tag for b in self.sim], ["box", "above"])
         np.testing.assert_array_equal(self.sim.grid[self.body].positions, self.body.positions.astype(np.float32))
 
+    def test_tag_is_that_of_the_mesh(self):
+        self.body.tag = "mine"
+        self.assertEqual((self.sim.grid[self.body.id].tag, self.sim.bodies[0].tag), ("mine", "mine"))
+        self.sim.grid[self.body.id].tag = "its"
+        self.assertEqual(self.body.tag, "its")
+        self.body.remove()
+        self.assertIsNone(self.body.tag)
+        with self.assertRaises(LookupError):
+            self.body.tag = "again"
+
+    def test_a_removed_body_leaves_nothing(self):
+        for _ in range(3):
+            body = self.sim.add(self.positions, self.tets, tag="x")
+            body.positions
+            body.remove()
+        self.assertEqual((len(self.sim.grid._mapped), len(self.sim.grid._tags)), (0, 1))
+
     def test_state(self):
         self.body.set_state(velocities=np.tile([1.0, 0, 0], (len(self.positions), 1)))
         self.body.accelerate([0, 0, 9.81])

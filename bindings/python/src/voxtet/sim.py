@@ -89,12 +89,22 @@ def _positions(value: Any, name: str, count: Optional[int] = None) -> NDArray[np
 class Body:
     """A body of a simulation, from `Sim.add`."""
 
-    __slots__ = ("id", "sim", "tag")
+    __slots__ = ("id", "sim")
 
-    def __init__(self, sim: Sim, id: int, tag: Any) -> None:
+    def __init__(self, sim: Sim, id: int) -> None:
         self.sim = sim
         self.id = id
-        self.tag = tag
+
+    @property
+    def tag(self) -> Any:
+        """Any object of yours; also that of the body's mesh in the grid."""
+        return self.sim.grid._tags.get(self.id)
+
+    @tag.setter
+    def tag(self, tag: Any) -> None:
+        with self.sim._lock:
+            _sim.vox_sim_body_get(self.sim._pointer, self.id, _c.vox_sim_body_view())
+            self.sim.grid._tags[self.id] = tag
 
     def __index__(self) -> int:
         return self.id
@@ -191,7 +201,7 @@ class Sim:
         grid._hold(self._handle)
         grid._pointer = inside.value
         self.grid: Grid = grid  # contacts and penetrations of the last detection
-        self._bodies: dict[int, Any] = {}
+        self._bodies: dict[int, None] = {}  # a set in the order of addition
 
     @property
     def _lock(self) -> Any:
@@ -249,10 +259,10 @@ class Sim:
         body = ctypes.c_uint32()
         with self._lock:
             _sim.vox_sim_body_insert(self._pointer, desc, body)
-            self._bodies[body.value] = tag
+            self._bodies[body.value] = None
             if tag is not None:
                 self.grid._tags[body.value] = tag
-        return Body(self, body.value, tag)
+        return Body(self, body.value)
 
     def remove(self, body: Union[Body, int]) -> None:
         """Removes a body."""
@@ -264,12 +274,13 @@ class Sim:
             _sim.vox_sim_body_remove(self._pointer, id)
             self._bodies.pop(id, None)
             self.grid._tags.pop(id, None)
+            self.grid._mapped.pop(id, None)
 
     @property
     def bodies(self) -> list[Body]:
         """All bodies, in the order in which they were added."""
         with self._lock:
-            return [Body(self, id, tag) for id, tag in self._bodies.items()]
+            return [Body(self, id) for id in self._bodies]
 
     def __iter__(self) -> Iterator[Body]:
         return iter(self.bodies)
