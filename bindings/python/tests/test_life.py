@@ -65,6 +65,7 @@ class Errors(unittest.TestCase):
                 self.assertEqual(error.code, code)
                 self.assertEqual(str(error), "text")
                 self.assertIsInstance(error, voxtet.VoxError)
+        self.assertIs(type(errors.error_of(-99, "text")), voxtet.InternalError)  # of a later library
         builtin = {"InvalidArgument": ValueError, "InvalidMesh": ValueError, "Format": ValueError, "InvalidState": RuntimeError,
                    "InvalidHandle": LookupError, "NonFinite": ArithmeticError, "Limit": OverflowError, "Budget": MemoryError,
                    "OutOfMemory": MemoryError, "Unsupported": NotImplementedError, "File": OSError}

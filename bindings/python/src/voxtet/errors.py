@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Optional
-
 from . import _c
 
 
@@ -87,12 +85,11 @@ class InternalError(VoxError, RuntimeError):
     """A defect of the library: please report it."""
 
 
-_CLASSES = {kind.code: kind for kind in (
+_CLASSES: dict[int, type[VoxError]] = {kind.code: kind for kind in (
     InvalidArgumentError, InvalidHandleError, InvalidMeshError, InvalidStateError, NonFiniteError, LimitError, BudgetError,
     OutOfMemoryError, UnsupportedError, FileError, FormatError, InternalError)}
 
 
 def error_of(code: int, text: str) -> VoxError:
-    """The exception for a result code."""
-    kind: Optional[type[VoxError]] = _CLASSES.get(_c.Result(code))
-    return (kind or InternalError)(text)
+    """The exception for a result code; InternalError for one that a later library may have."""
+    return _CLASSES.get(code, InternalError)(text)

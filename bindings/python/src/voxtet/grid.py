@@ -23,7 +23,7 @@ from .suggest import Suggestion, suggest_for_grid
 
 Log = Callable[[int, str], Any]
 _KEEP: Any = object()
-_LEVELS = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: logging.WARNING}
+_LEVELS: dict[int, int] = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: logging.WARNING}
 _DTYPE_CONTACT = results.CONTACTS.dtype
 _DTYPE_READING = results.READINGS.dtype
 _step = vox.vox_grid_step
@@ -130,7 +130,7 @@ def _log_function(grid: Grid, log: Log) -> Any:
         try:
             if grid is not None:
                 grid._lock = _InLog(lock)
-            log(_LEVELS.get(_c.LogLevel(level), level), text.decode("utf-8", "replace"))
+            log(_LEVELS.get(level, level), text.decode("utf-8", "replace"))
         except KeyboardInterrupt:
             _thread.interrupt_main()  # once more, where it can be raised
         finally:
