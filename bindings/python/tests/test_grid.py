@@ -141,8 +141,9 @@ class Results(GridCase):
         structs = ["contact", "penetration", "depth", "pair", "touch_event", "contact_event", "reading", "point_hit",
                    "tet_hit", "closest_hit", "facet_hit"]
         for kind, struct in zip(classes, structs):
-            names = [n for n in _c.dtypes["vox_" + struct].names if n != "reserved"]
-            self.assertEqual(list(kind.__annotations__), names, kind)
+            fields = _c.dtypes["vox_" + struct].fields
+            self.assertEqual(kind.__annotations__, {name: f"NDArray[np.{fields[name][0].base.name}]" for name in fields
+                                                    if name != "reserved"}, kind)
 
 
 class Settings(GridCase):

@@ -167,23 +167,25 @@ def rows(value: Any, name: str) -> Rows:
                 count, _pinned(array))
 
 
+def _array_or_sequence(value: Any, name: str) -> NDArray[Any]:
+    return array_of(value, name) if hasattr(value, "__dlpack_device__") else np.asarray(value)
+
+
 def copied_rows(value: Any, name: str) -> Rows:
     """The same for positions that the library copies: any strides, and sequences of floats."""
-    array = np.asarray(value) if not hasattr(value, "__dlpack_device__") else array_of(value, name)
+    array = _array_or_sequence(value, name)
     return rows(np.ascontiguousarray(array) if array.ndim == 2 else array, name)
 
 
 def points(value: Any, name: str = "points") -> Rows:
     """Points of a query: also integers and sequences, which are converted."""
-    array = np.asarray(value) if not hasattr(value, "__dlpack_device__") else array_of(value, name)
-    if array.dtype.kind in "iu":
-        array = array.astype(np.float64)
-    return rows(np.ascontiguousarray(array) if array.ndim == 2 else array, name)
+    array = _array_or_sequence(value, name)
+    return copied_rows(array.astype(np.float64) if array.dtype.kind in "iu" else array, name)
 
 
 def indices(value: Any, name: str, width: int = 1) -> NDArray[np.uint32]:
     """Indices as the library wants them. Those that 32 bits do not hold raise: numpy would wrap them silently."""
-    array = np.asarray(value) if not hasattr(value, "__dlpack_device__") else array_of(value, name)
+    array = _array_or_sequence(value, name)
     if array.size == 0 and array.dtype.kind == "f" and not isinstance(value, np.ndarray):
         array = array.astype(np.uint32)  # an empty list
         array = array.reshape(0, width) if width > 1 else array

@@ -12,6 +12,7 @@ from .errors import error_of
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 _Struct = TypeVar("_Struct", bound=ctypes.Structure)
+_Values = TypeVar("_Values")
 
 
 def file_name(name: str) -> str:
@@ -82,6 +83,12 @@ def described(kind: type[_Struct], library: Any = vox) -> _Struct:
     desc = kind()
     getattr(library, kind.__name__ + "_init")(desc, ctypes.sizeof(kind))
     return desc
+
+
+def values_of(kind: type[_Values], struct: Any) -> _Values:
+    """The fields of a struct that a NamedTuple names; arrays as tuples."""
+    values = (getattr(struct, name) for name in kind._fields)  # type: ignore[attr-defined]
+    return kind(*(tuple(v) if isinstance(v, ctypes.Array) else v for v in values))
 
 
 def sized(kind: type[_Struct]) -> Any:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c, results
 from ._arguments import U32, Rows, choice, integer, real, switch
-from ._library import Handle, described, sized, vox
+from ._library import Handle, described, sized, values_of, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .queries import OF_GRIDS, Queries, QueryView, hits_of
@@ -558,7 +558,7 @@ class Grid(Queries, Results):
         out = sized(_c.vox_counters)
         with self._lock:
             vox.vox_grid_counters(self._pointer, out)
-        return Counters(*(getattr(out, name) for name in Counters._fields))
+        return values_of(Counters, out)
 
     @property
     def profile(self) -> Profile:
@@ -566,7 +566,7 @@ class Grid(Queries, Results):
         out = sized(_c.vox_profile)
         with self._lock:
             vox.vox_grid_profile(self._pointer, out)
-        return Profile(*(getattr(out, name) for name in Profile._fields))
+        return values_of(Profile, out)
 
     @property
     def failures(self) -> list[Failure]:

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _c
 from ._arguments import U32, choice, copied_rows, indices, integer, real
 from ._interop import arrays_of, triangles_of
-from ._library import Handle, Relay, described, load_part, sized
+from ._library import Handle, Relay, described, load_part, sized, values_of
 from .errors import FileError, InvalidArgumentError, MissingFileError
 from .results import borrow_of
 
@@ -81,11 +81,6 @@ class Quality(NamedTuple):
     hausdorff: float
 
 
-def _tuple(kind: Any, out: Any) -> Any:
-    values = [getattr(out, name) for name in kind._fields]
-    return kind(*(tuple(v) if isinstance(v, ctypes.Array) else v for v in values))
-
-
 class MeshData:
     """A mesh in memory that never changes: `positions` (n, 3) of doubles, `tets` (m, 4), `triangles` (k, 3). The arrays are
     the library's memory, read-only, and live as long as anybody has them. A body that moves needs a copy:
@@ -130,7 +125,7 @@ class MeshData:
         """What is in the mesh, and what is odd about it."""
         out = sized(_c.vox_io_report)
         _io.vox_io_mesh_report(self._handle.pointer, out)
-        return _tuple(Report, out)  # type: ignore[no-any-return]
+        return values_of(Report, out)
 
     @property
     def warnings(self) -> list[str]:
@@ -307,7 +302,7 @@ def quality(mesh: Any, surface: Any = None) -> Quality:
     data = _data_of(mesh)
     other = None if surface is None else surface if isinstance(surface, MeshData) else MeshData(*_surface(surface))
     _io.vox_io_measure_quality(data._handle.pointer, None if other is None else other._handle.pointer, out)
-    return _tuple(Quality, out)  # type: ignore[no-any-return]
+    return values_of(Quality, out)
 
 
 def _made(function: Any, *numbers: Any) -> MeshData:

@@ -118,14 +118,13 @@ class Queries:
         """All tetrahedra that contain each of the points, (n, 3) or one point (3,); exact. The hits of point i have
         `point == i`. A point in the interior of no tetrahedron but on the boundary of some is in the lowest of them."""
         mask = integer(mask, "mask")
-        with self._lock:
-            if np.shape(points_) == (3,):
-                one = vector(points_, "points")
-                call = self._questions.point
+        if np.shape(points_) == (3,):
+            one, call = vector(points_, "points"), self._questions.point
+            with self._lock:
                 return hits_of(lambda hits, room, count: call(self._pointer, one, mask, hits, room, count),  # type: ignore
                                PointHits, _POINT_HIT, 8)
-            many = points(points_)
-            call = self._questions.points
+        many, call = points(points_), self._questions.points
+        with self._lock:
             return hits_of(lambda hits, room, count: call(  # type: ignore[no-any-return]
                 self._pointer, many.address, many.format, many.stride, many.length, mask, hits, room, count),
                 PointHits, _POINT_HIT, many.length + 8)

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import DOUBLES, U32, copied_rows, indices, integer, real, switch, vector
-from ._library import Handle, described, load_part, sized
+from ._library import Handle, described, load_part, sized, values_of
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .grid import Grid, Log
 from .results import Lease, borrow_of
@@ -289,8 +289,7 @@ class Sim:
         out = sized(_c.vox_sim_energies)
         with self._lock:
             _sim.vox_sim_energy(self._pointer, id, out)
-        values = (getattr(out, name) for name in Energies._fields)
-        return Energies._make(tuple(v) if isinstance(v, ctypes.Array) else v for v in values)
+        return values_of(Energies, out)
 
     @property
     def energy(self) -> Energies:
@@ -303,4 +302,4 @@ class Sim:
         out = sized(_c.vox_sim_counts)
         with self._lock:
             _sim.vox_sim_counters(self._pointer, out)
-        return Counts._make(getattr(out, name) for name in Counts._fields)
+        return values_of(Counts, out)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import choice, integer, real
-from ._library import Relay, described, sized, vox
+from ._library import Relay, described, sized, values_of, vox
 from .errors import InvalidArgumentError
 from .mesh import Topology
 from .results import Records, record_type
@@ -72,15 +72,6 @@ class Stats(NamedTuple):
     mean_volume: float
     bounds_min: tuple[float, float, float]
     bounds_max: tuple[float, float, float]
-
-
-def _stats(struct: Any) -> Stats:
-    values = (getattr(struct, name) for name in Stats._fields)
-    return Stats._make(tuple(v) if isinstance(v, ctypes.Array) else v for v in values)
-
-
-def _rules(struct: Any) -> Rules:
-    return Rules(*(getattr(struct, name) for name in Rules._fields))
 
 
 def _curve(out: Any) -> Curve:
@@ -143,9 +134,9 @@ class Suggestion(_Plotted):
         self.cells_per_axis: float = out.cells_per_axis
         self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
         self.predicted_cost: float = out.predicted_cost
-        self.rules = _rules(out.rules)
-        self.rule_costs = _rules(out.rule_costs)
-        self.stats = _stats(out.stats)
+        self.rules = values_of(Rules, out.rules)
+        self.rule_costs = values_of(Rules, out.rule_costs)
+        self.stats = values_of(Stats, out.stats)
         self.curve = _curve(out)
         self.terms = _terms(out)
         self.budget_cell_size: float = out.budget_cell_size
