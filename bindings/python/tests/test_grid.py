@@ -433,6 +433,15 @@ class Snapshots(GridCase):
             self.assertNotEqual(again.epoch, self.grid.epoch)
             self.first[0, 0] -= 0.01
 
+    def test_the_engine_is_kept(self):
+        with voxtet.Grid(engine="reference") as grid:
+            grid.add(self.first, self.tets)
+            again = pickle.loads(pickle.dumps(grid))
+        again.step()
+        self.assertGreater(again.profile.bin_ns, 0)  # a stage of the reference engine alone
+        self.grid.step()
+        self.assertEqual(self.grid.profile.bin_ns, 0)
+
     def test_pickled_mesh(self):
         grid, mesh = pickle.loads(pickle.dumps((self.grid, self.b)))
         self.assertEqual((mesh.tag, mesh.id), ("b", self.b.id))

@@ -71,17 +71,23 @@ class Files(unittest.TestCase):
         self.assertGreater(caught.exception.errno, 0)
         with self.assertRaises(OSError) as caught:
             voxtet.io.save(self.data, self.path("no/such/folder.msh"))
+        self.assertEqual(caught.exception.filename, self.path("no/such/folder.msh"))
+        self.assertIsInstance(caught.exception, FileNotFoundError)
         with self.assertRaises(voxtet.FormatError):
             voxtet.io.read(b"$MeshFormat\n4.1 0 8\nnonsense", "a.msh")
         with self.assertRaises(ValueError):
             voxtet.io.load("a\0b")
         with self.assertRaises(NotImplementedError):
             voxtet.io.save(self.data, self.path("body.xyz"))
-        for wrong in ({"x": [1, 2]}, {"x": np.zeros((len(self.positions), 2))}, {'"': self.positions[:, 0]}):
+        with self.assertRaises(ValueError):
+            voxtet.io.read(b"", "a\0.msh")
+        for wrong in ({"x": [1, 2]}, {"a\0b": self.positions[:, 0]}, {"x": np.zeros((len(self.positions), 2))}, {'"': self.positions[:, 0]}):
             with self.assertRaises(ValueError):
                 voxtet.io.write(self.data, "vtu", point_data=wrong)
         with self.assertRaises(TypeError):
             voxtet.io.write(self.data, "vtu", point_data={"x": ["a"] * len(self.positions)})
+        with self.assertRaises(TypeError):
+            voxtet.io.write(self.data, "vtu", point_data={1: self.positions[:, 0]})
         with self.assertRaises(TypeError):
             voxtet.io.load(3.5)
         with self.assertRaises(voxtet.InvalidMeshError):

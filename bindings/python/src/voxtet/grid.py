@@ -584,9 +584,8 @@ class Grid(Queries, Results):
     # ---- snapshots ----
 
     def snapshot(self) -> bytes:
-        """The grid as it is now, in a format that is the same on every machine. Not in it: the settings of
-        `from_snapshot`, tags, and the results of the last step. `pickle` uses this, and keeps settings (without the log)
-        and tags."""
+        """The grid as it is now, in a format that is the same on every machine. Not in it: workers, the two budgets, the
+        log, tags, and the results of the last step. `pickle` uses this, and keeps workers, budgets and tags."""
         size = ctypes.c_uint64()
         with self._lock:
             vox.vox_grid_save(self._pointer, None, 0, size)
@@ -597,8 +596,8 @@ class Grid(Queries, Results):
     @classmethod
     def from_snapshot(cls, snapshot: Union[bytes, bytearray, memoryview], *, engine: str = "auto", workers: int = 1,
                       byte_budget: int = 4 << 30, closest_budget: int = 0, log: Optional[Log] = None) -> Grid:
-        """A grid from a snapshot: the same ids, the same contacts. Its meshes have positions of their own
-        (`mesh.positions`). The bytes need not be trusted."""
+        """A grid from a snapshot: the same ids, the same contacts, and with "auto" the same engine. Its meshes have
+        positions of their own (`mesh.positions`). The bytes need not be trusted."""
         data = np.frombuffer(snapshot, np.uint8)
         grid = cls.__new__(cls)
         desc = described(_c.vox_grid_desc)
@@ -621,7 +620,8 @@ def _restored(kind: type[Grid], snapshot: bytes, settings: dict[str, Any], tags:
 
 def step_all(grids: Iterable[Grid], workers: int = 0) -> None:
     """Steps many grids in one call, several at the same time (workers 0: one for each core). For many small scenes. If
-    some fail, the others are stepped nevertheless, and the exception is that of the first."""
+    some fail, the others are stepped nevertheless, and the exception is that of the first. A log function of one of them
+    must not call another: it would wait for the end of this call, and this call for it."""
     count = integer(workers, "workers", 0, U32)
     all_ = _distinct(grids)
     with _Locked(all_):

@@ -157,22 +157,32 @@ def _bytes_of(path: Path) -> bytes:
     """A path as the library takes it: as the system has it, UTF-8 on Windows."""
     name = os.fspath(path)
     encoded = name if isinstance(name, bytes) else name.encode() if sys.platform == "win32" else os.fsencode(name)
-    if b"\0" in encoded:
-        raise InvalidArgumentError("a path must not have a zero in it")
+    return _without_zero(encoded, "a path")
+
+
+def _text(value: Any, what: str, errors: str = "strict") -> bytes:
+    """A name as the library takes it."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} is of type {type(value).__name__}; it must be a string")
+    return _without_zero(value.encode("utf-8", errors), what)
+
+
+def _without_zero(encoded: bytes, what: str) -> bytes:
+    if b"\0" in encoded:  # where the library would take it to end
+        raise InvalidArgumentError(f"{what} must not have a zero in it")
     return encoded
 
 
-def _with_reason(error: FileError, path: Path, mode: int) -> FileError:
-    """The library's words with the system's number for what is wrong with the file."""
-    name = os.fsdecode(os.fspath(path))
+def _with_reason(error: FileError, path: Path, opened: str) -> FileError:
+    """The library's words with the system's number for what is wrong with the file: opening `opened` fails alike."""
     try:
-        os.close(os.open(name, mode))
+        os.close(os.open(opened, os.O_RDONLY))
     except FileNotFoundError as reason:
         error = MissingFileError(*error.args)
         error.errno = reason.errno
     except OSError as reason:
         error.errno = reason.errno
-    error.filename = name
+    error.filename = os.fsdecode(path)
     return error
 
 
@@ -183,7 +193,7 @@ def load(path: Path, *, format: Union[str, _c.IoFormat] = "auto", mesh_index: Op
     try:
         _io.vox_io_load(_bytes_of(path), desc, pointer)
     except FileError as error:
-        raise _with_reason(error, path, os.O_RDONLY) from None
+        raise _with_reason(error, path, os.fsdecode(path)) from None
     return MeshData._of(pointer)
 
 
@@ -195,9 +205,7 @@ def read(data: Union[bytes, Mapping[str, bytes]], name: Optional[str] = None, *,
     arrays = [np.frombuffer(content, np.uint8) if len(content) else np.empty(0, np.uint8) for content in files.values()]
     sources = (_c.vox_io_source * len(arrays))()
     for source, key, array in zip(sources, files, arrays):
-        if key is not None and not isinstance(key, str):
-            raise TypeError(f"a name is of type {type(key).__name__}; it must be a string")
-        source.name = None if key is None else key.encode("utf-8", "surrogateescape")
+        source.name = None if key is None else _text(key, "a name", "surrogateescape")
         source.data, source.size = array.ctypes.data, array.size
     desc, pointer = _load_desc(format, mesh_index), ctypes.c_void_p()
     _io.vox_io_read(sources, len(sources), desc, pointer)
@@ -235,7 +243,7 @@ class _Writing:
             if array.ndim == 0 or len(array) != count:
                 raise InvalidArgumentError(f"{what}[{name!r}] has the shape {array.shape}; it must have {count} rows")
             values = np.ascontiguousarray(array, np.float64)
-            struct.name, struct.values = name.encode(), values.ctypes.data
+            struct.name, struct.values = _text(name, f"a name in {what}"), values.ctypes.data
             struct.components = values.size // count if count else 1
             self._kept.append(values)
         self._kept.append(structs)
@@ -251,7 +259,7 @@ def save(mesh: Any, path: Path, *, format: Union[str, _c.IoWriteFormat] = "auto"
     try:
         _io.vox_io_write(data._handle.pointer, _bytes_of(path), writing.desc)
     except FileError as error:
-        raise _with_reason(error, os.path.dirname(os.fsdecode(os.fspath(path))) or ".", os.O_RDONLY) from None
+        raise _with_reason(error, path, os.path.dirname(os.fsdecode(path)) or ".") from None
 
 
 def write(mesh: Any, format: Union[str, _c.IoWriteFormat], *, binary: bool = False,
