@@ -5,6 +5,7 @@ import faulthandler
 import math
 import os
 import random
+import sys
 import threading
 import time
 import unittest
@@ -84,6 +85,7 @@ class Fuzz(unittest.TestCase):
         faulthandler.enable()
         warnings.simplefilter("ignore")  # numpy's, about garbage
         self.seed = int(os.environ.get("VOXTET_FUZZ_SEED", random.SystemRandom().getrandbits(32)))
+        print(f"VOXTET_FUZZ_SEED={self.seed}", file=sys.stderr, flush=True)
         self.addCleanup(voxtet.set_weights, None)
 
     def life(self, random_, steps):

@@ -4,12 +4,14 @@ import gc
 import mmap
 import tempfile
 import unittest
+import unittest.mock
 import weakref
 
 import numpy as np
 
 import voxtet
 from support import TET, GridCase, box, two_boxes
+from voxtet import _library
 
 
 class Borrowing(GridCase):
@@ -134,6 +136,32 @@ class KeptAlive(GridCase):
         with self.assertRaises(voxtet.InvalidMeshError):
             self.grid.add(positions, [[0, 1, 2, 9999]])
         del positions
+        self.assertIsNone(watched())
+
+    def test_ctrl_c_as_the_library_returns(self):
+        """The library borrows the array already, and Python raises before the next line."""
+        longer = np.vstack([self.second, self.second])
+        for name, call in (("vox_mesh_insert", lambda p: self.grid.add(p, self.tets)),
+                           ("vox_mesh_bind_strided_positions", lambda p: setattr(self.a, "positions", p)),
+                           ("vox_mesh_set_topology", lambda p: self.a.set_topology(p, self.tets)),
+                           ("vox_mesh_append_vertices", lambda p: self.b.append_vertices(p))):
+            function = getattr(_library.vox, name)
+
+            def interrupted(*arguments):
+                function(*arguments)
+                raise KeyboardInterrupt
+
+            positions = (longer if "append" in name else self.first).copy()
+            watched = weakref.ref(positions)
+            with self.subTest(name):
+                with unittest.mock.patch.object(_library.vox, name, interrupted), self.assertRaises(KeyboardInterrupt):
+                    call(positions)
+                del positions
+                gc.collect()
+                self.assertIsNotNone(watched())
+        self.grid.step()
+        self.grid.clear()
+        gc.collect()
         self.assertIsNone(watched())
 
     def test_memory_that_would_be_freed(self):

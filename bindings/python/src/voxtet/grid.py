@@ -120,6 +120,21 @@ class _InLog:
         self._lock.release()
 
 
+class _Lending:
+    """Keeps arrays while the library begins to borrow them. Python raises KeyboardInterrupt as soon as the library has
+    returned, before the grid has noted whose they are: then they stay kept, as long as the grid's meshes."""
+
+    def __init__(self, lent: list[Any], arrays: Any) -> None:
+        self._lent, self._arrays = lent, arrays
+
+    def __enter__(self) -> None:
+        self._lent.append(self._arrays)
+
+    def __exit__(self, kind: Any, *_: object) -> None:
+        if kind is None or issubclass(kind, Exception):
+            self._lent.pop()
+
+
 def _log_function(grid: Grid, log: Log) -> Any:
     """`log` as the library calls it, maybe on another thread. An exception in it is reported and goes no further."""
     itself = weakref.ref(grid)
@@ -206,6 +221,7 @@ class Grid(Queries, Results):
         # By id: the arrays of positions and of tets that the mesh borrows, and the caller's tags. Meshes themselves are
         # made when asked for, so that nothing here refers to the grid, and a grid that is dropped goes at once.
         self._kept: dict[int, tuple[Optional[Rows], Optional[NDArray[Any]]]] = {}
+        self._lent: list[Any] = []
         self._tags: dict[int, Any] = {}
         self._borrowed = Exports()
         self._borrowed_readings = Exports()
@@ -225,7 +241,7 @@ class Grid(Queries, Results):
 
     def _forget(self) -> None:
         self._pointer = self._handle = None
-        self._kept, self._tags, self._mapped = {}, {}, {}
+        self._kept, self._lent, self._tags, self._mapped = {}, [], {}, {}
         self._lock = _Closed()
 
     @property
@@ -256,7 +272,7 @@ class Grid(Queries, Results):
             for exports in self._mapped.values():
                 exports.refuse("clear")
             vox.vox_grid_clear(self._pointer)
-            self._kept, self._tags, self._mapped = {}, {}, {}
+            self._kept, self._lent, self._tags, self._mapped = {}, [], {}, {}
 
     def reserve(self, mesh_count: int, contact_count: int) -> None:
         """Allocates the memory for so many meshes and contacts in advance."""
@@ -281,10 +297,15 @@ class Grid(Queries, Results):
 
     def _keep(self, mesh: int, positions: Any = _KEEP, tets: Any = _KEEP) -> None:
         """Remembers what a mesh borrows, and forgets what it borrowed before."""
-        before = self._kept.pop(mesh, (None, None))
+        before = self._kept.get(mesh, (None, None))
         now = (before[0] if positions is _KEEP else positions, before[1] if tets is _KEEP else tets)
-        if now[0] is not None or now[1] is not None:
+        if now[0] is None and now[1] is None:
+            self._kept.pop(mesh, None)
+        else:
             self._kept[mesh] = now
+
+    def _lending(self, arrays: Any) -> _Lending:
+        return _Lending(self._lent, arrays)
 
     # ---- settings ----
 
@@ -364,9 +385,10 @@ class Grid(Queries, Results):
         new.desc.flags |= switch(self_collision, "self_collision") * _c.MeshFlags.SELF_COLLISION
         mesh = ctypes.c_uint32()
         with self._lock:
-            vox.vox_mesh_insert(self._pointer, new.desc, mesh)
             kept = new.kept()
-            self._keep(mesh.value, *kept)
+            with self._lending(kept):
+                vox.vox_mesh_insert(self._pointer, new.desc, mesh)
+                self._keep(mesh.value, *kept)
             if tag is not None:
                 self._tags[mesh.value] = tag
         return Mesh(self, mesh.value)

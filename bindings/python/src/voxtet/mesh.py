@@ -199,8 +199,10 @@ class Mesh:
             if same and info.flags & _c.MeshFlags.COPY_POSITIONS:
                 return  # mesh.positions += ... : its own already
             grid._refuse_positions(self.id, "new positions")
-            vox.vox_mesh_bind_strided_positions(grid._pointer, self.id, new.address, new.format, new.stride, new.component)
-            grid._keep(self.id, positions=new)
+            with grid._lending(new):
+                vox.vox_mesh_bind_strided_positions(grid._pointer, self.id, new.address, new.format, new.stride,
+                                                    new.component)
+                grid._keep(self.id, positions=new)
 
     @property
     def transform(self) -> NDArray[np.float64]:
@@ -354,9 +356,10 @@ class Mesh:
             desc.rest_position_component_byte_stride = rest.component
             grid._refuse_positions(self.id, "new vertices")
             first = ctypes.c_uint32()
-            vox.vox_mesh_append_vertices(grid._pointer, self.id, desc, first)
-            if borrowed:
-                grid._keep(self.id, positions=new)
+            with grid._lending(new):
+                vox.vox_mesh_append_vertices(grid._pointer, self.id, desc, first)
+                if borrowed:
+                    grid._keep(self.id, positions=new)
         return first.value
 
     def remove_vertices(self, vertices: ArrayLike) -> None:
@@ -378,11 +381,12 @@ class Mesh:
             keeps = positions is None and new.desc.vertex_count == before.vertex_count
             if not keeps:
                 grid._refuse_positions(self.id, "new positions")
-            vox.vox_mesh_set_topology(grid._pointer, self.id, new.desc)
             kept, borrowed_tets = new.kept()
             if keeps:
                 kept = grid._kept.get(self.id, (None, None))[0]
-            grid._keep(self.id, positions=kept, tets=borrowed_tets)
+            with grid._lending((kept, borrowed_tets)):
+                vox.vox_mesh_set_topology(grid._pointer, self.id, new.desc)
+                grid._keep(self.id, positions=kept, tets=borrowed_tets)
 
     def _own_tets(self) -> None:
         """After an edit: tetrahedra that were borrowed have been copied."""
