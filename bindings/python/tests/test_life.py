@@ -57,6 +57,20 @@ class Close(GridCase):
         view.close()
 
 
+    def test_a_query_view_that_is_closed_within_a_question(self):
+        """... after the library said that there are more hits than expected, and before it is asked for them."""
+        view = self.grid.query_view()
+        box = view._questions.box
+
+        def closes(*arguments):
+            box(*arguments)
+            view.close()
+
+        view._questions = view._questions._replace(box=closes)
+        with self.assertRaisesRegex(voxtet.InvalidStateError, "the query view is closed"):
+            view.query_box([0, 0, 0], [2, 2, 2])
+
+
 class Errors(unittest.TestCase):
     def test_a_class_for_each_code(self):
         for code in _c.Result:

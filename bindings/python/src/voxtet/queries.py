@@ -203,16 +203,19 @@ class QueryView(Queries):
     def __init__(self, handle: Handle) -> None:
         self._handle: Optional[Handle] = handle
 
-    @property
-    def _lock(self) -> _Held:
-        if self._handle is None:
+    def _open(self) -> Handle:
+        handle = self._handle
+        if handle is None:
             raise InvalidStateError("the query view is closed")
-        return _Held(self._handle)
+        return handle
 
     @property
-    def _pointer(self) -> Optional[int]:  # type: ignore[override]
-        handle = self._handle
-        return None if handle is None else handle.pointer
+    def _lock(self) -> _Held:
+        return _Held(self._open())
+
+    @property
+    def _pointer(self) -> int:  # type: ignore[override]
+        return self._open().pointer
 
     def _excluded(self, mesh: Union[Mesh, int, None]) -> int:
         return 0 if mesh is None else integer(mesh, "excluded", 0, U32)
@@ -233,7 +236,8 @@ class QueryView(Queries):
         return number.value
 
     def close(self) -> None:
-        """Ends the view, at the latest when the questions that run have been answered. Twice does nothing."""
+        """Ends the view. A question that another thread asks just then is answered or raises InvalidStateError. Twice does
+        nothing."""
         self._handle = None
 
     def __enter__(self) -> QueryView:
