@@ -1,8 +1,8 @@
 //! Functions of the caller that C calls. A panic must not cross it.
 
 use std::ffi::{c_char, c_void, CStr};
-use std::ops::Range;
 use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::Arc;
 
 use voxtet_sys as sys;
@@ -20,16 +20,19 @@ pub enum LogLevel {
 
 /// Threads that run the tasks of a step.
 pub trait TaskSystem: Send + Sync {
-    /// How many workers there are: the second argument of `task` is below it. At least 1.
+    /// How many workers there are, at least 1. Asked once, when the grid is made;
+    /// [`Grid::set_workers`](crate::Grid::set_workers) changes it.
     fn workers(&self) -> u32;
 
-    /// Splits the items [0, items) into ranges, of at least `min_range` items where possible, calls `task(range, worker)`
-    /// once for each, on any threads, and returns when all have returned. Calls that run at the same time have different
-    /// workers. A system that breaks these rules makes the step fail, and nothing worse.
-    fn run(&self, items: u64, min_range: u64, task: &(dyn Fn(Range<u64>, u32) + Sync));
+    /// Calls `task(worker)` once for each worker in [0, workers), on any threads, as many at the same time as it likes,
+    /// and returns when all have returned. `workers` is at most that of the grid. Each call works until nothing is left
+    /// to do. A system that calls none, or two with the same worker at the same time, makes the step fail, and nothing
+    /// worse.
+    fn run(&self, workers: u32, task: &(dyn Fn(u32) + Sync));
 }
 
-/// Steps run on rayon's threads.
+/// Steps run on rayon's threads: those of the pool in which the step is called, with as many workers as the pool had
+/// in which the grid was made.
 #[cfg(feature = "rayon")]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RayonTasks;
@@ -40,52 +43,52 @@ impl TaskSystem for RayonTasks {
         rayon::current_num_threads().clamp(1, sys::VOX_MAX_WORKERS as usize) as u32
     }
 
-    fn run(&self, items: u64, min_range: u64, task: &(dyn Fn(Range<u64>, u32) + Sync)) {
-        let workers = u64::from(self.workers());
-        // A few ranges for each worker, so that those which are done early take more.
-        let size = items.div_ceil(8 * workers).max(min_range).max(1);
-        let next = std::sync::atomic::AtomicU64::new(0);
-        rayon::scope(|scope| {
-            for worker in 0..workers as u32 {
-                let next = &next;
-                scope.spawn(move |_| loop {
-                    let begin = next.fetch_add(size, std::sync::atomic::Ordering::Relaxed);
-                    if begin >= items {
-                        break;
-                    }
-                    task(begin..items.min(begin + size), worker);
-                });
-            }
-        });
+    fn run(&self, workers: u32, task: &(dyn Fn(u32) + Sync)) {
+        rayon::scope(|scope| (0..workers).for_each(|worker| scope.spawn(move |_| task(worker))));
     }
 }
 
-/// What a grid keeps for C to call, at a fixed address.
+struct Tasks {
+    system: Arc<dyn TaskSystem>,
+    workers: AtomicU32, // the grid's worker_count
+}
+
+/// What a grid keeps for C to call, at a fixed address. Shared, as C's pointer to it is.
 pub(crate) struct Callbacks {
     log: Option<LogFunction>,
-    tasks: Option<Arc<dyn TaskSystem>>,
+    tasks: Option<Tasks>,
 }
 
 impl Callbacks {
-    /// Null without callbacks. Sets the fields of `desc` that call them.
+    /// None without callbacks. Sets the fields of `desc` that call them.
     pub(crate) fn install(
         log: Option<LogFunction>,
         tasks: Option<Arc<dyn TaskSystem>>,
         desc: &mut sys::vox_grid_desc,
-    ) -> Option<Box<Self>> {
+    ) -> Option<Arc<Self>> {
         if log.is_none() && tasks.is_none() {
             return None;
         }
-        let callbacks = Box::new(Self { log, tasks });
-        let user = std::ptr::from_ref(&*callbacks).cast_mut().cast::<c_void>();
+        let tasks = tasks.map(|system| {
+            desc.worker_count = system.workers();
+            Tasks { system, workers: AtomicU32::new(desc.worker_count) }
+        });
+        let callbacks = Arc::new(Self { log, tasks });
+        let user = Arc::as_ptr(&callbacks).cast_mut().cast::<c_void>();
         if callbacks.log.is_some() {
             desc.log = sys::vox_log { write: Some(write), user };
         }
-        if let Some(tasks) = &callbacks.tasks {
+        if callbacks.tasks.is_some() {
             desc.tasks = sys::vox_task_system { enqueue: Some(enqueue), finish: Some(finish), user };
-            desc.worker_count = tasks.workers();
         }
         Some(callbacks)
+    }
+
+    /// The grid has another worker_count.
+    pub(crate) fn set_workers(&self, workers: u32) {
+        if let Some(tasks) = &self.tasks {
+            tasks.workers.store(workers, Ordering::Relaxed);
+        }
     }
 }
 
@@ -113,13 +116,22 @@ unsafe extern "C" fn enqueue(
     // SAFETY: as in write().
     let callbacks = unsafe { &*user.cast::<Callbacks>() };
     if let (Some(tasks), Some(task)) = (&callbacks.tasks, task) {
+        let workers = u64::from(tasks.workers.load(Ordering::Relaxed));
+        // A few ranges for each worker, so that those which are done early take more. They are dealt out here: the
+        // library's tasks would race if a task system ran an item twice at the same time.
+        let size = items.div_ceil(8 * workers).max(min_range).max(1);
+        let next = AtomicU64::new(0);
         let context = Context(context);
         let context = &context;
         // Of a system that panics, the library sees that items are missing, and the step fails.
         let _ = catch_unwind(AssertUnwindSafe(|| {
-            tasks.run(items, min_range, &|range, worker| {
-                // SAFETY: the library checks range and worker.
-                unsafe { task(range.start, range.end, worker, context.0) }
+            tasks.system.run(workers.min(items.div_ceil(size)) as u32, &|worker| loop {
+                let begin = next.fetch_add(size, Ordering::Relaxed);
+                if begin >= items {
+                    break;
+                }
+                // SAFETY: each item once; the library checks the worker.
+                unsafe { task(begin, items.min(begin + size), worker, context.0) }
             });
         }));
     }

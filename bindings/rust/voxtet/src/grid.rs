@@ -1,4 +1,5 @@
 use std::ptr::{null, null_mut, NonNull};
+use std::sync::Arc;
 
 use voxtet_sys as sys;
 
@@ -52,7 +53,7 @@ pub struct MeshInfo {
 /// ```
 pub struct Grid {
     grid: NonNull<sys::vox_grid>,
-    _callbacks: Option<Box<Callbacks>>, // for C to call
+    callbacks: Option<Arc<Callbacks>>, // for C to call
 }
 
 // SAFETY: vox.h: a grid belongs to no thread; different ones are independent; functions of a const grid may run on any
@@ -134,7 +135,7 @@ impl Grid {
         let mut grid = null_mut();
         // SAFETY: a valid description; callbacks live as long as the grid.
         check(unsafe { sys::vox_grid_create(&desc, &mut grid) })?;
-        Ok(Self { grid: NonNull::new(grid).expect("a grid"), _callbacks: callbacks })
+        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks })
     }
 
     /// A grid from the bytes of [`Grid::save`], which need not be trusted. Of the options only log, tasks, workers, both
@@ -146,7 +147,7 @@ impl Grid {
         let mut grid = null_mut();
         // SAFETY: as above; the bytes are checked.
         check(unsafe { sys::vox_grid_load(bytes.as_ptr().cast(), bytes.len() as u64, &desc, &mut grid) })?;
-        Ok(Self { grid: NonNull::new(grid).expect("a grid"), _callbacks: callbacks })
+        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks })
     }
 
     /// The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events.
@@ -167,7 +168,8 @@ impl Grid {
         self.grid.as_ptr()
     }
 
-    /// For functions of [`sys`](crate::sys) that are not wrapped. It must not be destroyed.
+    /// For functions of [`sys`](crate::sys) that are not wrapped. They must not destroy it, nor give it a mesh whose
+    /// positions are borrowed, as [`Grid::positions`] takes all for the library's own.
     pub fn as_ptr(&mut self) -> *mut sys::vox_grid {
         self.grid.as_ptr()
     }
@@ -195,9 +197,13 @@ impl Grid {
         cell_size
     }
 
-    /// Threads of the following steps; 0: one per core.
+    /// Threads of the following steps; 0: one per core. With a task system: how many workers it gets, at least 1.
     pub fn set_workers(&mut self, workers: u32) -> Result<()> {
-        check(unsafe { sys::vox_grid_set_worker_count(self.get_mut(), workers) })
+        check(unsafe { sys::vox_grid_set_worker_count(self.get_mut(), workers) })?;
+        if let Some(callbacks) = &self.callbacks {
+            callbacks.set_workers(workers);
+        }
+        Ok(())
     }
 
     /// Whether the following steps find penetrations, report events of single vertices, and leave out bad meshes.

@@ -81,7 +81,7 @@ pub struct GridOptions {
     pub byte_budget: u64,
     /// Buckets of the hash table; 0: twice the number of vertices.
     pub hash_table_size: u64,
-    /// Threads of a step; 0: one per core. Ignored with a task system, which knows how many it has.
+    /// Threads of a step; 0: one per core. Not used with a task system, which says how many it has.
     pub workers: u32,
     /// Whether a step finds penetrations.
     pub penetrations: bool,

@@ -1,6 +1,6 @@
 //! What a user may do wrong, and what threads may do at once.
 
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use voxtet::*;
 
@@ -187,9 +187,10 @@ fn the_log() {
     assert_eq!(lines[0].0, LogLevel::Warning);
 }
 
+/// Threads that keep the rules, or break one.
 struct Threads {
     defect: u32,
-    ranges: AtomicUsize,
+    calls: AtomicUsize,
 }
 
 impl TaskSystem for Threads {
@@ -197,20 +198,20 @@ impl TaskSystem for Threads {
         3
     }
 
-    fn run(&self, items: u64, min_range: u64, task: &(dyn Fn(std::ops::Range<u64>, u32) + Sync)) {
-        let next = AtomicU64::new(u64::from(self.defect == 1)); // 1: loses the first item
-        let size = min_range.max(1);
+    fn run(&self, workers: u32, task: &(dyn Fn(u32) + Sync)) {
+        self.calls.fetch_add(1, Ordering::Relaxed);
+        match self.defect {
+            1 => return,
+            2 => return task(99),          // of no such worker
+            4 => return task(workers - 1), // does all of the work
+            _ => {}
+        }
         std::thread::scope(|scope| {
-            for worker in 0..3 {
-                let next = &next;
-                scope.spawn(move || loop {
-                    let begin = next.fetch_add(size, Ordering::Relaxed);
-                    if begin >= items {
-                        break;
-                    }
-                    self.ranges.fetch_add(1, Ordering::Relaxed);
-                    task(begin..items.min(begin + size), if self.defect == 2 { 7 } else { worker });
-                });
+            for worker in 0..workers {
+                scope.spawn(move || task(worker));
+                if self.defect == 5 {
+                    scope.spawn(move || task(worker + workers));
+                }
             }
         });
         assert!(self.defect != 3, "of a task system");
@@ -219,31 +220,44 @@ impl TaskSystem for Threads {
 
 #[test]
 fn task_systems() {
-    let (mut serial, ..) = blocks_of(24, GridOptions::default());
+    let (mut serial, a, _) = blocks_of(24, GridOptions::default());
     serial.step().unwrap();
-    for defect in 0..4 {
-        let tasks = Arc::new(Threads { defect, ranges: AtomicUsize::new(0) });
+    for defect in 0..6 {
+        let tasks = Arc::new(Threads { defect, calls: AtomicUsize::new(0) });
         let (mut grid, ..) = blocks_of(24, GridOptions { tasks: Some(tasks.clone()), ..GridOptions::default() });
-        let result = grid.step();
-        assert!(tasks.ranges.load(Ordering::Relaxed) > 0);
-        match defect {
-            1 | 2 => assert_eq!(code(result), ErrorCode::InvalidArgument),
-            _ => {
-                result.unwrap(); // all items were run before the panic
-                assert_eq!(grid.hash(), serial.hash());
+        for workers in [3, 2, 64] {
+            grid.set_workers(workers).unwrap();
+            grid.mark_moved(a).unwrap();
+            let result = grid.step();
+            match defect {
+                1 | 2 => assert_eq!(code(result), ErrorCode::InvalidArgument),
+                5 if result.is_err() => assert_eq!(code(result), ErrorCode::InvalidArgument),
+                _ => {
+                    result.unwrap(); // of 3: all items were run before the panic
+                    assert_eq!(grid.hash(), serial.hash());
+                }
             }
         }
+        assert!(tasks.calls.load(Ordering::Relaxed) > 0);
+        assert_eq!(code(grid.set_workers(0)), ErrorCode::InvalidArgument);
     }
 }
 
 #[cfg(feature = "rayon")]
 #[test]
 fn rayon_tasks() {
-    let (mut serial, ..) = blocks_of(24, GridOptions::default());
+    let (mut serial, a, _) = blocks_of(24, GridOptions::default());
     serial.step().unwrap();
     let (mut grid, ..) = blocks_of(24, GridOptions { tasks: Some(Arc::new(RayonTasks)), ..GridOptions::default() });
     grid.step().unwrap();
     assert_eq!(grid.hash(), serial.hash());
+    // Also in a pool of more threads than the one in which the grid was made, and of fewer.
+    for threads in [rayon::current_num_threads() + 5, 1] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        grid.mark_moved(a).unwrap();
+        pool.install(|| grid.step()).unwrap();
+        assert_eq!(grid.hash(), serial.hash());
+    }
 }
 
 #[test]
