@@ -26,7 +26,7 @@ namespace Voxtet
         internal Callbacks(Action<LogLevel, string> log)
         {
             this.log = log;
-            self = GCHandle.Alloc(this);
+            self = GCHandle.Alloc(this, GCHandleType.Weak); // the grid holds this, and a log may hold its grid
         }
 
         internal void Install(ref GridDesc desc)
@@ -45,7 +45,8 @@ namespace Voxtet
         {
             try
             {
-                ((Callbacks)GCHandle.FromIntPtr(user).Target).log(level, VoxException.Text(text));
+                var callbacks = (Callbacks)GCHandle.FromIntPtr(user).Target;
+                if (callbacks != null) callbacks.log(level, VoxException.Text(text)); // null while the grid is collected
             }
             catch (Exception error) // its line is lost
             {

@@ -380,6 +380,34 @@ namespace Voxtet.Tests
             sum += grid.TouchEvents.Persisted + (double)grid.Counters.contacts;
         }
 
+        static readonly List<WeakReference> forgotten = new List<WeakReference>();
+
+        static void Forget()
+        {
+            for (int i = 0; i < 50; ++i)
+            {
+                int lines = 0;
+                Grid grid = null;
+                grid = new Grid(new GridOptions { Log = (level, text) => lines += grid == null ? 0 : 1 });
+                grid.Add(unit, new uint[0]);
+                Test.Same(lines, 1, "lines");
+                forgotten.Add(new WeakReference(grid));
+            }
+        }
+
+        /// <summary>A grid whose log holds it, as one that belongs to an object with a field for the grid.</summary>
+        public static void LogHoldsGrid()
+        {
+            var thread = new Thread(Forget); // so that no grid is left on this thread's stack
+            thread.Start();
+            thread.Join();
+            GC.Collect();
+            GC.WaitForPendingFinalizers();
+            GC.Collect();
+            int left = forgotten.FindAll(grid => grid.IsAlive).Count;
+            Test.That(left < 5, left + " of " + forgotten.Count + " grids were not collected");
+        }
+
         static long ResidentKilobytes()
         {
             foreach (string line in System.IO.File.ReadAllLines("/proc/self/status"))

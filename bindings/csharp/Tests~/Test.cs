@@ -35,7 +35,7 @@ namespace Voxtet.Tests
             {
                 Layouts, () => Vectors.Run(arguments[0]), Misuse.Errors, Misuse.Views, Misuse.Threads, Misuse.Log,
                 Misuse.CellSizes, Misuse.Files, Misuse.ManyGrids, Misuse.EmptyArrays, Misuse.AnythingGoes, Misuse.NoAllocation,
-                Misuse.NothingLeaks
+                Misuse.LogHoldsGrid, Misuse.NothingLeaks
             };
             int failed = 0;
             foreach (Action test in tests)
