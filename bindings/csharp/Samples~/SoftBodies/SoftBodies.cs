@@ -25,6 +25,7 @@ public sealed class SoftBodies : MonoBehaviour
     void OnDisable()
     {
         grid.Dispose();
+        grid = null; // gizmos are drawn for disabled objects, too
     }
 
     void FixedUpdate()
