@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 namespace Voxtet
 {
     /// <summary>A set of meshes that collide. Dispose returns its memory; a grid that is forgotten returns it when it is
-    /// collected. One thread changes a grid at a time, and many may read it meanwhile not: who breaks that gets an
+    /// collected. Any number of threads may read a grid at once, or one may change it: a call that breaks that throws an
     /// InvalidOperationException.</summary>
     public sealed unsafe partial class Grid : IDisposable
     {
@@ -81,7 +81,7 @@ namespace Voxtet
         internal void CheckLayout(ulong since)
         {
             if (since != layout || handle.IsClosed)
-                throw new InvalidOperationException("these positions ended: the mesh was removed or changed, or the grid " +
+                throw new InvalidOperationException("these positions ended: a mesh was removed or changed, or the grid " +
                                                     "disposed of since");
         }
 
@@ -162,7 +162,7 @@ namespace Voxtet
             throw new ArgumentException("positions are float or double, not " + typeof(T).Name);
         }
 
-        static ulong Count(int numbers, int each, string name)
+        internal static ulong Count(int numbers, int each, string name)
         {
             if (numbers % each != 0)
                 throw new ArgumentException(name + " has " + numbers + " numbers, expected " + each + " for each", name);

@@ -147,12 +147,12 @@ namespace Voxtet
         public ulong QueryPoints(ReadOnlySpan<double> points, Span<PointHit> hits, ulong mask = ulong.MaxValue)
         {
             ulong count;
-            if (points.Length % 3 != 0) throw new ArgumentException(points.Length + " numbers, expected 3 a point", "points");
             fixed (double* p = &MemoryMarshal.GetReference(points))
             fixed (PointHit* h = &MemoryMarshal.GetReference(hits))
             using (var use = handle.Read())
                 VoxException.Check(Native.vox_query_view_points(use.Pointer, Grid.PointsOf(p), Format.Double3, 0,
-                                                                (ulong)points.Length / 3, mask, h, (ulong)hits.Length, &count));
+                                                                Grid.Count(points.Length, 3, "points"), mask, h,
+                                                                (ulong)hits.Length, &count));
             return count;
         }
 

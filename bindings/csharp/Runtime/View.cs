@@ -48,10 +48,16 @@ namespace Voxtet
         public ref readonly T this[int index] { get { Check(); return ref records[index]; } }
 
         /// <summary>A copy of your own.</summary>
-        public T[] ToArray() { Check(); return records.ToArray(); }
+        public T[] ToArray()
+        {
+            Check();
+            T[] copy = records.ToArray();
+            GC.KeepAlive(grid); // whose memory this was
+            return copy;
+        }
 
-        /// <summary>The records as a span, which does not notice when they end: use it before the next change of the grid.
-        /// </summary>
+        /// <summary>The records as a span, which does not notice when they end: use it before the next change of the grid,
+        /// and while something still refers to the grid.</summary>
         public ReadOnlySpan<T> AsSpan() { Check(); return records; }
 
         public Enumerator GetEnumerator() { return new Enumerator(this); }
@@ -74,7 +80,7 @@ namespace Voxtet
     }
 
     /// <summary>The positions of a mesh: x, y, z of one vertex after the other, to be written between steps. It cannot leave
-    /// the stack, and throws when it is used after the mesh was removed or got other or more vertices.</summary>
+    /// the stack, and throws when it is used after any mesh of the grid was removed or got other or more vertices.</summary>
     public readonly ref struct Positions<T> where T : struct
     {
         readonly Span<T> numbers;
@@ -105,12 +111,19 @@ namespace Voxtet
             if (source.Length != numbers.Length)
                 throw new ArgumentException(source.Length + " numbers, expected " + numbers.Length, "source");
             source.CopyTo(numbers);
+            GC.KeepAlive(grid); // whose memory this is
         }
 
-        public T[] ToArray() { Check(); return numbers.ToArray(); }
+        public T[] ToArray()
+        {
+            Check();
+            T[] copy = numbers.ToArray();
+            GC.KeepAlive(grid);
+            return copy;
+        }
 
-        /// <summary>The numbers as a span, which does not notice when they end: use it before the next change of the mesh.
-        /// </summary>
+        /// <summary>The numbers as a span, which does not notice when they end: use it before a mesh is removed or changed,
+        /// and while something still refers to the grid.</summary>
         public Span<T> AsSpan() { Check(); return numbers; }
     }
 

@@ -122,6 +122,24 @@ namespace Voxtet.Tests
             Test.That(kept[0].barycentric[0] >= 0, "a copy");
         }
 
+        /// <summary>A later library may have longer records.</summary>
+        public static unsafe void LongerRecords()
+        {
+            var bytes = new byte[3 * 40];
+            for (int i = 0; i < bytes.Length; ++i) bytes[i] = (byte)(i / 40);
+            fixed (byte* data = bytes)
+            {
+                var longs = new View<ulong>(null, 0, data, (UIntPtr)40u, 3);
+                var ones = new View<byte>(null, 0, data, (UIntPtr)40u, 3);
+                Test.Same(longs.Length, 3, "records");
+                for (int i = 0; i < 3; ++i)
+                {
+                    Test.Same(longs[i], 0x0101010101010101ul * (ulong)i, "record " + i);
+                    Test.Same(ones.ToArray()[i], (byte)i, "byte " + i);
+                }
+            }
+        }
+
         public static void Threads()
         {
             Mesh a, b;
@@ -173,6 +191,7 @@ namespace Voxtet.Tests
             grid.Dispose();
             asking.Join();
             Test.Same(found, 1000, "hits of a view");
+            Test.Throws<ArgumentException>(() => view.QueryPoints(new double[4], new PointHit[1]), "4 numbers, expected 3");
             view.Dispose();
             Test.Throws<ObjectDisposedException>(() => { ulong epoch = view.Epoch; }, "");
         }
