@@ -507,14 +507,22 @@ namespace Voxtet
             }
         }
 
+        // What a call that returned `result` has written. Inside its Use, where no other thread can end it yet.
+        View<T> ViewOf<T>(Result result, void* data, UIntPtr byteStride, ulong count) where T : struct
+        {
+            VoxException.Check(result);
+            return new View<T>(this, version, data, byteStride, count);
+        }
+
         /// <summary>The contacts of the last step, in canonical order.</summary>
         public View<Contact> Contacts
         {
             get
             {
                 ContactView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contacts(use.Pointer, &view));
-                return new View<Contact>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Contact>(Native.vox_grid_contacts(use.Pointer, &view),
+                                           view.data, view.byte_stride, view.count);
             }
         }
 
@@ -524,8 +532,9 @@ namespace Voxtet
             get
             {
                 InteriorView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contact_interiors(use.Pointer, &view));
-                return new View<byte>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<byte>(Native.vox_grid_contact_interiors(use.Pointer, &view),
+                                        view.data, view.byte_stride, view.count);
             }
         }
 
@@ -535,8 +544,9 @@ namespace Voxtet
             get
             {
                 PenetrationView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_penetrations(use.Pointer, &view));
-                return new View<Penetration>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Penetration>(Native.vox_grid_penetrations(use.Pointer, &view),
+                                               view.data, view.byte_stride, view.count);
             }
         }
 
@@ -546,8 +556,9 @@ namespace Voxtet
             get
             {
                 DepthView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_depths(use.Pointer, &view));
-                return new View<Depth>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Depth>(Native.vox_grid_depths(use.Pointer, &view),
+                                         view.data, view.byte_stride, view.count);
             }
         }
 
@@ -557,8 +568,8 @@ namespace Voxtet
             get
             {
                 PairView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_pairs(use.Pointer, &view));
-                return new View<Pair>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Pair>(Native.vox_grid_pairs(use.Pointer, &view), view.data, view.byte_stride, view.count);
             }
         }
 
@@ -571,10 +582,10 @@ namespace Voxtet
                 ContactView contacts;
                 using (var use = handle.Read())
                 {
-                    VoxException.Check(Native.vox_grid_pairs(use.Pointer, &view));
                     VoxException.Check(Native.vox_grid_contacts(use.Pointer, &contacts));
+                    return ViewOf<uint>(Native.vox_grid_pairs(use.Pointer, &view), view.contacts, (UIntPtr)sizeof(uint),
+                                        contacts.count);
                 }
-                return new View<uint>(this, version, view.contacts, (UIntPtr)sizeof(uint), contacts.count);
             }
         }
 
@@ -584,9 +595,10 @@ namespace Voxtet
             get
             {
                 TouchView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_touch_events(use.Pointer, &view));
-                return new Events<TouchEvent>(new View<TouchEvent>(this, version, view.data, view.byte_stride, view.count),
-                                              view.began, view.persisted, view.ended);
+                using (var use = handle.Read())
+                    return new Events<TouchEvent>(ViewOf<TouchEvent>(Native.vox_grid_touch_events(use.Pointer, &view), view.data,
+                                                                     view.byte_stride, view.count),
+                                                  view.began, view.persisted, view.ended);
             }
         }
 
@@ -596,9 +608,10 @@ namespace Voxtet
             get
             {
                 ContactEventView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_contact_events(use.Pointer, &view));
-                return new Events<ContactEvent>(
-                    new View<ContactEvent>(this, version, view.data, view.byte_stride, view.count), view.began, 0, view.ended);
+                using (var use = handle.Read())
+                    return new Events<ContactEvent>(ViewOf<ContactEvent>(Native.vox_grid_contact_events(use.Pointer, &view),
+                                                                         view.data, view.byte_stride, view.count),
+                                                    view.began, 0, view.ended);
             }
         }
 
@@ -703,8 +716,9 @@ namespace Voxtet
             get
             {
                 ReadingView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_readings(use.Pointer, &view));
-                return new View<Reading>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Reading>(Native.vox_grid_readings(use.Pointer, &view),
+                                           view.data, view.byte_stride, view.count);
             }
         }
 
@@ -735,8 +749,9 @@ namespace Voxtet
             get
             {
                 DepthView view;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_reading_depths(use.Pointer, &view));
-                return new View<Depth>(this, version, view.data, view.byte_stride, view.count);
+                using (var use = handle.Read())
+                    return ViewOf<Depth>(Native.vox_grid_reading_depths(use.Pointer, &view),
+                                         view.data, view.byte_stride, view.count);
             }
         }
     }
