@@ -48,7 +48,8 @@ export interface Vox {
   /** Size of the memory. It grows, and never shrinks. */
   readonly memoryBytes: number;
 
-  /** Steps all of them, one after the other. If some fail, all others have had their step when the first failure is thrown. */
+  /** Steps all of them, one after the other. If some fail, all others have had their step when the first failure is thrown.
+   * A log that is called meanwhile must not use any of them. */
   stepGrids(grids: readonly Grid[]): void;
   /** The contacts of many grids in one copy: those of grid i begin at offsets[i] and end before offsets[i + 1]. */
   contactsOf(grids: readonly Grid[]): { contacts: Contacts; offsets: number[] };

@@ -73,7 +73,7 @@ export class Grid extends Queries {
   }
 
   static {
-    logged = (grid, ...line) => guarded(grid, () => grid.#log(...line));
+    logged = (grid, ...line) => guarded([grid], () => grid.#log(...line));
   }
 
   #call(name, ...given) {
@@ -482,8 +482,12 @@ export class Mesh {
 
 /** Steps all of them, one after the other. The first failure is thrown when all have had their step. */
 export function stepGrids(memory, grids) {
-  const pointers = gridPointers(memory, grids);
-  memory.frame((frame) => memory.call.vox_grids_step(frame.array(pointers), pointers.length, 0, 1, 0));
+  const all = list(grids, "grids", "grids");
+  const pointers = gridPointers(memory, all);
+  memory.frame((frame) => {
+    const at = frame.array(pointers);
+    guarded(all, () => memory.call.vox_grids_step(at, pointers.length, 0, 1, 0));
+  });
 }
 
 /** The contacts of many grids in one copy; those of grid i begin at offsets[i]. */

@@ -40,17 +40,17 @@ export function memoryOf(owned) {
 export function pointerOf(owned) {
   const { kind, pointer, calling } = state(owned);
   if (pointer === 0) throw new VoxError(Result.ERROR_INVALID_STATE, `this ${kind} was disposed`);
-  if (calling) throw new VoxError(Result.ERROR_INVALID_STATE, `this ${kind} was used by its own log`);
+  if (calling) throw new VoxError(Result.ERROR_INVALID_STATE, `this ${kind} is in a call, whose log must not use it`);
   return pointer;
 }
 
-/** Runs a callback of `owned`, which the library does not allow to use it. */
-export function guarded(owned, run) {
-  const its = state(owned);
-  its.calling = true;
+/** Runs what calls logs, or is one: the library does not allow it to use any of `all`. */
+export function guarded(all, run) {
+  const free = all.map(state).filter((its) => !its.calling);
+  for (const its of free) its.calling = true;
   try {
     return run();
   } finally {
-    its.calling = false;
+    for (const its of free) its.calling = false;
   }
 }

@@ -124,6 +124,24 @@ test("the log, and what it throws", () => {
   const asking = new vox.Grid({ log: () => other.add(block(1)) });
   asking.add({ ...block(1), filter: never });
   assert.equal(other.meshes.length, 1, "a log may use other grids");
+
+  // But not those that are stepped together with its own.
+  const refused = [];
+  const together = [0, 1, 2].map((i) => {
+    const each = new vox.Grid({ flags: GridFlags.SKIP_BAD_MESHES, log: (_, text) => {
+      for (const use of [() => together[2].dispose(), () => together[i].step(), () => together[0].hash])
+        assert.throws(use, failure(Result.ERROR_INVALID_STATE));
+      refused.push(text);
+    } });
+    each.add({ positions: new Float32Array(12).fill(NaN), tets: [0, 1, 2, 3] });
+    return each;
+  });
+  vox.stepGrids(together);
+  assert.equal(refused.length, 3);
+  for (const each of together) {
+    assert.equal(each.epoch, 1);
+    each.dispose();
+  }
 });
 
 test("readings, queries and views", () => {
