@@ -109,6 +109,12 @@ impl<'grid, T: Copy> Iterator for Iter<'grid, T> {
         Some(item)
     }
 
+    // At once, for skip(): of many events, those that ended come last.
+    fn nth(&mut self, n: usize) -> Option<Self::Item> {
+        self.next = self.next.saturating_add(n).min(self.view.len());
+        self.next()
+    }
+
     fn size_hint(&self) -> (usize, Option<usize>) {
         let left = self.view.len() - self.next;
         (left, Some(left))

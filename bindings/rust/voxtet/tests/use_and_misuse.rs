@@ -112,6 +112,10 @@ fn views() {
     let kept = grid.contacts().to_vec();
     assert!(kept.len() > 100);
     assert_eq!(grid.contacts().get(kept.len()), None);
+    assert!(grid.contacts().iter().skip(3).eq(&kept[3..]));
+    let mut iter = grid.contacts().iter();
+    assert_eq!((iter.nth(2), iter.len()), (Some(&kept[2]), kept.len() - 3));
+    assert_eq!((iter.nth(usize::MAX), iter.len()), (None, 0));
     assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| grid.contacts()[kept.len()])).is_err());
     assert_eq!(grid.contacts_of(a).unwrap().len(), kept.len());
     assert_eq!(grid.contacts_between(b, a).unwrap().len(), kept.len());
