@@ -9,7 +9,7 @@ namespace Voxtet
     public sealed unsafe partial class Grid : IDisposable
     {
         readonly GridHandle handle;
-        ulong version = 1; // what ends views of results raises it
+        internal ulong version = 1; // what ends views of results raises it
         ulong layout = 1;  // what ends positions raises it
 
         public Grid() : this(new GridOptions()) { }

@@ -60,22 +60,39 @@ namespace Voxtet
         /// and while something still refers to the grid.</summary>
         public ReadOnlySpan<T> AsSpan() { Check(); return records; }
 
-        public Enumerator GetEnumerator() { return new Enumerator(this); }
+        public Enumerator GetEnumerator()
+        {
+            Check();
+            return new Enumerator(records, grid, version);
+        }
 
+        /// <summary>Goes from record to record, and throws when the view has ended on the way.</summary>
         public ref struct Enumerator
         {
-            readonly View<T> view;
+            readonly ReadOnlySpan<T> records;
+            readonly Grid grid;
+            readonly ulong version;
             int index;
 
-            internal Enumerator(View<T> view)
+            internal Enumerator(ReadOnlySpan<T> records, Grid grid, ulong version)
             {
-                this.view = view;
+                this.records = records;
+                this.grid = grid;
+                this.version = version;
                 index = -1;
             }
 
-            public bool MoveNext() { return ++index < view.Length; }
+            public bool MoveNext() { return ++index < records.Length; }
 
-            public ref readonly T Current { get { return ref view[index]; } }
+            public ref readonly T Current
+            {
+                get
+                {
+                    // No call, as in the common case it would cost more than all the rest. There are no records without a grid.
+                    if (grid.version != version) grid.CheckVersion(version);
+                    return ref records[index];
+                }
+            }
         }
     }
 

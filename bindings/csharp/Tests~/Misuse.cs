@@ -101,10 +101,23 @@ namespace Voxtet.Tests
             Test.Same(grid.CopyReadings(b, a).Length, count, "readings of a pair");
             Test.Same(grid.ReadingDepths.Length, 0, "depths that were not asked for");
             Test.That(Grid.LibraryBuild.Contains(Grid.LibraryVersion), Grid.LibraryBuild);
+            string end = "";
+            int read = 0;
+            try
+            {
+                foreach (Contact contact in grid.Contacts)
+                {
+                    Test.Same(contact.vertex, kept[read].vertex, "vertex of contact " + read);
+                    if (++read == 2) grid.Step();
+                }
+            }
+            catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("this view ended") && read == 2, read + " contacts read; " + end);
+            try { foreach (Contact contact in contacts) ++read; } catch (InvalidOperationException) { read = -1; }
+            Test.Same(read, -1, "contacts read of a view that ended");
             Positions<float> positions = grid.GetPositions(b);
             for (int i = 0; i < positions.Length; i += 3) positions[i] += 100;
             grid.Step();
-            string end = "";
             try { count = contacts.Length; } catch (InvalidOperationException error) { end = error.Message; }
             Test.That(end.Contains("this view ended"), end);
             try { end = ""; kept[0] = contacts[0]; } catch (InvalidOperationException error) { end = error.Message; }
