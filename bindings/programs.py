@@ -97,7 +97,7 @@ class Program:
         need("mcs", "mono")
         self.write("program.cs", "csharp")
         sources = sorted(glob.glob(os.path.join(HERE, "csharp", "Runtime", "*.cs")))
-        options = ["mcs", "-langversion:7.2", "-unsafe", "-nologo", "-nowarn:0649,0169,0414"]
+        options = ["mcs", f"@{HERE}/csharp/Tests~/mcs.rsp"]
         self.run(*options, "-target:library", "-out:Voxtet.dll", *sources)
         self.run(*options, "-r:Voxtet.dll", "-out:program.exe", "program.cs")
         return self.run("mono", "program.exe")

@@ -35,7 +35,7 @@ def build(folder, out):
     programs = {"C": [f"{out}/step_c"], "C again": [f"{out}/step_c"], "C++": [f"{out}/step_cpp"]}
     if shutil.which("mcs") and shutil.which("mono"):
         sources = sorted(glob.glob(f"{HERE}/../csharp/Runtime/*.cs"))
-        options = ["mcs", "-langversion:7.2", "-unsafe", "-optimize+", "-nologo", "-nowarn:0649,0169,0414"]
+        options = ["mcs", f"@{HERE}/../csharp/Tests~/mcs.rsp", "-optimize+"]
         run(*options, "-target:library", f"-out:{out}/Voxtet.dll", *sources)
         run(*options, f"-r:{out}/Voxtet.dll", f"-out:{out}/Step.exe", f"{HERE}/Step.cs")
         programs["C#"] = ["mono", f"{out}/Step.exe"]

@@ -75,8 +75,9 @@ static class Program
         source, built = os.path.join(folder, "program.cs"), os.path.join(folder, "program.exe")
         with open(source, "w", encoding="ascii") as file:
             file.write(program)
-        run(compiler, "-langversion:7.2", "-unsafe", "-warnaserror", "-out:" + built, source,
-            os.path.join(BINDINGS, "csharp", "Runtime", "Native.g.cs"))
+        csharp = os.path.join(BINDINGS, "csharp")
+        run(compiler, "@" + os.path.join(csharp, "Tests~", "mcs.rsp"), "-warnaserror", "-out:" + built, source,
+            os.path.join(csharp, "Runtime", "Native.g.cs"))
         printed = subprocess.run([runtime, built], check=True, stdout=subprocess.PIPE, text=True).stdout
         entries = len(STRUCTS) + sum(len(s["fields"]) for s in STRUCTS)
         assert printed == f"{entries} entries\n", printed
