@@ -2,7 +2,6 @@
 
 #include "failure.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -10,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
+#include <unordered_map>
 
 namespace tool {
 
@@ -101,6 +101,7 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
     constexpr std::size_t header = 24;
     constexpr std::uint32_t is_disabled = 2, is_transformed = 4;
     std::vector<DrawnMesh> meshes;
+    std::unordered_map<std::uint32_t, std::size_t> place_of; // a mesh, by its id
     for (std::size_t at = header; at < bytes.size();) {
         const std::string name(bytes.begin() + std::ptrdiff_t(at), bytes.begin() + std::ptrdiff_t(at) + 4);
         Numbers chunk(bytes.data() + at + 8);
@@ -127,13 +128,14 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
             if (bits & is_transformed) place(transform, mesh.positions);
             for (double& x : mesh.positions)
                 if (!std::isfinite(x)) x = 0; // a vertex that was removed
-            if (placed && !(bits & is_disabled)) meshes.push_back(std::move(mesh));
+            if (!placed || (bits & is_disabled)) continue;
+            place_of.emplace(mesh.id, meshes.size());
+            meshes.push_back(std::move(mesh));
         } else if (name == "CUTS") { // these come after the meshes
             const auto id = chunk.next<std::uint32_t>();
             (void)chunk.next<std::uint32_t>();
-            const auto mesh =
-                std::find_if(meshes.begin(), meshes.end(), [id](const DrawnMesh& m) { return m.id == id; });
-            if (mesh != meshes.end()) keep_on(*mesh, chunk);
+            if (const auto found = place_of.find(id); found != place_of.end())
+                keep_on(meshes[found->second], chunk);
         }
     }
     return meshes;
