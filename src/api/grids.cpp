@@ -65,7 +65,7 @@ vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task
         const vox_task_system system = tasks ? *tasks : vox_task_system{};
         check_workers(system, worker_count);
         FirstFailure failure;
-        Workers(system, worker_count)
+        Workers(system, worker_count, Workers::Threads::of_calls)
             .for_ranges(count, 1, [&](std::size_t begin, std::size_t end, std::uint32_t) {
                 for (std::size_t i = begin; i < end; ++i) {
                     const vox_result result = vox_grid_step(grids[i]);

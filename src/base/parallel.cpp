@@ -19,11 +19,14 @@ void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
                     "grid worker_count is 0 with a task system of the caller's, expected how many it has");
 }
 
-Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count) : tasks_(tasks) {
+Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads)
+    : tasks_(tasks), threads_(threads) {
     set_count(worker_count);
 }
 
-Workers::~Workers() = default;
+Workers::~Workers() {
+    if (scheduler_ && threads_ == Threads::of_calls) Scheduler::leave(std::move(scheduler_));
+}
 
 void Workers::set_count(std::uint32_t worker_count) {
     if (tasks_.enqueue) {
@@ -32,7 +35,9 @@ void Workers::set_count(std::uint32_t worker_count) {
     }
     const std::uint32_t count = Scheduler::most_workers(worker_count);
     if (count == count_) return; // and keep the threads
-    scheduler_ = count > 1 ? std::make_unique<Scheduler>(count) : nullptr;
+    scheduler_ = count == 1                      ? nullptr
+                 : threads_ == Threads::of_calls ? Scheduler::of_last_call(count)
+                                                 : std::make_unique<Scheduler>(count);
     count_ = count;
 }
 

@@ -18,8 +18,12 @@ namespace vox {
 
 class Workers {
 public:
+    // Who keeps the threads of the built-in scheduler: these workers, which are a grid's, or the process,
+    // from one call to the next.
+    enum class Threads { own, of_calls };
+
     // `worker_count` as in vox_grid_desc, checked (check_workers).
-    Workers(const vox_task_system& tasks, std::uint32_t worker_count);
+    Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads = Threads::own);
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
@@ -67,6 +71,7 @@ private:
     void run(Job& job, std::size_t items, std::size_t min_range);
 
     vox_task_system tasks_;
+    Threads threads_;
     std::uint32_t count_ = 1;
     std::unique_ptr<Scheduler> scheduler_;
 };

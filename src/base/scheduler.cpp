@@ -119,6 +119,9 @@ struct Scheduler::Pool {
 #endif
     }
 
+    // Whether the system gave fewer threads than there should be. It may give a new pool more.
+    bool lacks_threads() const noexcept { return tried_ && threads_.size() + 1 < worker_count; }
+
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context) {
         make_threads();
         task_ = task;
@@ -281,6 +284,47 @@ Scheduler::~Scheduler() = default;
 void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t, void* context) {
     task(0, items, 0, context);
 }
+
+#endif
+
+// A thread that ends waits, on Windows, for the unloading of a library that would wait for the thread.
+#if defined(VOX_SCHEDULER_THREADS) && !defined(_WIN32)
+
+namespace {
+
+// No mutex: a fork could copy it locked. A scheduler that it copies makes threads of its own.
+constinit std::atomic<Scheduler*> last_calls = nullptr;
+// Whether at_end was destroyed. Grids may be stepped after that, in the destructors of other objects.
+constinit std::atomic<bool> has_ended = false;
+
+struct AtEnd {
+    ~AtEnd() {
+        has_ended = true;
+        delete last_calls.exchange(nullptr);
+    }
+} at_end;
+
+} // namespace
+
+std::unique_ptr<Scheduler> Scheduler::of_last_call(std::uint32_t worker_count) {
+    std::unique_ptr<Scheduler> last(last_calls.exchange(nullptr));
+    if (last && last->pool_->worker_count == worker_count) return last;
+    return std::make_unique<Scheduler>(worker_count);
+}
+
+void Scheduler::leave(std::unique_ptr<Scheduler> scheduler) noexcept {
+    if (scheduler->pool_->lacks_threads()) return;
+    delete last_calls.exchange(scheduler.release());
+    if (has_ended) delete last_calls.exchange(nullptr);
+}
+
+#else
+
+std::unique_ptr<Scheduler> Scheduler::of_last_call(std::uint32_t worker_count) {
+    return std::make_unique<Scheduler>(worker_count);
+}
+
+void Scheduler::leave(std::unique_ptr<Scheduler>) noexcept {}
 
 #endif
 

@@ -30,6 +30,14 @@ public:
     // caller's do all.
     explicit Scheduler(std::uint32_t worker_count);
     ~Scheduler();
+
+    // For a call that has no object to keep a scheduler in: the one that the last such call left, if it has
+    // as many workers and no other call has it now, else a new one.
+    static std::unique_ptr<Scheduler> of_last_call(std::uint32_t worker_count);
+    // Leaves it to the next such call. One is kept at most, until the process ends or the library is
+    // unloaded, and none where its threads would be as quick to make, or could not be joined then.
+    static void leave(std::unique_ptr<Scheduler> scheduler) noexcept;
+
     Scheduler(const Scheduler&) = delete;
     Scheduler& operator=(const Scheduler&) = delete;
 

@@ -1,6 +1,10 @@
 /* Many grids in one call. */
 #include <stdio.h>
 #include <string.h>
+#if defined(__linux__)
+#include <dirent.h>
+#include <unistd.h>
+#endif
 
 #include "scenes/bodies.h"
 #include "support/suite.h"
@@ -179,8 +183,41 @@ START_TEST(arguments) {
 }
 END_TEST
 
+#if defined(__linux__)
+static int threads_of_process(void) {
+    DIR* const folder = opendir("/proc/self/task");
+    ck_assert_ptr_nonnull(folder);
+    int found = 0;
+    while (readdir(folder)) ++found;
+    closedir(folder);
+    return found;
+}
+
+/* Making threads takes as long as the step of a small scene: those of one call serve the next one. */
+START_TEST(threads_are_kept) {
+    if (!strstr(vox_build_info(), "std::thread") || sysconf(_SC_NPROCESSORS_ONLN) < 2) return;
+    scenes s;
+    make_scenes(&s);
+    ck_ok(vox_grids_step(s.grids, count, NULL, 1, NULL));
+    const int before = threads_of_process();
+    for (int times = 0; times < 5; ++times) {
+        ck_ok(vox_grids_step(s.grids, count, NULL, 2, NULL));
+        /* The first thread may bring one of a sanitizer. */
+        ck_assert_int_ge(threads_of_process(), before + 1);
+        ck_assert_int_le(threads_of_process(), before + 2);
+    }
+    free_scenes(&s);
+    ck_assert_int_ge(threads_of_process(), before + 1); /* not of any grid */
+}
+END_TEST
+#endif
+
 int main(void) {
     Suite* suite = suite_create("grids");
-    tcase_add_each(add_case(suite, "many grids"), as_one_by_one, failures, arguments);
+    TCase* tests = add_case(suite, "many grids");
+    tcase_add_each(tests, as_one_by_one, failures, arguments);
+#if defined(__linux__)
+    tcase_add_test(tests, threads_are_kept);
+#endif
     return run_suite(suite);
 }

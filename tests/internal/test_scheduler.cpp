@@ -7,9 +7,12 @@
 #include "support/suite.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #if defined(__linux__)
 #include <dirent.h>
@@ -113,7 +116,85 @@ START_TEST(threads_are_made_late_kept_and_joined) {
 }
 END_TEST
 
+// What calls without a scheduler of their own leave to each other: one scheduler, or none.
+START_TEST(threads_are_kept_from_call_to_call) {
+    std::thread([] {}).join();
+    const int before = threads_of_process();
+    for (int times = 0; times < 20; ++times) {
+        auto scheduler = Scheduler::of_last_call(4);
+        run_once(*scheduler, 4, 100, 1);
+        ck_assert_int_eq(threads_of_process(), before + 3);
+        Scheduler::leave(std::move(scheduler));
+        ck_assert_int_eq(threads_of_process(), before + 3);
+    }
+    // At the same time, each has its own; one of them stays.
+    auto one = Scheduler::of_last_call(4), other = Scheduler::of_last_call(4);
+    ck_assert_ptr_ne(one.get(), other.get());
+    run_once(*other, 4, 100, 1);
+    run_once(*one, 4, 100, 1);
+    ck_assert_int_eq(threads_of_process(), before + 6);
+    Scheduler* const last = other.get();
+    Scheduler::leave(std::move(one));
+    Scheduler::leave(std::move(other));
+    ck_assert_int_eq(threads_of_process(), before + 3);
+    other = Scheduler::of_last_call(4);
+    ck_assert_ptr_eq(other.get(), last);
+    Scheduler::leave(std::move(other));
+    // As many as are asked for.
+    other = Scheduler::of_last_call(2);
+    ck_assert_int_eq(threads_of_process(), before);
+    run_once(*other, 2, 100, 1);
+    ck_assert_int_eq(threads_of_process(), before + 1);
+    Scheduler::leave(std::move(other)); // the end of the process joins it
+}
+END_TEST
+
+// From several threads at once, as calls of different grids may come.
+START_TEST(calls_at_the_same_time) {
+    const int before = threads_of_process();
+    std::vector<std::thread> callers;
+    std::atomic<int> wrong{0};
+    for (std::uint32_t caller = 0; caller < 4; ++caller)
+        callers.emplace_back([&, workers = 2 + caller / 2] {
+            for (int times = 0; times < 200; ++times) {
+                Work work(50, workers);
+                auto scheduler = Scheduler::of_last_call(workers);
+                scheduler->run(&Work::task, 50, 1, &work);
+                Scheduler::leave(std::move(scheduler));
+                wrong += !work.each_once();
+            }
+        });
+    for (std::thread& caller : callers) caller.join();
+    ck_assert_int_eq(wrong, 0);
+    ck_assert_int_le(threads_of_process(), before + 3); // two of the last, and a sanitizer's
+}
+END_TEST
+
 #if !defined(VOX_TESTS_NO_THREADS_AFTER_FORK)
+START_TEST(a_forked_process_takes_none_of_its_parents) {
+    auto scheduler = Scheduler::of_last_call(2);
+    meet(*scheduler);
+    Scheduler::leave(std::move(scheduler));
+    for (const std::uint32_t workers : {2u, 3u}) {
+        const pid_t child = fork();
+        ck_assert_int_ge(child, 0);
+        if (child == 0) {
+            alarm(60);
+            Meeting meeting;
+            scheduler = Scheduler::of_last_call(workers);
+            scheduler->run(&Meeting::task, 2, 1, &meeting);
+            Scheduler::leave(std::move(scheduler));
+            _exit(meeting.met == 2 ? 0 : 1);
+        }
+        int status = -1;
+        ck_assert_int_eq(waitpid(child, &status, 0), child);
+        ck_assert_msg(WIFEXITED(status) && WEXITSTATUS(status) == 0, "the child ended with %d", status);
+    }
+    scheduler = Scheduler::of_last_call(2);
+    meet(*scheduler);
+}
+END_TEST
+
 START_TEST(a_forked_process_has_threads_of_its_own) {
     for (const bool asleep : {false, true}) {
         Scheduler scheduler(2);
@@ -150,6 +231,15 @@ START_TEST(no_threads_to_be_had) {
     Scheduler scheduler(4);
     run_once(scheduler, 4, 1000, 1);
     ck_assert_int_eq(threads_of_process(), before);
+    // One without its threads is not kept for later calls, when there may be some.
+    auto one = Scheduler::of_last_call(4);
+    run_once(*one, 4, 1000, 1);
+    Scheduler::leave(std::move(one));
+    ck_assert_int_eq(pthread_attr_setstacksize(&attributes, std::size_t{1} << 20), 0);
+    ck_assert_int_eq(pthread_setattr_default_np(&attributes), 0);
+    one = Scheduler::of_last_call(4);
+    run_once(*one, 4, 1000, 1);
+    ck_assert_int_eq(threads_of_process(), before + 3);
 }
 END_TEST
 #endif
@@ -168,7 +258,10 @@ int main() {
     tcase_add_test(tests, items_run_at_the_same_time);
 #if defined(__linux__)
     tcase_add_test(tests, threads_are_made_late_kept_and_joined);
+    tcase_add_test(tests, threads_are_kept_from_call_to_call);
+    tcase_add_test(tests, calls_at_the_same_time);
 #if !defined(VOX_TESTS_NO_THREADS_AFTER_FORK)
+    tcase_add_test(tests, a_forked_process_takes_none_of_its_parents);
     tcase_add_test(tests, a_forked_process_has_threads_of_its_own);
 #endif
 #if defined(__GLIBC__)

@@ -6,6 +6,8 @@
 #include "support/failing_heap.hpp"
 #include "support/suite.h"
 
+#include <utility>
+
 using namespace vox;
 
 namespace {
@@ -24,6 +26,21 @@ START_TEST(no_allocation_once_there_are_threads) {
     ck_assert_int_eq(work.wrong, 0);
 }
 END_TEST
+
+#if !defined(_WIN32)
+START_TEST(no_allocation_from_call_to_call) {
+    Work work(5000, 4);
+    for (int times = 0; times < 100; ++times) {
+        if (times == 1) heap::calls = 0;
+        auto scheduler = Scheduler::of_last_call(4);
+        scheduler->run(&Work::task, 5000, 3, &work);
+        Scheduler::leave(std::move(scheduler));
+    }
+    ck_assert_uint_eq(heap::calls, 0);
+    ck_assert_int_eq(work.wrong, 0);
+}
+END_TEST
+#endif
 
 START_TEST(no_memory_for_threads) {
     for (std::uint64_t fails = 1; fails <= 6; ++fails) {
@@ -51,6 +68,9 @@ int main() {
 #if defined(VOX_SCHEDULER_THREADS)
     tcase_add_test(tests, no_allocation_once_there_are_threads);
     tcase_add_test(tests, no_memory_for_threads);
+#if !defined(_WIN32)
+    tcase_add_test(tests, no_allocation_from_call_to_call);
+#endif
 #else
     (void)tests;
 #endif
