@@ -265,11 +265,8 @@ class Describer:
     def nullable(self, owner, member, length):
         if "VOX_OPTIONAL" in member.marks or length == "opaque" or owner.kind == "callback" and not member[1]:
             return True
-        if isinstance(length, str) and length != "text":
-            # An array whose count is given in the same call may be null if that is 0.
-            beside = "." not in length or owner.kind == "struct" or member[1].startswith("out")
-            if beside and "+ 1" not in length:
-                return "if empty"
+        if isinstance(length, str) and length != "text" and "+ 1" not in length:
+            return "if empty"
         return False
 
     def lifetime(self, owner, member, t):

@@ -110,10 +110,10 @@ VOX_API const char* vox_result_string(vox_result result);
  * It lives until the thread's next failing call. Successful calls leave it alone. Never null. */
 VOX_API VOX_UNTIL(failure) const char* vox_last_error(void);
 
-/* Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
- * libraries built on vox (vox_io among them) can report failures the same way. A null text counts as "". Cannot fail
- * itself. */
-VOX_EXPERIMENTAL vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
+/* Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox (vox_io among them) can
+ * report failures the same way. The text is copied, its first 1023 bytes at most, and of UTF-8 no part of a character.
+ * A null text counts as "". Cannot fail itself. */
+VOX_API vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
 
 /* ---- version ---------------------------------------------------------------------------------- */
 
@@ -511,7 +511,8 @@ VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh,
 
 /* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
  * of vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory
- * between steps need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
+ * between steps need no new call. Null is accepted for a mesh without vertices.
+ * Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh,
                                            VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                            vox_format format, uint64_t byte_stride);
@@ -689,7 +690,8 @@ VOX_API vox_result vox_grid_step(vox_grid* grid);
  * VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its own,
  * so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on the others. Its callbacks
  * are called on the thread that steps it. One thread at a time may change each of the grids, so none of them may be
- * used until the call returns.
+ * used until the call returns. Threads of the built-in scheduler may be kept for a next call with as many workers: those
+ * of one call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded.
  * results: null, or `count` results, of the grids in their order. If grids fail, the others are stepped nevertheless,
  * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
  * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which

@@ -279,6 +279,13 @@ private:
 #endif
 };
 
+// A callable for a function pointer's `user`, and what it has thrown.
+template <class F>
+struct called_back {
+    F& call;
+    catcher caught{};
+};
+
 // What a function fills: zero, but for a struct_size.
 template <class T, class = void>
 struct has_size : std::false_type {};
@@ -324,7 +331,8 @@ namespace detail {
 // What the views of a grid look at. It outlives the grid.
 struct watch {
     explicit watch(const vox_grid* watched) noexcept : grid(watched) {}
-    const vox_grid* grid;                                // null once it was destroyed
+    const vox_grid* grid;                                // null once it was destroyed, or let go by a borrow()
+    bool destroyed = false;
     std::uint64_t prepared = 0;                          // readings, so many times
     std::unordered_map<vox_mesh, std::uint64_t> rebound; // mapped positions of a mesh ended, so many times
     std::uint64_t rebound_of(vox_mesh mesh) const noexcept {
@@ -1047,7 +1055,10 @@ struct grid_deleter {
     watched watching{};
     void operator()(vox_grid* grid) noexcept {
 #if VOX_HPP_CHECKED
-        if (watching) watching->grid = nullptr;
+        if (watching) {
+            watching->grid = nullptr;
+            watching->destroyed = owned;
+        }
 #endif
         if (owned) vox_grid_destroy(grid);
     }
@@ -1502,7 +1513,7 @@ public:
         const vox_mesh mesh = release();
         if (mesh == VOX_NULL_MESH) return;
 #if VOX_HPP_CHECKED
-        if (!watching_ || !watching_->grid) return; // with its grid
+        if (!watching_ || watching_->destroyed) return; // with its grid
         watching_->rebound.erase(mesh);
 #endif
         (void)vox_mesh_remove(grid_, mesh); // may be gone already
@@ -1601,16 +1612,14 @@ inline vox_cost_bounds cost_bounds(double min, double max) noexcept {
 // vox_cost_minimise, for any callable that takes a cell size and returns a number. What it throws ends the search.
 template <class F, std::enable_if_t<std::is_invocable_r_v<double, F&, double>, int> = 0>
 returns<vox_cost_minimum> minimise(F&& cost, const vox_cost_bounds& bounds) {
-    struct context {
-        std::remove_reference_t<F>& cost;
-        detail::catcher caught;
-    } with{cost, {}};
+    using context = detail::called_back<std::remove_reference_t<F>>;
+    context with{cost};
     vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
     const vox_result result = vox_cost_minimise(
         [](double cell_size, void* user) -> double {
             context& at = *static_cast<context*>(user);
             double value = std::numeric_limits<double>::infinity();
-            at.caught.run([&] { value = static_cast<double>(at.cost(cell_size)); });
+            at.caught.run([&] { value = static_cast<double>(at.call(cell_size)); });
             return value;
         },
         &with, &bounds, &minimum);

@@ -43,14 +43,12 @@ public:
     // The same under a desc with a callable for its progress. What that throws cancels the call.
     template <class D, class F, class C>
     static returns<mesh> made(D desc, F& progress, C&& call) {
-        struct context {
-            F& progress;
-            detail::catcher caught;
-        } with{progress, {}};
+        using context = detail::called_back<F>;
+        context with{progress};
         desc.progress = [](double fraction, void* user) -> std::int32_t {
             context& at = *static_cast<context*>(user);
             bool go_on = false;
-            at.caught.run([&] { go_on = at.progress(fraction); });
+            at.caught.run([&] { go_on = at.call(fraction); });
             return go_on ? 0 : 1;
         };
         desc.progress_user = &with;
@@ -106,14 +104,12 @@ public:
     // vox_io_write_to: `sink` takes a span<const std::byte>. What it throws ends the writing.
     template <class F, class = std::enable_if_t<std::is_invocable_v<F&, span<const std::byte>>>>
     returns<void> write_to(F&& sink, const vox_io_write_desc& desc) const {
-        struct context {
-            std::remove_reference_t<F>& sink;
-            detail::catcher caught;
-        } with{sink, {}};
+        using context = detail::called_back<std::remove_reference_t<F>>;
+        context with{sink};
         const vox_io_sink to = {[](const void* data, std::size_t size, void* user) -> std::int32_t {
                                     context& at = *static_cast<context*>(user);
                                     const span<const std::byte> bytes(static_cast<const std::byte*>(data), size);
-                                    return at.caught.run([&] { at.sink(bytes); }) ? 0 : 1;
+                                    return at.caught.run([&] { at.call(bytes); }) ? 0 : 1;
                                 },
                                 &with};
         const vox_result result = vox_io_write_to(get(), &desc, &to);

@@ -204,7 +204,7 @@ vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const 
                                            uint64_t component_byte_stride) {
     return border(grid, "grid", [&] {
         Mesh& target = grid->mesh(mesh);
-        require(positions, "positions");
+        if (target.vertex_count() > 0) require(positions, "positions");
         check_format(format, "");
         target.bind(check_positions(positions, format, byte_stride, component_byte_stride,
                                     target.vertex_count(), ""));

@@ -12,7 +12,8 @@ thread_local char last_error[text_capacity] = "";
 vox_result vox_fail(vox_result result, const char* text) {
     if (!text) text = "";
     // memmove, because a failure that is passed on has this very buffer as its text.
-    const std::size_t length = strnlen(text, text_capacity - 1);
+    std::size_t length = strnlen(text, text_capacity - 1);
+    if (text[length] != 0) length = vox::whole_characters(text, length);
     std::memmove(last_error, text, length);
     last_error[length] = '\0';
     return result;

@@ -52,9 +52,24 @@ inline void write_nan_plainly(char* text) noexcept {
     *out = 0;
 }
 
-// vsnprintf for messages. Longer texts are cut.
+// The length of a text that was cut at `length`, without the part of a character of UTF-8 that may be left at
+// its end.
+inline std::size_t whole_characters(const char* text, std::size_t length) noexcept {
+    for (std::size_t bytes = 1; bytes <= 3 && bytes <= length; ++bytes) {
+        const auto byte = static_cast<unsigned char>(text[length - bytes]);
+        if (byte >= 0xc0) { // the first of a character
+            const std::size_t all = byte < 0xe0 ? 2 : byte < 0xf0 ? 3 : 4;
+            return bytes < all ? length - bytes : length;
+        }
+        if (byte < 0x80) break;
+    }
+    return length;
+}
+
+// vsnprintf for messages. Longer texts are cut, between characters.
 inline void write_text(char* text, std::size_t size, const char* pattern, va_list arguments) {
-    (void)std::vsnprintf(text, size, pattern, arguments);
+    const int length = std::vsnprintf(text, size, pattern, arguments);
+    if (length >= 0 && static_cast<std::size_t>(length) >= size) text[whole_characters(text, size - 1)] = 0;
     write_nan_plainly(text);
 }
 

@@ -42,6 +42,33 @@ START_TEST(last_error) {
 }
 END_TEST
 
+/* Wherever a text is cut, the end is that of a character of UTF-8. */
+START_TEST(last_error_of_whole_characters) {
+    static const char* const characters[] = {"x", "\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\xa7\x8a"};
+    for (size_t size = 1; size <= 4; ++size)
+        for (size_t before = 1018; before <= 1024; ++before) {
+            char text[1100];
+            memset(text, 'x', before);
+            for (size_t i = 0; i < 4; ++i) memcpy(text + before + i * size, characters[size - 1], size);
+            text[before + 4 * size] = 0;
+            size_t expected = before > 1023 ? 1023 : before;
+            for (int i = 0; i < 4 && expected + size <= 1023; ++i) expected += size;
+            vox_fail(VOX_ERROR_FILE, text);
+            ck_assert_uint_eq(strlen(vox_last_error()), expected);
+            ck_assert_int_eq(memcmp(vox_last_error(), text, expected), 0);
+            /* The part of a character that the caller's own text ends with is the caller's. */
+            text[1023] = 0;
+            vox_fail(VOX_ERROR_FILE, text);
+            ck_assert_str_eq(vox_last_error(), text);
+        }
+    char no_utf8[1100];
+    memset(no_utf8, 0x80, sizeof no_utf8);
+    no_utf8[sizeof no_utf8 - 1] = 0;
+    vox_fail(VOX_ERROR_FILE, no_utf8);
+    ck_assert_uint_eq(strlen(vox_last_error()), 1023);
+}
+END_TEST
+
 /* ---- growable structs ---- */
 
 START_TEST(struct_sizes) {
@@ -373,7 +400,7 @@ END_TEST
 int main(void) {
     Suite* suite = suite_create("grid");
     TCase* tests = add_case(suite, "grid");
-    tcase_add_each(tests, version, result_names, last_error, struct_sizes, grid_desc_fields, null_arguments,
+    tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes, grid_desc_fields, null_arguments,
                    mesh_desc_fields, ids, generations_run_out, user_data, cell_size_is_chosen,
                    cell_size_without_extent);
     return run_suite(suite);

@@ -62,6 +62,51 @@ START_TEST(refused) {
 }
 END_TEST
 
+/* Null is an array of no positions. Both functions bind it, and vertices that are added later have none. */
+START_TEST(no_positions_of_no_vertices) {
+    const vox_mesh_desc empty = vox_default_mesh_desc();
+    for (int columns = 0; columns < 2; ++columns) {
+        vox_grid* grid = new_grid(1);
+        solid s = make_solid(1);
+        write_solid(&s, VOX_FORMAT_FLOAT3, 12);
+        insert(grid, &s, 0);
+        vox_mesh mesh = 0;
+        ck_ok(vox_mesh_insert(grid, &empty, &mesh));
+        const uint64_t stride = columns ? 8 : 24, component = columns ? 64 : 8;
+        ck_ok(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0));
+        ck_ok(vox_mesh_bind_strided_positions(grid, mesh, NULL, VOX_FORMAT_DOUBLE3, stride, component));
+        ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, (vox_format)7, 0), VOX_ERROR_INVALID_ARGUMENT,
+                 "position_format is 7");
+        vox_mesh_info info = {.struct_size = sizeof info};
+        ck_ok(vox_mesh_get_info(grid, mesh, &info));
+        ck_assert_ptr_null(info.positions);
+        ck_assert_int_eq(info.position_format, VOX_FORMAT_DOUBLE3);
+        ck_ok(vox_grid_step(grid));
+        /* One that had positions of its own, and vertices that have none. */
+        void* mapped = &info;
+        uint64_t mapped_stride = 0;
+        ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &mapped_stride));
+        ck_assert_ptr_null(mapped);
+        ck_ok(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0));
+        vox_vertices_desc vertices = vox_default_vertices_desc();
+        vertices.count = 1;
+        uint32_t first = 7;
+        ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
+        ck_assert_uint_eq(first, 0);
+        ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
+        ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0), VOX_ERROR_INVALID_ARGUMENT,
+                 "positions is null");
+        ck_fails(vox_mesh_bind_strided_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0, 0),
+                 VOX_ERROR_INVALID_ARGUMENT, "positions is null");
+        const float position[3] = {0, 0, 0};
+        ck_ok(vox_mesh_bind_floats(grid, mesh, position));
+        ck_ok(vox_grid_step(grid));
+        vox_grid_destroy(grid);
+        free_solid(&s);
+    }
+}
+END_TEST
+
 START_TEST(mapped_positions) {
     for (int floats = 0; floats < 2; ++floats) {
         const size_t size = floats ? 12 : 24;
@@ -149,7 +194,8 @@ START_TEST(mapped_positions_of_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, bound_in_another_format, refused, mapped_positions, mapped_positions_of_nothing);
+    tcase_add_each(tests, bound_in_another_format, refused, no_positions_of_no_vertices,
+                   mapped_positions, mapped_positions_of_nothing);
 }
 
 int main(void) {

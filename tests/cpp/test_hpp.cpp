@@ -458,6 +458,16 @@ START_TEST(meshes_are_removed_by_their_owner) {
     }
     mesh.reset();
 #endif
+    // The owner's grid lives on where what borrowed it has gone.
+    CGrid c(with.scene);
+    {
+        vox::grid borrowed = vox::grid::borrow(c.grid);
+        mesh = vox::unique_mesh(borrowed, borrowed.insert(with.scene.a));
+    }
+    const vox_mesh id = mesh.get();
+    ck_assert_uint_eq(vox_mesh_is_valid(c.grid, id), 1);
+    mesh.reset();
+    ck_assert_uint_eq(vox_mesh_is_valid(c.grid, id), 0);
 }
 END_TEST
 

@@ -36,6 +36,17 @@ START_TEST(names_stay) {
 }
 END_TEST
 
+START_TEST(cut_between_characters) {
+    const std::string character = "\xe2\x82\xac";
+    std::string text;
+    while (text.size() < 2000) text += character;
+    for (const std::size_t before : {0u, 1u, 2u}) {
+        const std::string whole = std::string(before, 'x') + text;
+        check(format("%s", whole.c_str()), whole.substr(0, before + (1023 - before) / 3 * 3).c_str());
+    }
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -43,5 +54,6 @@ int main() {
     TCase* tests = add_case(suite, "texts");
     tcase_add_test(tests, nan_has_no_sign);
     tcase_add_test(tests, names_stay);
+    tcase_add_test(tests, cut_between_characters);
     return run_suite(suite);
 }

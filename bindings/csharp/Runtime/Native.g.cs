@@ -1722,8 +1722,8 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_last_error();
 
-        /// <summary>Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that
-        /// libraries built on vox (vox_io among them) can report failures the same way.</summary>
+        /// <summary>Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox
+        /// (vox_io among them) can report failures the same way.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_fail(Result result, IntPtr text);
 

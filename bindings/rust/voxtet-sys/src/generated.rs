@@ -1664,8 +1664,9 @@ extern "C" {
     /// The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
     /// It lives until the thread's next failing call. Successful calls leave it alone. Never null.
     pub fn vox_last_error() -> *const c_char;
-    /// Sets this thread's vox_last_error() text (copied, cut at 1023 bytes) and returns `result`, so that libraries
-    /// built on vox (vox_io among them) can report failures the same way. A null text counts as "". Cannot fail itself.
+    /// Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox (vox_io among
+    /// them) can report failures the same way. The text is copied, its first 1023 bytes at most, and of UTF-8 no part
+    /// of a character. A null text counts as "". Cannot fail itself.
     pub fn vox_fail(result: vox_result, text: *const c_char) -> vox_result;
     /// Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail.
     pub fn vox_version() -> u32;
@@ -1766,7 +1767,8 @@ extern "C" {
     ) -> vox_result;
     /// Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule of
     /// vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory between steps
-    /// need no new call. Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small.
+    /// need no new call. Null is accepted for a mesh without vertices. Errors: INVALID_ARGUMENT for an unknown format
+    /// and a stride that is too small.
     pub fn vox_mesh_bind_positions(
         grid: *mut vox_grid,
         mesh: vox_mesh,
@@ -1923,11 +1925,13 @@ extern "C" {
     /// core; at most VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses
     /// workers of its own, so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on
     /// the others. Its callbacks are called on the thread that steps it. One thread at a time may change each of the
-    /// grids, so none of them may be used until the call returns. results: null, or `count` results, of the grids in
-    /// their order. If grids fail, the others are stepped nevertheless, and the call returns the result of the first of
-    /// them and its text, after its index ("grid 17: ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or
-    /// repeated grid, a worker_count) and OUT_OF_MEMORY, after which no grid was stepped and `results` is not written,
-    /// unless the task system broke its rules, see vox_task_system.
+    /// grids, so none of them may be used until the call returns. Threads of the built-in scheduler may be kept for a
+    /// next call with as many workers: those of one call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the
+    /// process ends or the library is unloaded. results: null, or `count` results, of the grids in their order. If
+    /// grids fail, the others are stepped nevertheless, and the call returns the result of the first of them and its
+    /// text, after its index ("grid 17: ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a
+    /// worker_count) and OUT_OF_MEMORY, after which no grid was stepped and `results` is not written, unless the task
+    /// system broke its rules, see vox_task_system.
     pub fn vox_grids_step(
         grids: *const *mut vox_grid,
         count: u64,
