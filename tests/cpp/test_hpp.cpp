@@ -740,6 +740,12 @@ START_TEST(arrays_of_all_kinds) {
     desc.flags = VOX_MESH_BORROW_TETS;
     desc.user_data = 5;
     ck_assert_uint_eq(grid.user_data(grid.insert(desc)), 5);
+    // No positions, of no vertices.
+    const std::vector<float> none;
+    const vox_mesh empty = grid.insert(none);
+    grid.bind(empty, none);
+    ck_assert_uint_eq(grid.info(empty).vertex_count, 0);
+    grid.step();
 }
 END_TEST
 

@@ -139,3 +139,73 @@ unsafe extern "C" fn enqueue(
 }
 
 unsafe extern "C" fn finish(_handle: *mut c_void, _user: *mut c_void) {}
+
+// The library's part is played by the tests, so that miri can run them.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    struct Threads;
+    impl TaskSystem for Threads {
+        fn workers(&self) -> u32 {
+            3
+        }
+        fn run(&self, workers: u32, task: &(dyn Fn(u32) + Sync)) {
+            std::thread::scope(|scope| (0..workers).for_each(|worker| drop(scope.spawn(move || task(worker)))));
+        }
+    }
+
+    struct Panics;
+    impl TaskSystem for Panics {
+        fn workers(&self) -> u32 {
+            2
+        }
+        fn run(&self, _: u32, task: &(dyn Fn(u32) + Sync)) {
+            task(0);
+            panic!("a task system that panics");
+        }
+    }
+
+    type Runs = Mutex<Vec<u32>>;
+
+    unsafe extern "C" fn count(begin: u64, end: u64, _worker: u32, context: *mut c_void) {
+        let runs = unsafe { &*context.cast::<Runs>() };
+        runs.lock().unwrap()[begin as usize..end as usize].iter_mut().for_each(|n| *n += 1);
+    }
+
+    /// How often each of `items` items runs.
+    fn run(system: impl TaskSystem + 'static, items: usize, min_range: u64) -> Vec<u32> {
+        let mut desc: sys::vox_grid_desc = unsafe { std::mem::zeroed() };
+        let callbacks = Callbacks::install(None, Some(Arc::new(system)), &mut desc).unwrap();
+        assert_eq!(desc.worker_count, callbacks.tasks.as_ref().unwrap().system.workers());
+        let runs: Runs = Mutex::new(vec![0; items]);
+        let context = std::ptr::from_ref(&runs).cast_mut().cast();
+        let tasks = desc.tasks;
+        unsafe {
+            let handle = tasks.enqueue.unwrap()(Some(count), items as u64, min_range, context, tasks.user);
+            assert!(handle.is_null());
+            tasks.finish.unwrap()(handle, tasks.user);
+        }
+        runs.into_inner().unwrap()
+    }
+
+    #[test]
+    fn each_item_runs_once() {
+        for (items, min_range) in [(0, 1), (1, 1), (2, 0), (100, 1), (100, 7), (100, 1000)] {
+            assert_eq!(run(Threads, items, min_range), vec![1; items], "{items} items, ranges of {min_range}");
+        }
+    }
+
+    #[test]
+    fn panics_do_not_cross() {
+        assert_eq!(run(Panics, 50, 1), vec![1; 50]);
+        let mut desc: sys::vox_grid_desc = unsafe { std::mem::zeroed() };
+        let log: LogFunction = Box::new(|_, text| assert_eq!(text, "a line"));
+        let kept = Callbacks::install(Some(log), None, &mut desc).unwrap();
+        for text in [c"a line", c"another line"] {
+            unsafe { desc.log.write.unwrap()(sys::VOX_LOG_WARNING, text.as_ptr(), desc.log.user) };
+        }
+        drop(kept);
+    }
+}

@@ -204,3 +204,44 @@ impl<'grid, T: Copy> Events<'grid, T> {
 
 pub(crate) type TouchEvents<'grid> = Events<'grid, TouchEvent>;
 pub(crate) type ContactEvents<'grid> = Events<'grid, ContactEvent>;
+
+// Without the library, so that miri can run them.
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(view: View<'_, [u32; 3]>, expected: &[[u32; 3]]) {
+        assert_eq!(view.len(), expected.len());
+        assert_eq!(view.to_vec(), expected);
+        assert_eq!(view.get(expected.len()), None);
+        assert_eq!(view.iter().len(), expected.len());
+        for n in 0..=expected.len() + 1 {
+            assert_eq!(view.get(n), expected.get(n));
+            assert_eq!(view.iter().nth(n), expected.get(n));
+            assert!(view.iter().skip(n).eq(expected.iter().skip(n)));
+        }
+        assert_eq!(view.iter().nth(usize::MAX), None);
+        assert_eq!(format!("{view:?}"), format!("{expected:?}"));
+    }
+
+    #[test]
+    fn records_one_after_the_other() {
+        let records = [[1, 2, 3], [4, 5, 6], [7, 8, 9]];
+        let view = unsafe { View::new(records.as_ptr(), 12, 3) };
+        check(view, &records);
+        assert_eq!(view.as_slice(), Some(&records[..]));
+        check(unsafe { View::new(std::ptr::null(), 12, 0) }, &[]);
+        check(unsafe { View::new(std::ptr::null(), 0, 0) }, &[]);
+    }
+
+    // As a later library may have them.
+    #[test]
+    fn longer_records() {
+        #[repr(C)]
+        struct Longer([u32; 3], u64);
+        let records: Vec<Longer> = (0..5).map(|i| Longer([i, i + 1, i + 2], u64::MAX)).collect();
+        let view: View<'_, [u32; 3]> = unsafe { View::new(records.as_ptr().cast(), std::mem::size_of::<Longer>(), 5) };
+        check(view, &records.iter().map(|r| r.0).collect::<Vec<_>>());
+        assert_eq!(view.as_slice(), None);
+    }
+}
