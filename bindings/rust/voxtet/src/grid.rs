@@ -212,6 +212,14 @@ impl Grid {
         check(unsafe { sys::vox_grid_set_flags(self.get_mut(), options.flags()) })
     }
 
+    /// What [`set_flags`](Grid::set_flags) sets, in its order; of a loaded grid as it was saved.
+    pub fn flags(&self) -> (bool, bool, bool) {
+        let mut flags = 0;
+        unsafe { sys::vox_grid_get_flags(self.get(), &mut flags) };
+        let has = |flag| flags & flag != 0;
+        (has(sys::VOX_GRID_PENETRATIONS), has(sys::VOX_GRID_CONTACT_EVENTS), has(sys::VOX_GRID_SKIP_BAD_MESHES))
+    }
+
     // ---- meshes ----
 
     /// Adds a mesh of these vertices and tetrahedra. Both arrays are copied; [`Grid::positions_mut`] moves the vertices.

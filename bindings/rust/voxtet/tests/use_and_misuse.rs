@@ -281,6 +281,18 @@ fn many_grids() {
 }
 
 #[test]
+fn flags_go_with_a_snapshot() {
+    let mut grid = Grid::new().unwrap();
+    assert_eq!(grid.flags(), (true, false, false));
+    for flags in [(false, true, false), (true, false, true), (false, false, false)] {
+        grid.set_flags(flags.0, flags.1, flags.2).unwrap();
+        assert_eq!(grid.flags(), flags);
+        let copy = Grid::load(&grid.save().unwrap(), GridOptions::default()).unwrap();
+        assert_eq!(copy.flags(), flags);
+    }
+}
+
+#[test]
 fn cell_sizes() {
     let (positions, tets) = block(4, 0.0);
     let meshes = [MeshArrays::new(&positions, &tets).with_self_collision()];
