@@ -20,6 +20,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace vox::depth {
 namespace HWY_NAMESPACE {
@@ -51,11 +53,7 @@ HWY_INLINE V Dot3(const V3& a, const V3& b) {
 }
 HWY_INLINE V Difference(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
 
-HWY_INLINE unsigned Bits(M mask) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(D(), mask, bits);
-    return bits[0];
-}
+HWY_INLINE unsigned Bits(M mask) { return static_cast<unsigned>(vox::HWY_NAMESPACE::BitsOfMask(D(), mask)); }
 
 // ---- search -----------------------------------------------------------------------------------------
 

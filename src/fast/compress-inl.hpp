@@ -9,6 +9,8 @@
 #define VOX_FAST_COMPRESS_INL
 #endif
 
+#include "base/lanes-inl.hpp"
+
 #include <hwy/highway.h>
 
 #ifndef VOX_FAST_COMPRESS_ONCE
@@ -28,6 +30,17 @@ inline constexpr struct CompressTable {
                     if ((mask >> i & 1) == wanted) lane[mask][n++] = static_cast<std::uint8_t>(i);
     }
 } compress_table;
+
+// The same for sets of four lanes of four bytes, in bytes.
+inline constexpr struct CompressBytesTable {
+    alignas(16) std::uint8_t byte[16][16]{};
+
+    constexpr CompressBytesTable() {
+        for (unsigned mask = 0; mask < 16; ++mask)
+            for (unsigned i = 0; i < 16; ++i)
+                byte[mask][i] = static_cast<std::uint8_t>(4 * compress_table.lane[mask][i / 4] + i % 4);
+    }
+} compress_bytes_table;
 
 } // namespace vox::fast
 #endif
@@ -50,11 +63,14 @@ public:
         : mask_(mask), count_(static_cast<std::uint32_t>(hn::CountTrue(Floats(), mask))){}
 #else
     {
+        const auto bits = static_cast<std::uint32_t>(vox::HWY_NAMESPACE::BitsOfMask(Floats(), mask));
+#if HWY_TARGET == HWY_WASM
+        bytes_ = hn::Load(Bytes(), compress_bytes_table.byte[bits]);
+#else
         const hn::Rebind<std::uint8_t, Floats> db;
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Floats(), mask, bits);
-        lanes_ = hn::PromoteTo(Words(), hn::LoadU(db, compress_table.lane[bits[0]]));
-        count_ = static_cast<std::uint32_t>(hwy::PopCount(bits[0]));
+        lanes_ = hn::PromoteTo(Words(), hn::LoadU(db, compress_table.lane[bits]));
+#endif
+        count_ = static_cast<std::uint32_t>(hwy::PopCount(bits));
     }
 #endif
 
@@ -62,6 +78,8 @@ public:
           operator()(hn::Vec<Floats> v) const {
 #if HWY_MAX_BYTES >= 64
         return hn::Compress(v, mask_);
+#elif HWY_TARGET == HWY_WASM
+        return hn::BitCast(Floats(), vox::HWY_NAMESPACE::LookUpBytes(hn::BitCast(Bytes(), v), bytes_));
 #else
         return hn::TableLookupLanes(v, hn::IndicesFromVec(Floats(), lanes_));
 #endif
@@ -74,6 +92,9 @@ public:
 private:
 #if HWY_MAX_BYTES >= 64
     hn::Mask<Floats> mask_;
+#elif HWY_TARGET == HWY_WASM
+    using Bytes = hn::Repartition<std::uint8_t, Floats>;
+    hn::Vec<Bytes> bytes_;
 #else
     hn::Vec<Words> lanes_;
 #endif

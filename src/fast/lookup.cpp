@@ -6,7 +6,6 @@
 #include "base/simd.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/lookup.cpp"
@@ -15,6 +14,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "base/lanes-inl.hpp"
 #include "fast/narrow-inl.hpp"
 #include "fast/quantise-inl.hpp"
 
@@ -51,11 +51,7 @@ HWY_INLINE std::uint32_t TestBoxes(LookupScratch& s, std::uint32_t begin, std::u
             const auto beyond_y = hn::SaturatedSub(hn::Sub(y, lo[1][j]), side[1][j]);
             const auto beyond_z = hn::SaturatedSub(hn::Sub(z, lo[2][j]), side[2][j]);
             const auto inside = hn::Eq(hn::Or(hn::Or(beyond_x, beyond_y), beyond_z), hn::Zero(d));
-            std::uint64_t part = 0;
-            alignas(8) std::uint8_t bits[8];
-            hn::StoreMaskBits(d, inside, bits);
-            std::memcpy(&part, bits, lanes / 8);
-            mask |= part << (j * lanes);
+            mask |= vox::HWY_NAMESPACE::BitsOfMask(d, inside) << (j * lanes);
         }
         mask &= valid & ~own(i);
         masks[left] = mask;

@@ -30,6 +30,7 @@
 #define VOX_FAST_NARROW_INL
 #endif
 
+#include "base/lanes-inl.hpp"
 #include "fast/compress-inl.hpp"
 #include "fast/lookup.hpp"
 #include "fast/tile-inl.hpp"
@@ -118,6 +119,9 @@ using FewCorners = Corners;
 using ManyCorners = Corners;
 #endif
 
+using vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask, vox::HWY_NAMESPACE::LookUpLanes,
+    vox::HWY_NAMESPACE::NoneOfMask;
+
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pairs
 
 // Decides `count` pairs.
@@ -126,7 +130,6 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& 
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
-    const hn::RebindToSigned<Floats> di;
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const CornersOf corners(s);
     const float* candidates[3] = {s.candidate_x, s.candidate_y, s.candidate_z};
@@ -137,8 +140,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& 
         // Pairs are sorted by candidate and each candidate has some, so the candidates of a register are
         // consecutive.
         const std::uint32_t first = s.pairs[i] >> 6;
-        const auto candidate =
-            hn::IndicesFromVec(d, hn::BitCast(di, hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first))));
+        const LaneIndices<Floats> candidate(hn::Sub(hn::ShiftRight<6>(pair), hn::Set(du, first)));
         const auto tets_of = corners[s.pairs + i];
         V va[3], vb[3], vc[3], vd[3];
         corners.template Load<0>(tets_of, va);
@@ -148,7 +150,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& 
         V e1[3], e2[3], e3[3], q[3], side[3], volume = hn::Set(d, 256 * 0x1p-24f);
         auto inside = hn::FirstN(d, count - i);
         for (int a = 0; a < 3; ++a) {
-            const V p = hn::TableLookupLanes(hn::LoadU(d, candidates[a] + first), candidate);
+            const V p = LookUpLanes(d, hn::LoadU(d, candidates[a] + first), candidate);
             const V lo = hn::Min(hn::Min(va[a], vb[a]), hn::Min(vc[a], vd[a])),
                     hi = hn::Max(hn::Max(va[a], vb[a]), hn::Max(vc[a], vd[a]));
             inside = hn::And(inside, hn::And(hn::Ge(p, lo), hn::Le(p, hi)));
@@ -159,8 +161,8 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& 
             e3[a] = hn::Sub(vd[a], va[a]);
             q[a] = hn::Sub(p, va[a]);
         }
-        if (hn::AllFalse(d, inside)) continue;
-        s.counters.candidates += hn::CountTrue(d, inside);
+        if (NoneOfMask(d, inside)) continue;
+        s.counters.candidates += LanesOfMask(d, inside);
         V n[3], m[3];
         Cross(e2, e3, n);
         Cross(e1, q, m);

@@ -6,6 +6,7 @@
 #define VOX_FAST_QUANTISE_INL
 #endif
 
+#include "base/lanes-inl.hpp"
 #include "fast/lookup.hpp"
 #include "fast/tile-inl.hpp"
 
@@ -41,14 +42,20 @@ HWY_INLINE void Quantise(const float* HWY_RESTRICT values, std::uint32_t count, 
     }
 }
 
+using vox::HWY_NAMESPACE::LookUpBytes;
+
 // Indices below 16 stay, others get their top bit set: a lookup gives 0 for them.
 HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
+#if HWY_TARGET == HWY_WASM
+    return index; // a lookup gives 0 for all of 16 and more
+#else
     const Bytes d;
     const auto biased = hn::Add(index, hn::Set(d, 0x70));
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
     return biased; // pshufb only looks at the top bit and the low four
 #else
     return hn::And(biased, hn::Set(d, 0x8f));
+#endif
 #endif
 }
 
@@ -66,10 +73,10 @@ struct ByteTable {
     }
     HWY_INLINE hn::Vec<Bytes> operator()(hn::Vec<Bytes> index) const {
         const Bytes d;
-        auto found = hn::TableLookupBytesOr0(quarter[0], QuarterIndex(index));
+        auto found = LookUpBytes(quarter[0], QuarterIndex(index));
         for (std::uint32_t q = 1; q < kQuarters; ++q) {
             const auto in_quarter = hn::Xor(index, hn::Set(d, static_cast<std::uint8_t>(16 * q)));
-            found = hn::Or(found, hn::TableLookupBytesOr0(quarter[q], QuarterIndex(in_quarter)));
+            found = hn::Or(found, LookUpBytes(quarter[q], QuarterIndex(in_quarter)));
         }
         return found;
     }

@@ -13,6 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/lanes-inl.hpp"
 #include "fast/compress-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,7 +41,7 @@ std::uint32_t Collect(const float* HWY_RESTRICT positions, std::uint32_t first, 
         const auto inside_y = hn::And(hn::Ge(py, ly), hn::Le(py, hy));
         const auto inside_z = hn::And(hn::Ge(pz, lz), hn::Le(pz, hz));
         const auto inside = hn::And(hn::And(inside_x, inside_y), hn::And(inside_z, hn::FirstN(d, last - v)));
-        if (hn::AllFalse(d, inside)) continue;
+        if (vox::HWY_NAMESPACE::NoneOfMask(d, inside)) continue;
         const Compressor compress(inside);
         hn::StoreU(compress(px), d, x + n);
         hn::StoreU(compress(py), d, y + n);
