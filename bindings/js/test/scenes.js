@@ -23,3 +23,19 @@ export function block(n, offset = [0, 0, 0], Type = Float32Array) {
       }
   return { positions, tets: Uint32Array.from(tets) };
 }
+
+/** Contacts and hash of each step of two blocks, one of which moves; as text, for JSON. */
+export function stepped(vox) {
+  const grid = new vox.Grid();
+  const body = block(6, [0.9, 0.013, 0.017]);
+  grid.add(block(6));
+  const mesh = grid.add(body);
+  const found = [];
+  for (let i = 0; i < 5; ++i) {
+    mesh.setTransform([1, 0, 0, -0.05 * i, 0, 1, 0, 0, 0, 0, 1, 0]);
+    grid.step();
+    found.push([grid.contacts.length, grid.penetrations.length, grid.hash.toString(16)]);
+  }
+  grid.dispose();
+  return found;
+}

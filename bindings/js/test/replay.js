@@ -1,0 +1,195 @@
+// Replays bindings/vectors, in Node and in a browser.
+import { GridFlags, VoxError } from "../voxtet.js";
+
+function hashWords(bytes) {
+  const whole = new Uint8Array(Math.ceil(bytes.length / 4) * 4);
+  whole.set(bytes);
+  const words = new Uint32Array(whole.buffer);
+  let hash = 0xcbf29ce484222325n;
+  for (const word of words) hash = BigInt.asUintN(64, (hash ^ BigInt(word === 0x80000000 ? 0 : word)) * 0x100000001b3n);
+  return hash.toString(16).padStart(16, "0");
+}
+
+function summary(records) {
+  return [records.length, hashWords(records.bytes)];
+}
+
+function filterOf(filter) {
+  const big = Object.fromEntries(["category", "mask"].map((key) => [key, BigInt(filter[key])]));
+  return {
+    ...big,
+    group: filter.group,
+    selfCollision: filter.self_collision,
+    selfRings: filter.self_rings,
+    selfRestDistance: filter.self_rest_distance,
+    penetrationMask: BigInt(filter.penetration_mask),
+  };
+}
+
+/** Replays all calls and compares what they give; returns their number. `script` is vectors.json, `arrays` the bytes of
+ * vectors.bin, `assert` as of node:assert. */
+export function replay(vox, script, arrays, assert) {
+  const array = (Type, offset, length) => new Type(arrays.slice(offset, offset + length * Type.BYTES_PER_ELEMENT).buffer);
+  const positionsOf = (call) => array(call.format === 1 ? Float64Array : Float32Array, call.positions, 3 * call.vertices);
+  let grid;
+  const indices = (call, name) => array(Uint32Array, call[name], call.count);
+  const corners = (call) => array(Uint32Array, call.corners, 4 * call.count);
+  const calls = {
+    create(call) {
+      grid?.dispose();
+      grid = new vox.Grid({ flags: call.flags, cellSize: call.cell_size });
+    },
+    insert(call) {
+      const mesh = grid.add({
+        positions: positionsOf(call),
+        tets: array(Uint32Array, call.tets, 4 * call.tet_count),
+        userData: BigInt(call.user_data),
+        filter: call.filter && filterOf(call.filter),
+      });
+      return { mesh: mesh.id };
+    },
+    move(call) {
+      grid.mesh(call.mesh).positions = positionsOf(call);
+    },
+    step: () => grid.step(),
+    results(call) {
+      const pairs = grid.pairs;
+      const touches = grid.touchEvents;
+      const found = {
+        hash: grid.hash.toString(16).padStart(16, "0"),
+        epoch: grid.epoch,
+        contacts: summary(grid.contacts),
+        interior: grid.contactInteriors.reduce((sum, one) => sum + one, 0),
+        pairs: summary(pairs),
+        pair_contacts: [pairs.contacts.length, hashWords(new Uint8Array(pairs.contacts.buffer))],
+        touches: summary(touches.all),
+        touches_began_persisted_ended: [touches.began.length, touches.persisted.length, touches.ended.length],
+      };
+      if (grid.flags & GridFlags.PENETRATIONS) {
+        found.penetrations = summary(grid.penetrations);
+        found.depths = summary(grid.depths);
+      } else {
+        assert.throws(() => grid.penetrations, VoxError);
+      }
+      if (grid.flags & GridFlags.CONTACT_EVENTS) {
+        const events = grid.contactEvents;
+        found.contact_events = summary(events.all);
+        found.contact_events_began_ended = [events.began.length, events.ended.length];
+      } else {
+        assert.throws(() => grid.contactEvents, VoxError);
+      }
+      for (const key of ["penetrations", "contact_events"]) assert.equal(key in found, key in call);
+      return found;
+    },
+    readings() {
+      grid.prepareReadings();
+      return { readings: summary(grid.readings) };
+    },
+    prepare_queries: () => grid.prepareQueries(),
+    query_points(call) {
+      const points = array(Float64Array, call.points, 3 * call.count);
+      const view = grid.takeQueryView();
+      assert.deepEqual(summary(view.queryPoints(points)), call.hits);
+      view.dispose();
+      return { hits: summary(grid.queryPoints(points)) };
+    },
+    query_closest_points(call) {
+      return { hits: summary(grid.queryClosestPoints(array(Float64Array, call.points, 3 * call.count))) };
+    },
+    query_ray(call) {
+      const hit = grid.queryRay(call.from, call.to);
+      return { hits: [1, hashWords(rayBytes(hit))] };
+    },
+    query_ray_hits: (call) => ({ hits: summary(grid.queryRayHits(call.from, call.to)) }),
+    query_box: (call) => ({ hits: summary(grid.queryBox(call.min, call.max)) }),
+    meshes: () => ({
+      meshes: grid.meshes.map((mesh) => {
+        const info = mesh.info;
+        return {
+          mesh: mesh.id,
+          user_data: String(info.userData),
+          vertices: info.vertexCount,
+          tet_count: info.tetCount,
+          enabled_tets: info.enabledTetCount,
+          enabled: info.enabled,
+          flags: info.flags,
+          format: info.positionFormat,
+          tets: hashWords(new Uint8Array(mesh.tets.buffer)),
+        };
+      }),
+    }),
+    set_transform: (call) => grid.mesh(call.mesh).setTransform(array(Float64Array, call.matrix, 12)),
+    set_filter(call) {
+      grid.mesh(call.mesh).filter = filterOf(call.filter);
+    },
+    set_enabled(call) {
+      grid.mesh(call.mesh).enabled = call.enabled;
+    },
+    set_pair_enabled: (call) => grid.setPairEnabled(call.mesh_a, call.mesh_b, call.enabled),
+    set_flags(call) {
+      grid.flags = call.flags;
+    },
+    remove: (call) => grid.mesh(call.mesh).remove(),
+    clear: () => grid.clear(),
+    set_tets_enabled: (call) => grid.mesh(call.mesh).setTetsEnabled(indices(call, "indices"), call.enabled),
+    remove_tets: (call) => grid.mesh(call.mesh).removeTets(indices(call, "indices")),
+    append_copies: (call) => ({ first: grid.mesh(call.mesh).appendVertices({ copiesOf: indices(call, "copies_of") }) }),
+    replace_tets: (call) => grid.mesh(call.mesh).replaceTets(indices(call, "indices"), corners(call)),
+    append_tets: (call) => ({ first: grid.mesh(call.mesh).appendTets(corners(call)) }),
+    save() {
+      const bytes = grid.save();
+      return { size: bytes.length, hash: hashWords(bytes) };
+    },
+    load(call) {
+      const loaded = vox.Grid.load(arrays.subarray(call.bytes, call.bytes + call.size));
+      grid?.dispose();
+      grid = loaded;
+    },
+    suggest(call) {
+      const meshes = call.meshes.map((mesh) => ({
+        positions: array(Float32Array, mesh.positions, 3 * mesh.vertices),
+        tets: array(Uint32Array, mesh.tets, 4 * mesh.tet_count),
+      }));
+      const found = vox.suggestCellSize(meshes, { model: call.model });
+      const numbers = {
+        cell_size: found.cellSize,
+        zone_min: found.zoneMin,
+        zone_max: found.zoneMax,
+        predicted_cost: found.predictedCost,
+        mean_edge: found.stats.meanEdge,
+        curve_count: found.curve.length,
+      };
+      for (const [name, value] of Object.entries(numbers))
+        assert.ok(Math.abs(value - call[name]) <= 1e-6 * Math.abs(call[name]), `${name}: ${value}, expected ${call[name]}`);
+    },
+  };
+  let count = 0;
+  for (const scene of script.scenes)
+    for (const call of scene.calls) {
+      const place = `${scene.name}: ${JSON.stringify(call)}`;
+      assert.ok(call.call in calls, `a call that is not known: ${place}`);
+      ++count;
+      if ("fails" in call) {
+        assert.throws(() => calls[call.call](call), (error) => {
+          assert.ok(error instanceof VoxError, `${place}: ${error.stack}`);
+          assert.deepEqual({ fails: error.code, text: error.message }, { fails: call.fails, text: call.text }, place);
+          return true;
+        });
+        continue;
+      }
+      const found = calls[call.call](call) ?? {};
+      for (const [name, value] of Object.entries(found)) assert.deepEqual(value, call[name], `${name} of ${place}`);
+    }
+  grid.dispose();
+  return count;
+}
+
+/** A vox_ray_hit as C has it. */
+function rayBytes(hit) {
+  const data = new DataView(new ArrayBuffer(72));
+  [hit.mesh, hit.tet].forEach((n, i) => data.setUint32(4 * i, n, true));
+  data.setFloat64(8, hit.t, true);
+  [hit.surfaceMesh, hit.surfaceTet, hit.surfaceFacet, hit.surfaceSide].forEach((n, i) => data.setUint32(16 + 4 * i, n, true));
+  [hit.surfaceT, ...hit.surfaceBarycentric].forEach((n, i) => data.setFloat64(32 + 8 * i, n, true));
+  return new Uint8Array(data.buffer, 0, 64);
+}
