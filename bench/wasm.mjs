@@ -1,5 +1,5 @@
 // A step in WebAssembly beside one of the native library, by stage: the same scenes, by turns, least times of many steps.
-//   node bench/wasm.mjs NATIVE_PROGRAM [--level sse4|avx2|avx512] [--rounds N] [--module FILE]...
+//   node bench/wasm.mjs NATIVE_PROGRAM [--level portable|sse4|avx2|avx512] [--rounds N] [--module FILE]...
 // NATIVE_PROGRAM: the target bench_wasm_native; modules: those of bindings/js, and others to compare with them.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,6 +1,6 @@
 // The native side of bench/wasm.mjs: prints the least time of a step, in milliseconds, the hash of the last
 // one, and the least nanoseconds of each stage, in the order of wasm.mjs. Such as WebAssembly, on one thread.
-// usage: wasm_native SCENE OFFSET STEPS sse4|avx2|avx512
+// usage: wasm_native SCENE OFFSET STEPS portable|sse4|avx2|avx512
 #include "base/simd.hpp"
 
 #include <vox/vox.h>
@@ -36,9 +36,10 @@ int main(int argc, char** argv) {
     const double offset = std::atof(argv[2]);
     const int steps = std::atoi(argv[3]);
     const std::string level = argv[4];
-    vox::simd::force_level(level == "sse4"   ? vox::simd::Level::sse4
-                           : level == "avx2" ? vox::simd::Level::avx2
-                                             : vox::simd::Level::avx512);
+    vox::simd::force_level(level == "portable" ? vox::simd::Level::portable
+                           : level == "sse4"   ? vox::simd::Level::sse4
+                           : level == "avx2"   ? vox::simd::Level::avx2
+                                               : vox::simd::Level::avx512);
     std::FILE* const file = std::fopen(argv[1], "rb");
     std::vector<std::uint32_t> counts, tets;
     std::vector<float> positions;

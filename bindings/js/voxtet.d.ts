@@ -25,6 +25,9 @@ export declare class VoxError extends Error {
 export interface LoadOptions {
   /** Which of the two modules to load; by default the one with SIMD, where that is supported. */
   simd?: boolean;
+  /** Threads that a step uses, that of the caller included; "all": one per core. By default 1. Where memory cannot be shared
+   * with Workers (`threadsSupported`) or there is no SIMD it is 1, whatever is asked for. */
+  threads?: number | "all";
   /** Another place for the module: an address, its bytes, a Response, or a compiled module (as of a Worker). */
   wasm?: string | URL | ArrayBuffer | ArrayBufferView | WebAssembly.Module | Response
     | Promise<ArrayBuffer | WebAssembly.Module | Response>;
@@ -36,6 +39,10 @@ export declare function load(options?: LoadOptions): Promise<Vox>;
 /** Whether this machine has WebAssembly with SIMD. */
 export declare function simdSupported(): boolean;
 
+/** Whether memory can be shared with Workers, and so be used by several threads: in Node, and in pages that are cross-origin
+ * isolated. */
+export declare function threadsSupported(): boolean;
+
 /** A module. Everything that it gives lies in its memory, and works with nothing of another module. */
 export interface Vox {
   readonly Grid: GridConstructor;
@@ -45,6 +52,8 @@ export interface Vox {
   readonly buildInfo: string;
   /** To be posted to a Worker, which gives it to `load({ wasm })`. */
   readonly module: WebAssembly.Module;
+  /** Threads that a step of its grids uses, that of the caller included. */
+  readonly threads: number;
   /** Size of the memory. It grows, and never shrinks. */
   readonly memoryBytes: number;
 

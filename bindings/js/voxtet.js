@@ -1,11 +1,14 @@
 // voxtet: vox in WebAssembly. See README.md; types and their comments are in voxtet.d.ts.
+import { MAX_WORKERS } from "./enums.js";
 import { cellSizes } from "./lib/cell_size.js";
+import { integer } from "./lib/check.js";
 import { VoxError } from "./lib/errors.js";
 import { contactsOfGrids, Grid, snapshotBytes, stepGrids } from "./lib/grid.js";
 import { Memory } from "./lib/memory.js";
+import { coreCount, threadsSupported } from "./lib/threads.js";
 
 export * from "./enums.js";
-export { VoxError };
+export { threadsSupported, VoxError };
 
 // A module of one function that returns a vector: valid where WebAssembly has SIMD.
 const SIMD_PROBE = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
@@ -26,13 +29,18 @@ async function compileResponse(response) {
   return isWasm ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-async function compile(source, simd) {
+async function compile(source, simd, threads) {
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof URL || typeof source === "string") return compileFile(new URL(source, import.meta.url));
   if (source !== undefined) return typeof source.arrayBuffer === "function" ? compileResponse(source) : WebAssembly.compile(source);
-  const url = simd ? new URL("./vox_simd.wasm", import.meta.url) : new URL("./vox.wasm", import.meta.url);
-  const module = (compiled[simd] ??= compileFile(url));
-  module.catch(() => delete compiled[simd]); // so that it can be tried again
+  // Each address as bundlers look for it.
+  const url = threads
+    ? new URL("./vox_threads.wasm", import.meta.url)
+    : simd
+      ? new URL("./vox_simd.wasm", import.meta.url)
+      : new URL("./vox.wasm", import.meta.url);
+  const module = (compiled[url] ??= compileFile(url));
+  module.catch(() => delete compiled[url]); // so that it can be tried again
   return module;
 }
 
@@ -40,9 +48,11 @@ export function simdSupported() {
   return WebAssembly.validate(new Uint8Array(SIMD_PROBE));
 }
 
-export async function load({ simd = simdSupported(), wasm } = {}) {
-  const module = await compile(await wasm, simd);
-  const memory = await Memory.open((imports) => WebAssembly.instantiate(module, imports));
+export async function load({ simd = simdSupported(), threads = 1, wasm } = {}) {
+  const asked = threads === "all" ? await coreCount() : integer(threads, "threads", "u32");
+  const wanted = threadsSupported() ? Math.max(1, Math.min(asked, MAX_WORKERS)) : 1;
+  const module = await compile(await wasm, simd, simd && wanted > 1);
+  const memory = await Memory.open(module, wanted);
   const { call } = memory;
   return Object.defineProperties(
     {
@@ -52,6 +62,7 @@ export async function load({ simd = simdSupported(), wasm } = {}) {
       version: memory.text(call.vox_version_string()),
       buildInfo: memory.text(call.vox_build_info()),
       module,
+      threads: memory.threads,
     },
     {
       ...Object.getOwnPropertyDescriptors(cellSizes(memory)),

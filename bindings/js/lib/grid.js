@@ -50,6 +50,7 @@ export class Grid extends Queries {
       pointer = memory.frame((frame) => {
         const desc = frame.struct("vox_grid_desc", given);
         if (log) memory.exports.voxtet_set_log(desc, id);
+        memory.exports.voxtet_set_threads?.(desc);
         const out = frame.take(4);
         memory.data.setUint32(out, 0, true);
         try {

@@ -3,8 +3,10 @@ import { ABI_VERSION, Result } from "../enums.js";
 import { functions, structs } from "../layout.js";
 import { camel } from "./check.js";
 import { VoxError } from "./errors.js";
+import { sharedMemory, startAll, threadImports } from "./threads.js";
 
 const OUT_BYTES = 8192; // more than any struct that is only read
+const PAGE = 65536;
 
 const arrayOf = { u8: Uint8Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array };
 
@@ -108,8 +110,15 @@ class Frame {
   }
 }
 
+const endThreads = new FinalizationRegistry((workers) => {
+  for (const worker of workers) worker.terminate();
+});
+
 export class Memory {
   exports;
+  /** Threads that a step uses, that of the caller included. */
+  threads = 1;
+  #shared; // the memory, in a module with threads
   /** The functions of vox.h, by name. They throw where C returns a failure; counts are numbers. */
   call = {};
   #out;
@@ -122,16 +131,21 @@ export class Memory {
     if (!this.#stopped) release(pointer);
   });
 
-  /** @param {(imports: object) => WebAssembly.Instance} instantiate */
-  static async open(instantiate) {
+  /** An instance of the module; `threads` are used if it can have some. */
+  static async open(module, threads) {
     const memory = new Memory();
-    const instance = await instantiate({
+    const shared = sharedMemory(module);
+    const wanted = [];
+    const threadOnes = shared && threadImports(module, shared, wanted, () => memory.exports);
+    const instance = await WebAssembly.instantiate(module, {
       env: {
+        ...threadOnes,
         emscripten_notify_memory_growth() {},
         voxtet_log: (level, text, user) => memory.#callBack(user, level, memory.text(text >>> 0)),
         voxtet_cost: (cellSize, user) => memory.#callBack(user, cellSize) ?? NaN,
       },
       wasi_snapshot_preview1: {
+        ...threadOnes,
         clock_time_get: (_clock, _precision, out) => {
           memory.data.setBigUint64(out >>> 0, BigInt(Math.round(performance.now() * 1e6)), true);
           return 0;
@@ -141,13 +155,19 @@ export class Memory {
         },
       },
     });
+    memory.#shared = shared;
     memory.#start(instance.exports);
+    if (shared && threads > 1) {
+      memory.threads = 1 + memory.exports.voxtet_start_threads(threads - 1);
+      endThreads.register(memory, await startAll(module, shared, wanted));
+    }
     return memory;
   }
 
   #start(exports) {
     this.exports = exports;
-    exports._initialize?.();
+    if (this.#shared) exports.__wasm_call_ctors();
+    else exports._initialize?.();
     const found = exports.vox_abi_version() >>> 0;
     if (found !== ABI_VERSION)
       throw new VoxError(Result.ERROR_UNSUPPORTED, `the module has ABI version ${found}, voxtet was made for ${ABI_VERSION}`);
@@ -184,10 +204,13 @@ export class Memory {
   }
 
   get buffer() {
-    return this.exports.memory.buffer;
+    if (!this.#shared) return this.exports.memory.buffer;
+    // When another thread has let the memory grow, this one may not know it yet.
+    if (this.#shared.buffer.byteLength < PAGE * this.exports.voxtet_memory_pages()) this.#shared.grow(0);
+    return this.#shared.buffer;
   }
 
-  /** Memory moves when it grows. */
+  /** Memory moves when it grows, unless it is shared. */
   get data() {
     if (this.#data.buffer !== this.buffer) this.#data = new DataView(this.buffer);
     return this.#data;

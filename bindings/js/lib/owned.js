@@ -16,14 +16,15 @@ export class Owned {
     state = (owned) => owned.#state;
   }
 
-  /** Returns the memory at once. Twice is as good as once; any other use of it afterwards is an error. */
+  /** Returns the memory at once. Twice is as good as once; any other use of it afterwards is an error. In a module that has
+   * stopped it does nothing, so that the end of a block does not hide why it stopped. */
   dispose() {
     const { memory, release, pointer, calling } = this.#state;
     if (pointer === 0) return;
     if (calling) pointerOf(this);
     this.#state.pointer = 0;
     memory.unwatch(this);
-    release(pointer);
+    if (!memory.stopped) release(pointer);
   }
 
   get disposed() {

@@ -81,3 +81,15 @@ for (const [name, simd] of [["vox_simd.wasm", true], ["vox.wasm", false]]) {
     assert.ok(found.vectors > 300);
   });
 }
+
+for (const isolated of [true, false]) {
+  const missing = !existsSync(path.join(root, "js", "vox_threads.wasm")) && "not built";
+  const name = isolated ? "threads in a page that is cross-origin isolated" : "elsewhere, one thread although three were asked for";
+  test(name, { skip: skip || missing }, async () => {
+    const found = await open("?simd=1&threads=3", isolated);
+    assert.equal(found.error, undefined);
+    assert.deepEqual([found.isolated, found.threads], [isolated, isolated ? 3 : 1]);
+    assert.deepEqual(found.scene, stepped(await load()));
+    assert.ok(found.vectors > 300);
+  });
+}

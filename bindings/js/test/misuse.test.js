@@ -180,3 +180,35 @@ test("garbage in every argument", (t) => {
   t.diagnostic(`${counts.calls} calls, ${counts.refused} refused`);
   assert.ok(counts.refused > 100);
 });
+
+test("a step for which JavaScript's stack was too small stops the module, and no other", async () => {
+  const vox = await loaded();
+  const grid = new vox.Grid();
+  grid.add(block(2));
+  grid.add(block(2, [0.7, 0.31, 0.17]));
+  let found;
+  const deep = () => {
+    try {
+      deep();
+    } catch {
+      if (found) return;
+      try {
+        grid.step(); // with a little more stack at each return
+        found = "nothing";
+      } catch (error) {
+        if (error instanceof VoxError) found = error;
+      }
+      if (!found) throw new RangeError("more stack");
+    }
+  };
+  deep();
+  if (found === "nothing") return; // the stack was enough for all of the step as soon as it was for the call
+  assert.match(found.message, /the module has stopped before, in vox_grid_step \(RangeError/);
+  assert.throws(() => grid.hash, /has stopped/);
+  assert.throws(() => new vox.Grid(), /has stopped/);
+  grid.dispose();
+  assert.ok(grid.disposed);
+  const other = new (await loaded()).Grid();
+  other.step();
+  other.dispose();
+});

@@ -31,8 +31,8 @@ const assert = {
 };
 
 async function run() {
-  const simd = new URLSearchParams(location.search).get("simd") === "1";
-  const vox = await load({ simd });
+  const asked = new URLSearchParams(location.search);
+  const vox = await load({ simd: asked.get("simd") === "1", threads: Number(asked.get("threads") ?? 1) });
   const [script, arrays] = await Promise.all([
     fetch("/vectors/vectors.json").then((response) => response.json()),
     fetch("/vectors/vectors.bin").then((response) => response.arrayBuffer()),
@@ -41,6 +41,7 @@ async function run() {
     agent: navigator.userAgent,
     simdSupported: simdSupported(),
     isolated: crossOriginIsolated,
+    threads: vox.threads,
     scene: stepped(vox),
     vectors: replay(vox, script, new Uint8Array(arrays), assert),
   };
