@@ -29,6 +29,9 @@ for (const name of flavours)
       "wasi_snapshot_preview1.clock_time_get",
       "wasi_snapshot_preview1.proc_exit",
     ]);
+    // Highway 1.0.3 has loops in their place: then a step takes twice as long.
+    const lookups = bytes.reduce((sum, byte, i) => sum + Number(byte === 0xfd && bytes[i + 1] === 0x0e), 0); // i8x16.swizzle
+    if (name !== "vox.wasm") assert.ok(lookups > 50, `${lookups} lookups of bytes in registers`);
     const exported = new Set(WebAssembly.Module.exports(module).map((e) => e.name));
     for (const wanted of readFileSync(path.join(here, "exports.txt"), "utf8").trim().split("\n")) assert.ok(exported.has(wanted), wanted);
   });
