@@ -14,11 +14,11 @@ OPTIONAL = {"matplotlib", "meshio", "pyvista", "trimesh"}
 
 
 def modules():
-    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "locate", "io", "sim"):
+    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "locate", "io", "sim", "experiment"):
         try:
             yield importlib.import_module("voxtet." + name)
         except ImportError as missing:
-            if name not in ("io", "sim"):
+            if name not in ("io", "sim", "experiment"):
                 raise
             print(f"SKIPPED: {missing}")
 

@@ -145,6 +145,10 @@ class Threads(GridCase):
             mesh.positions[:] += 0.1
             mesh.remove()
 
+        def add():
+            if len(self.grid) < 20:  # as `clear` may have to wait for its turn
+                self.grid.add(self.first, self.tets)
+
         def borrow():
             with self.grid.borrowed() as r:
                 r.contacts.tet.sum()
@@ -154,7 +158,7 @@ class Threads(GridCase):
                 view.query_points(self.first)
 
         jobs = [self.grid.step, insert, borrow, views, lambda: self.grid.events, self.grid.clear,
-                lambda: [m.tag for m in self.grid], lambda: self.grid.add(self.first, self.tets), self.grid.snapshot]
+                lambda: [m.tag for m in self.grid], add, self.grid.snapshot]
         threads = [threading.Thread(target=repeat, args=(job,)) for job in jobs]
         [t.start() for t in threads]
         time.sleep(1.5)
@@ -176,7 +180,7 @@ class Threads(GridCase):
                         grid.step()
                         grid.contacts
                         view.query_points(first)
-                except voxtet.VoxError:
+                except voxtet.InvalidStateError:  # never that of a null pointer
                     pass
                 except BaseException as error:
                     failed.append(error)
@@ -188,6 +192,58 @@ class Threads(GridCase):
             view.close()
             [t.join() for t in threads]
             self.assertEqual(failed, [])
+
+    def test_closed_while_a_thread_waits(self):
+        """It gets the lock of a grid that is no more."""
+        waiting, texts = threading.Semaphore(0), []
+
+        def work(call):
+            waiting.release()
+            try:
+                call()
+            except voxtet.InvalidStateError as error:
+                texts.append(str(error))
+
+        calls = (self.grid.step, lambda: self.grid.contacts, lambda: self.a.positions, lambda: voxtet.step_all([self.grid]),
+                 lambda: self.grid.query_points(self.first))
+        threads = [threading.Thread(target=work, args=(call,)) for call in calls]
+        lock = self.grid._lock
+        with lock:
+            [t.start() for t in threads]
+            [waiting.acquire() for _ in threads]
+            time.sleep(0.1)
+            self.grid._forget()
+        [t.join() for t in threads]
+        self.assertEqual(texts, ["the grid is closed"] * len(calls))
+
+    def test_replaced_while_others_read(self):
+        """A grid that nobody holds any more goes, on whichever thread, but not before arrays over its memory."""
+        first, second, tets = two_boxes(3)
+
+        def made():
+            grid = voxtet.Grid()
+            grid.add(first, tets)
+            grid.add(second, tets)
+            grid.step()
+            return grid
+
+        grids, expected, failed, end = [made()], made().contacts, [], time.monotonic() + 1
+
+        def work():
+            try:
+                while time.monotonic() < end:
+                    results = grids[0].borrowed()
+                    results.__enter__()
+                    contacts, results = results.contacts, None
+                    grids[0] = made()
+                    assert contacts.tobytes() == expected.tobytes()
+            except BaseException as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        [t.start() for t in threads]
+        [t.join() for t in threads]
+        self.assertEqual(failed, [])
 
     def test_a_step_lets_other_threads_run(self):
         positions, tets = box(24, dtype=np.float64)

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -127,29 +128,35 @@ class Processes(unittest.TestCase):
             sys.path.remove(EXAMPLES)
         cls.expected = [f"{hash:016x} {depth:.6f}" for hash, depth in map(scenes.step, scenes.make(8))]
 
-    def results(self, example, processes):
+    def results(self, *command):
         path = [os.path.dirname(os.path.dirname(voxtet.__file__)), os.environ.get("PYTHONPATH", "")]
-        done = subprocess.run([sys.executable, os.path.join(EXAMPLES, example), str(processes)], capture_output=True, text=True,
-                              timeout=500, env={**os.environ, "PYTHONPATH": os.pathsep.join(path)})
+        done = subprocess.run(command, capture_output=True, text=True, timeout=500, cwd=EXAMPLES,
+                              env={**os.environ, "PYTHONPATH": os.pathsep.join(path)})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout.split("\n")[:-1]
 
-    def check(self, example):
+    def check(self, command):
+        """`command`: that for a number of processes."""
         self.assertEqual(len(set(self.expected)), 8)
         for processes in (1, 2, 8):
-            self.assertEqual(self.results(example, processes), self.expected, f"{processes} processes")
+            self.assertEqual(self.results(*command(processes)), self.expected, f"{processes} processes")
 
     @needs("joblib")
     def test_joblib(self):
-        self.check("with_joblib.py")
+        self.check(lambda processes: [sys.executable, "with_joblib.py", str(processes)])
 
     @needs("distributed")
     def test_dask(self):
-        self.check("with_dask.py")
+        self.check(lambda processes: [sys.executable, "with_dask.py", str(processes)])
 
     @needs("ray")
     def test_ray(self):
-        self.check("with_ray.py")
+        self.check(lambda processes: [sys.executable, "with_ray.py", str(processes)])
+
+    @needs("mpi4py")
+    @unittest.skipUnless(shutil.which("mpiexec"), "there is no mpiexec")
+    def test_mpi4py(self):
+        self.check(lambda processes: ["mpiexec", "-n", str(processes + 1), sys.executable, "-m", "mpi4py.futures", "with_mpi4py.py"])
 
 
 if __name__ == "__main__":

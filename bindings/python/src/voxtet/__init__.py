@@ -19,7 +19,7 @@ from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Term
                       suggest_cell_size, weights, zone_distance)
 
 if TYPE_CHECKING:
-    from . import io, mujoco, newton, sim
+    from . import experiment, io, mujoco, newton, sim
 
 __version__: str = _vox.vox_version_string().decode()
 build_info: str = _vox.vox_build_info().decode()
@@ -27,7 +27,7 @@ build_info: str = _vox.vox_build_info().decode()
 
 def __getattr__(name: str) -> Any:
     """Loaded when they are first used: voxtet.io and voxtet.sim are libraries of their own, the others for some people alone."""
-    if name in ("io", "mujoco", "newton", "sim"):
+    if name in ("experiment", "io", "mujoco", "newton", "sim"):
         import importlib
         return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module 'voxtet' has no attribute {name!r}")

@@ -8,7 +8,7 @@ import sys
 from typing import Any, Callable, Optional, TypeVar
 
 from . import _c
-from .errors import error_of
+from .errors import InvalidStateError, error_of
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 _Struct = TypeVar("_Struct", bound=ctypes.Structure)
@@ -47,10 +47,17 @@ def load(name: str) -> Any:
     return library
 
 
+# What the library says of a null pointer, which it gets when a thread waited for a lock while another closed what it is of.
+_CLOSED = {"grid is null": "the grid is closed", "sim is null": "the simulation is closed"}
+
+
 def check(result: int, _function: Any, _arguments: Any) -> int:
     """The errcheck of every function that can fail. The text is that of this thread's last failure."""
     if result:
-        raise error_of(result, vox.vox_last_error().decode("utf-8", "replace"))
+        text = vox.vox_last_error().decode("utf-8", "replace")
+        if text in _CLOSED:
+            raise InvalidStateError(_CLOSED[text])
+        raise error_of(result, text)
     return result
 
 

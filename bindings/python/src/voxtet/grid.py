@@ -689,6 +689,8 @@ class _Locked:
                 lock = grid._lock
                 lock.__enter__()
                 self._held.append(lock)
+                if grid._pointer is None:  # closed while this thread waited
+                    raise InvalidStateError("the grid is closed")
         except BaseException:
             self.__exit__()
             raise

@@ -86,6 +86,30 @@ def _positions(value: Any, name: str, count: Optional[int] = None) -> NDArray[np
     return np.ascontiguousarray(rows.array, np.float64)
 
 
+class DescribedBody(NamedTuple):
+    """A body as the library reads it, and the arrays that it reads."""
+
+    desc: Any
+    arrays: Any
+
+
+def described_body(positions: ArrayLike, tets: ArrayLike, *, rest_positions: Optional[ArrayLike] = None,
+                   velocities: Optional[ArrayLike] = None, **material: float) -> DescribedBody:
+    """material: density, youngs_modulus, bulk_modulus, damping."""
+    desc = described(_c.vox_sim_body_desc, _sim)
+    p, t = _positions(positions, "positions"), indices(tets, "tets", 4)
+    rest = None if rest_positions is None else _positions(rest_positions, "rest_positions", len(p))
+    speed = None if velocities is None else _positions(velocities, "velocities", len(p))
+    desc.positions, desc.vertex_count, desc.tets, desc.tet_count = p.ctypes.data, len(p), t.ctypes.data, len(t)
+    desc.rest_positions = None if rest is None else rest.ctypes.data
+    desc.velocities = None if speed is None else speed.ctypes.data
+    for name, value in material.items():
+        if name not in ("density", "youngs_modulus", "bulk_modulus", "damping"):
+            raise TypeError(f"a body has no {name!r}, but density, youngs_modulus, bulk_modulus and damping")
+        setattr(desc, name, real(value, name))
+    return DescribedBody(desc, (p, t, rest, speed))
+
+
 class Body:
     """A body of a simulation, from `Sim.add`."""
 
@@ -243,16 +267,9 @@ class Sim:
             bulk_modulus: float = 1e6, damping: float = 0.01, fixed: bool = False, self_collision: bool = False,
             user_data: int = 0, tag: Any = None) -> Body:
         """Adds a body. All arrays are copied."""
-        desc = described(_c.vox_sim_body_desc, _sim)
-        p, t = _positions(positions, "positions"), indices(tets, "tets", 4)
-        rest = None if rest_positions is None else _positions(rest_positions, "rest_positions", len(p))
-        speed = None if velocities is None else _positions(velocities, "velocities", len(p))
-        desc.positions, desc.vertex_count, desc.tets, desc.tet_count = p.ctypes.data, len(p), t.ctypes.data, len(t)
-        desc.rest_positions = None if rest is None else rest.ctypes.data
-        desc.velocities = None if speed is None else speed.ctypes.data
-        for name, value in (("density", density), ("youngs_modulus", youngs_modulus), ("bulk_modulus", bulk_modulus),
-                            ("damping", damping)):
-            setattr(desc, name, real(value, name))
+        new = described_body(positions, tets, rest_positions=rest_positions, velocities=velocities, density=density,
+                             youngs_modulus=youngs_modulus, bulk_modulus=bulk_modulus, damping=damping)
+        desc = new.desc
         desc.flags = (switch(fixed, "fixed") * _c.SimBodyFlags.FIXED
                       | switch(self_collision, "self_collision") * _c.SimBodyFlags.SELF_COLLISION)
         desc.user_data = integer(user_data, "user_data")

@@ -186,7 +186,8 @@ class Prediction:
 _REALS = ("p_nc", "cost_ratio", "world_edge", "zone_loss", "mean_edge_factor", "resolution")
 
 
-def _desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> Any:
+def suggest_desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> Any:
+    """The struct of the options."""
     desc = described(_c.vox_suggest_desc)
     desc.model = choice(_c.CostModel, model, "model")
     for name, value in options.items():
@@ -239,7 +240,7 @@ def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model
     >>> s.zone[0] < s.cell_size < s.zone[1]
     True
     """
-    desc, scene, out = _desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_suggestion)
+    desc, scene, out = suggest_desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_suggestion)
     vox.vox_suggest_cell_size(desc, scene.array, len(scene), out)
     return Suggestion(out)
 
@@ -248,7 +249,7 @@ def suggest_for_grid(grid: Grid, model: Union[str, _c.CostModel, None], options:
     """As `Grid.suggest_cell_size`."""
     if model is None and options:
         raise InvalidArgumentError("options of a suggestion need a model")
-    desc, out = None if model is None else _desc(model, options), sized(_c.vox_suggestion)
+    desc, out = None if model is None else suggest_desc(model, options), sized(_c.vox_suggestion)
     with grid._lock:
         vox.vox_grid_suggest_cell_size(grid._pointer, desc, out)
     return Suggestion(out)
@@ -257,7 +258,7 @@ def suggest_for_grid(grid: Grid, model: Union[str, _c.CostModel, None], options:
 def predict(cell_size: float, positions: Any, tets: Optional[ArrayLike] = None, *,
             model: Union[str, _c.CostModel] = "paper", self_collision: bool = False, **options: Any) -> Prediction:
     """The cost that a model predicts at one cell size. Arguments as `suggest_cell_size`."""
-    desc, scene, out = _desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_cost_prediction)
+    desc, scene, out = suggest_desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_cost_prediction)
     vox.vox_cost_predict(desc, scene.array, len(scene), real(cell_size, "cell_size"), out)
     return Prediction(out)
 
