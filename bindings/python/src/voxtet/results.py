@@ -143,20 +143,21 @@ class View(NamedTuple):
     of_readings: bool
 
 
-def _view(function: Any, struct: str, records: type[Records], element: str, of_readings: bool = False) -> View:
-    return View(function, getattr(_c, struct), records, record_type(element), of_readings)
+def _view(function: Any, records: Any, dtype: Any, of_readings: bool = False) -> View:
+    """`dtype`: or the name of the struct that the elements are."""
+    struct = function.argtypes[1]._type_
+    return View(function, struct, records, record_type(dtype) if isinstance(dtype, str) else dtype, of_readings)
 
 
-CONTACTS = _view(vox.vox_grid_contacts, "vox_contact_view", Contacts, "vox_contact")
-PENETRATIONS = _view(vox.vox_grid_penetrations, "vox_penetration_view", Penetrations, "vox_penetration")
-DEPTHS = _view(vox.vox_grid_depths, "vox_depth_view", Depths, "vox_depth")
-PAIRS = _view(vox.vox_grid_pairs, "vox_pair_view", Pairs, "vox_pair")
-TOUCHES = _view(vox.vox_grid_touch_events, "vox_touch_view", TouchEvents, "vox_touch_event")
-PASSAGES = _view(vox.vox_grid_contact_events, "vox_contact_event_view", ContactEvents, "vox_contact_event")
-READINGS = _view(vox.vox_grid_readings, "vox_reading_view", Readings, "vox_reading", of_readings=True)
-READING_DEPTHS = _view(vox.vox_grid_reading_depths, "vox_depth_view", Depths, "vox_depth", of_readings=True)
-INTERIORS = View(vox.vox_grid_contact_interiors, _c.vox_interior_view, np.ndarray, np.dtype(np.bool_), False)
-
+CONTACTS = _view(vox.vox_grid_contacts, Contacts, "vox_contact")
+INTERIORS = _view(vox.vox_grid_contact_interiors, np.ndarray, np.dtype(np.bool_))
+PENETRATIONS = _view(vox.vox_grid_penetrations, Penetrations, "vox_penetration")
+DEPTHS = _view(vox.vox_grid_depths, Depths, "vox_depth")
+PAIRS = _view(vox.vox_grid_pairs, Pairs, "vox_pair")
+TOUCHES = _view(vox.vox_grid_touch_events, TouchEvents, "vox_touch_event")
+PASSAGES = _view(vox.vox_grid_contact_events, ContactEvents, "vox_contact_event")
+READINGS = _view(vox.vox_grid_readings, Readings, "vox_reading", of_readings=True)
+READING_DEPTHS = _view(vox.vox_grid_reading_depths, Depths, "vox_depth", of_readings=True)
 INDICES = View(None, None, np.ndarray, np.dtype(np.uint32), False)
 
 _BYTE = np.dtype(np.uint8)
