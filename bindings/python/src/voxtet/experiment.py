@@ -134,7 +134,7 @@ class Experiment:
         order = np.empty(len(sizes), np.uint64)
         for number in range(count):
             _sim.vox_experiment_order(len(order), seed, number, order.ctypes.data)
-            for i in order:
+            for i in order.tolist():
                 samples[i, number] = self.measure(float(sizes[i])).frame_ns
         times, time = np.empty(len(sizes)), ctypes.c_double()
         for i, of_size in enumerate(samples):
