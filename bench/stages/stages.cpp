@@ -233,7 +233,7 @@ struct Bodies {
         fast::TiledBody q{};
         q.tiles = &tiles;
         q.positions = packed(a);
-        q.boxes = tile_boxes.data();
+        q.boxes = q.made = tile_boxes.data();
         q.known = known.data();
         const fast::Source source{window, region, 1};
         fast::look_up_tiles(q, {&source, 1}, 0, std::uint32_t(tiles.tiles.size()), *scratch, found);

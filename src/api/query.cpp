@@ -33,6 +33,15 @@ Vec3d read_point(const double* p, const char* name) {
     return point;
 }
 
+// As answer(), of hits that find(memory) writes itself: it returns how many there are.
+template <class Find>
+void answer_points(const vox_point_hit* hits, std::uint64_t capacity, std::uint64_t* out_count, Find&& find) {
+    if (capacity > 0) require(hits, "hits");
+    require(out_count, "out_count");
+    Scratch<4096> memory;
+    *out_count = find(&memory);
+}
+
 // Calls find(found) and copies as many hits as there is room for.
 template <class Hit, class Find>
 void answer(Hit* hits, std::uint64_t capacity, std::uint64_t* out_count, Find&& find) {
@@ -78,8 +87,8 @@ std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_
 void ask_point(const Queries& queries, const double* point, QueryMeshes which, vox_point_hit* hits,
                std::uint64_t capacity, std::uint64_t* out_count) {
     const Vec3d p = read_point(point, "point");
-    answer(hits, capacity, out_count, [&](std::pmr::vector<vox_point_hit>& found) {
-        queries.points({&p, 1}, which, found);
+    answer_points(hits, capacity, out_count, [&](std::pmr::memory_resource* memory) {
+        return queries.points({&p, 1}, which, memory, hits, capacity);
     });
 }
 
@@ -87,8 +96,9 @@ void ask_points(const Queries& queries, const void* points, const vox_format& po
                 std::uint64_t byte_stride, std::uint64_t point_count, QueryMeshes which, vox_point_hit* hits,
                 std::uint64_t capacity, std::uint64_t* out_count) {
     const std::pmr::vector<Vec3d> asked = read_points(points, point_format, byte_stride, 0, point_count);
-    answer(hits, capacity, out_count,
-           [&](std::pmr::vector<vox_point_hit>& found) { queries.points(asked, which, found); });
+    answer_points(hits, capacity, out_count, [&](std::pmr::memory_resource* memory) {
+        return queries.points(asked, which, memory, hits, capacity);
+    });
 }
 
 void ask_box(const Queries& queries, const double* min, const double* max, QueryMeshes which,

@@ -129,11 +129,11 @@ std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t coun
     return VOX_SIMD_DISPATCH(WeightsOfFloats)(block, count, weights);
 }
 
-namespace {
-
 std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
     return VOX_SIMD_DISPATCH(WeightsOfDoubles)(block, count, weights);
 }
+
+namespace {
 
 // The exact position, as floats where the caller's positions are floats.
 template <class Coordinate>

@@ -22,6 +22,7 @@ struct BarycentricBlock {
 // of eight points. Bit i of the result is set when the weights of point i are uncertain; they are unspecified
 // then.
 std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t count, float* weights);
+std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t count, float* weights);
 
 using BarycentricWeights = std::array<std::array<float, 4>, barycentric_block>;
 

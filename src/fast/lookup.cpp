@@ -101,7 +101,7 @@ struct TileWork {
     Scale scales[3];
     FilterConstants constants;
 
-    void narrow(const std::uint32_t* tets, std::uint32_t count) {
+    void narrow(const TetNames& tets, std::uint32_t count) {
         const bool few = tile.vertex_count <= few_vertices;
         if (body.rounded)
             few ? Narrow<true, FewCorners>(tets, s, count, constants, out)
@@ -135,7 +135,7 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    const std::uint32_t* tets = w.body.tiles->tets.data() + tile.first_tet;
+    const TetNames tets{w.body.by_place ? nullptr : w.body.tiles->tets.data() + tile.first_tet, tile.first_tet};
     const std::uint32_t* stamps = w.body.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {
@@ -303,10 +303,10 @@ void LookUpTiles(const TiledBody& body, const Source* sources, std::size_t sourc
     for (std::size_t i = 0; i < source_count; ++i) PrefetchWindow(sources[i].window);
     for (std::uint32_t t = first; t < last; ++t) {
         TileWork w{body, s, out, body.tiles->tiles.data()[t], body.boxes[t], false, false, false, {}, {}};
-        if (!body.known[t]) {
+        if (body.known && !body.known[t]) {
             LoadTile(*body.tiles, body.positions, w.tile, s, w.box);
             w.loaded = true;
-            body.boxes[t] = w.box;
+            body.made[t] = w.box;
             body.known[t] = 1;
         }
         std::uint32_t n = 0, own_count = 0;
@@ -410,7 +410,7 @@ void look_up(const Step& step, const BroadPhase& broad, const Windows& windows, 
     TiledBody tiled{};
     tiled.tiles = &tiles;
     tiled.positions = body.positions;
-    tiled.boxes = boxes.tiles.data() + body.first_tile;
+    tiled.boxes = tiled.made = boxes.tiles.data() + body.first_tile;
     tiled.known = boxes.tile_known.data() + body.first_tile;
     tiled.rounded = body.rounded;
     for (const Source& source : buffers.sources) tiled.rounded |= step.of[source.body].rounded;

@@ -19,7 +19,7 @@ namespace vox::fast {
 struct Finding {
     std::uint32_t body;   // of the vertex
     std::uint32_t vertex; // the caller's indices
-    std::uint32_t tet : 31;
+    std::uint32_t tet : 31; // or its place in Tiles::tets (TiledBody)
     std::uint32_t certain : 1; // strictly inside; else exact arithmetic has to decide
     Weights weights;           // or Weights::unknown()
 };
@@ -86,14 +86,17 @@ struct Source {
 struct TiledBody {
     const Tiles* tiles;
     const float* positions; // packed, of the body of the tiles
-    // Boxes of the tiles of the body. One that is not known is made when it is needed.
-    Box* boxes;
+    // Boxes of the tiles of the body. One that is not known is made when it is needed, in `made`, which is
+    // where `boxes` points to. `known` is null where all boxes are.
+    const Box* boxes;
+    Box* made;
     std::uint8_t* known;
     // Not null: the first source, and all of the same body that follow it, hold vertices of the body of the
     // tiles, and tets do not meet their own corners. One word for each vertex, zeroed at first, kept with the
     // scratch.
     std::uint32_t* stamps;
-    bool rounded; // whether some positions of the tiles or the sources are
+    bool rounded;  // whether some positions of the tiles or the sources are
+    bool by_place; // findings have a tet's place in Tiles::tets instead of the caller's index
 };
 
 // Finds every point of the sources that is in the closed box of a tet of the tiles [first, last) and not

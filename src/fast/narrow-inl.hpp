@@ -124,9 +124,15 @@ using vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask, vox::HWY
 
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pairs
 
+// What findings call the tets of a tile: by `index`, or first, first + 1, ... where that is null.
+struct TetNames {
+    const std::uint32_t* index;
+    std::uint32_t first;
+};
+
 // Decides `count` pairs.
 template <bool kRounded, class CornersOf>
-HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& s, std::uint32_t count,
+HWY_NOINLINE void Narrow(const TetNames& tets, LookupScratch& s, std::uint32_t count,
                          const FilterConstants& constants, Findings& out) {
     const Floats d;
     const Words du;
@@ -188,7 +194,7 @@ HWY_NOINLINE void Narrow(const std::uint32_t* HWY_RESTRICT tets, LookupScratch& 
         // when the buffer is full.
         s.findings[f] = {s.candidate_body[s.meeting[place]],
                          s.candidate_id[s.meeting[place]],
-                         tets[tet] & 0x7fffffffu,
+                         (tets.index ? tets.index[tet] : tets.first + tet) & 0x7fffffffu,
                          (s.pairs[i] & certain_pair) != 0,
                          {{kRounded ? -1.0f : 0.0f, 0, 0, 0}}};
         if constexpr (!kRounded) {

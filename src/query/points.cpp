@@ -1,6 +1,8 @@
-// Queries with points and boxes. Many points descend the tree together, partitioned in place at every node,
-// so that each node is read once for all of them.
-#include "query/queries.hpp"
+// Queries with points and boxes. A few points descend the tree together, partitioned in place at every node,
+// so that each node is read once for all of them. Many go the way of the vertices in a step of the fast
+// engine (docs/engine.md): they are sorted into windows, and tile after tile is tested against those in its
+// box, which takes a fifth of the time.
+#include "query/batch.hpp"
 
 #include "base/boxes.hpp"
 #include "exact/predicates.hpp"
@@ -16,6 +18,12 @@ namespace vox {
 
 namespace {
 
+// So many points are worth windows, and one for so many tiles.
+constexpr std::size_t least_batch = 64, most_tiles_a_point = 16;
+// Points handled at a time, so that their buffers stay in the cache, and for each tile at least: a tile takes
+// as long to prepare as some points.
+constexpr std::size_t points_at_once = 65536, points_a_tile = 16;
+
 Box3f box_of(const Vec3d& p) noexcept {
     return {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)},
             {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z)}};
@@ -23,43 +31,98 @@ Box3f box_of(const Vec3d& p) noexcept {
 
 } // namespace
 
-std::pmr::vector<Queries::PointHit> Queries::find_points(std::span<const Vec3d> points, QueryMeshes which,
-                                                         std::pmr::memory_resource* memory) const {
+void Queries::find_few(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                       std::pmr::vector<PointHit>& found) const {
     std::pmr::vector<std::uint32_t> indices(points.size(), memory);
     std::iota(indices.begin(), indices.end(), 0u);
     std::pmr::vector<Box3f> boxes(memory);
     boxes.reserve(points.size());
     for (const Vec3d& p : points) boxes.push_back(box_of(p));
-    std::pmr::vector<PointHit> found(memory);
     if (!leaves_.empty()) find(1, indices, {points, boxes, which}, found);
-    std::sort(found.begin(), found.end(), [](const PointHit& x, const PointHit& y) {
-        return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
-    });
-    return found;
 }
 
-void Queries::points(std::span<const Vec3d> points, QueryMeshes which,
-                     std::pmr::vector<vox_point_hit>& hits) const {
-    const std::pmr::vector<PointHit> found = find_points(points, which, hits.get_allocator().resource());
-    for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
-        bool any_interior = false;
-        for (end = begin; end < found.size() && found[end].point == found[begin].point &&
-                          found[end].mesh == found[begin].mesh;
-             ++end)
-            any_interior |= found[end].interior;
+// Sorts what was found by (point, mesh, tet). Points are at most `points`, so they are counted.
+void Queries::sort_found(std::pmr::vector<PointHit>& found, std::size_t points) {
+    const auto before = [](const PointHit& x, const PointHit& y) {
+        return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
+    };
+    constexpr std::size_t few = 16;
+    if (found.size() <= few) {
+        std::sort(found.begin(), found.end(), before);
+        return;
+    }
+    std::pmr::memory_resource* const memory = found.get_allocator().resource();
+    std::pmr::vector<std::uint32_t> end(points + 1, 0u, memory); // of each point, after it is sorted
+    for (const PointHit& hit : found) ++end[hit.point + 1];
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::pmr::vector<PointHit> sorted(found.size(), memory);
+    for (const PointHit& hit : found) sorted[end[hit.point]++] = hit;
+    for (std::size_t p = 0, begin = 0; p < points; begin = end[p++])
+        if (end[p] - begin > 1) std::sort(sorted.data() + begin, sorted.data() + end[p], before);
+    found.swap(sorted);
+}
+
+template <class Visit>
+void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                        Visit&& visit) const {
+    std::pmr::vector<PointHit> found(memory);
+    const auto visit_all = [&](std::span<const Vec3d> some, std::size_t first) {
+        sort_found(found, some.size());
+        for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
+            for (end = begin + 1; end < found.size() && found[end].point == found[begin].point &&
+                                  found[end].mesh == found[begin].mesh;)
+                ++end;
+            visit(first + found[begin].point, std::span(found).subspan(begin, end - begin));
+        }
+    };
+    if (points.size() < least_batch || points.size() * most_tiles_a_point < leaves_.size()) {
+        find_few(points, which, memory, found);
+        return visit_all(points, 0);
+    }
+    Batch batch(*this, which, memory, found);
+    const std::size_t at_once = std::max(points_at_once, points_a_tile * leaves_.size());
+    for (std::size_t first = 0; first < points.size(); first += at_once) {
+        const std::span<const Vec3d> some = points.subspan(first, std::min(at_once, points.size() - first));
+        found.clear();
+        batch.find(some);
+        visit_all(some, first);
+    }
+}
+
+std::uint64_t Queries::points(std::span<const Vec3d> points, QueryMeshes which,
+                              std::pmr::memory_resource* memory, vox_point_hit* hits,
+                              std::uint64_t capacity) const {
+    std::uint64_t count = 0;
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+        const bool any_interior =
+            std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
         // Report every tetrahedron with the point in its interior, or if there is none, the first with the
         // point on its boundary.
-        for (std::size_t i = begin; i < (any_interior ? end : begin + 1); ++i) {
-            if (any_interior && !found[i].interior) continue;
-            const LeafTets tets = tets_of(leaves_[found[i].leaf]);
-            const std::size_t t = found[i].place;
-            const std::array<float, 4> w =
-                barycentric(points[found[i].point], tets.corner(t, 0), tets.corner(t, 1), tets.corner(t, 2),
-                            tets.corner(t, 3));
-            hits.push_back(
-                {found[i].point, meshes_[found[i].mesh].id, found[i].tet, {w[0], w[1], w[2], w[3]}});
+        for (const PointHit& hit : any_interior ? found : found.first(1)) {
+            if (any_interior && !hit.interior) continue;
+            if (count++ >= capacity) continue;
+            Weights w = hit.weights;
+            if (!w.known()) {
+                const LeafTets tets = tets_of(leaves_[hit.leaf]);
+                const std::size_t t = hit.place;
+                const std::array<float, 4> of = barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1),
+                                                            tets.corner(t, 2), tets.corner(t, 3));
+                std::copy(of.begin(), of.end(), w.of);
+            }
+            hits[count - 1] = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet,
+                               {w.of[0], w.of[1], w.of[2], w.of[3]}};
         }
-    }
+    });
+    return count;
+}
+
+void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,
+                           std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+        vox_closest_hit& hit = hits[point];
+        ++hit.inside;
+        if (hit.mesh == meshes_[found[0].mesh].id && hit.distance > 0) hit.distance = -hit.distance;
+    });
 }
 
 // Searches below the node for the points in `which`, whose order changes.

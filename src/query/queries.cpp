@@ -5,6 +5,7 @@
 #include "base/boxes.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
+#include "base/vectors.hpp"
 #include "query/rounding.hpp"
 
 #include <algorithm>
@@ -18,11 +19,16 @@ Box3f box3f(const Box& box) noexcept {
     return {{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}};
 }
 
+std::size_t group_count(const QueryTets& tets) noexcept {
+    return (tets.tiles.tiles.size() + super_tile_size - 1) / super_tile_size;
+}
+
 } // namespace
 
 Queries::Queries(std::pmr::memory_resource* memory)
-    : meshes_(memory), vertices_(memory), boxes_(memory), leaves_(memory), tree_(memory),
-      surface_tree_(memory), leaf_boxes_(memory), surface_boxes_(memory) {}
+    : meshes_(memory), vertices_(memory), floats_(memory), boxes_(memory), leaves_(memory), tree_(memory),
+      surface_tree_(memory), leaf_boxes_(memory), surface_boxes_(memory), tile_boxes_(memory),
+      groups_(memory) {}
 
 void Queries::require_prepared() const {
     if (!prepared_)
@@ -43,36 +49,44 @@ std::uint64_t Queries::user_data(vox_mesh mesh) const {
 }
 
 void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
-    std::size_t vertices = 0, tets = 0, leaves = 0;
+    std::size_t vertices = 0, tets = 0, leaves = 0, groups = 0;
     for (const QueryBody& body : bodies) {
         vertices += body.body.vertex_count;
-        tets += body.tets->tets.size();
-        leaves += body.tets->tiles.size();
+        tets += body.tets->facets.size();
+        leaves += body.tets->tiles.tiles.size();
+        groups += group_count(*body.tets);
     }
     // Reserve everything first, so that no memory can be missing after it.
     reserve_growing(meshes_, bodies.size());
     reserve_growing(vertices_, vertices);
+    reserve_growing(floats_, vertices);
     reserve_growing(boxes_, tets);
     reserve_growing(leaves_, leaves);
     reserve_growing(leaf_boxes_, leaves);
     reserve_growing(surface_boxes_, leaves);
+    reserve_growing(tile_boxes_, leaves);
+    reserve_growing(groups_, groups);
     tree_.reserve(leaves);
     surface_tree_.reserve(leaves);
 
     invalidate();
     vertices_.resize(vertices);
+    floats_.resize(vertices);
     boxes_.resize(tets);
     leaves_.clear();
     leaf_boxes_.resize(leaves);
     surface_boxes_.resize(leaves);
-    vertices = tets = 0;
+    tile_boxes_.resize(leaves);
+    groups_.resize(groups);
+    vertices = tets = groups = 0;
     for (const QueryBody& body : bodies) {
-        for (std::uint32_t tile = 0; tile < body.tets->tiles.size(); ++tile)
-            leaves_.push_back({static_cast<std::uint32_t>(meshes_.size()), tile});
-        meshes_.push_back(
-            {body.body.mesh_id, body.body.filter.category, body.user_data, body.tets, vertices, tets});
+        meshes_.push_back({body.body.mesh_id, body.body.filter.category, body.user_data, body.tets, vertices,
+                           tets, leaves_.size(), groups, body.body.positions.rounded()});
+        for (std::uint32_t tile = 0; tile < body.tets->tiles.tiles.size(); ++tile)
+            leaves_.push_back({static_cast<std::uint32_t>(meshes_.size() - 1), tile});
         vertices += body.body.vertex_count;
-        tets += body.tets->tets.size();
+        tets += body.tets->facets.size();
+        groups += group_count(*body.tets);
     }
     constexpr std::size_t least_vertices = 16384, least_leaves = 128; // that are worth a task
     workers.for_ranges(vertices, least_vertices, [&](std::size_t begin, std::size_t end, std::uint32_t) {
@@ -81,6 +95,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     workers.for_ranges(leaves, least_leaves, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t l = begin; l < end; ++l) make_boxes(static_cast<std::uint32_t>(l));
     });
+    join_tiles();
     tree_.build(leaf_boxes_, workers);
     surface_tree_.build(surface_boxes_, workers);
     prepared_ = true;
@@ -93,7 +108,10 @@ void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begi
         const std::size_t first = meshes_[m].first_vertex;
         const std::size_t stop = std::min<std::size_t>(end, first + bodies[m].body.vertex_count);
         const Positions positions = bodies[m].body.positions;
-        for (; begin < stop; ++begin) vertices_[begin] = positions.exact(begin - first);
+        for (; begin < stop; ++begin) {
+            vertices_[begin] = positions.exact(begin - first);
+            floats_[begin] = nearest_floats(vertices_[begin]);
+        }
     }
 }
 
@@ -101,21 +119,29 @@ void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begi
 // numbers, the box of rounded corners is the rounded box.
 void Queries::make_boxes(std::uint32_t leaf) noexcept {
     const Mesh& mesh = meshes_[leaves_[leaf].mesh];
-    const Tile& tile = mesh.tets->tiles[leaves_[leaf].tile];
-    const std::uint32_t* const vertices = mesh.tets->vertices.data() + tile.first_vertex;
-    const std::array<std::uint8_t, 4>* const corners = mesh.tets->corners.data() + tile.first_tet;
+    const Tiles& tiles = mesh.tets->tiles;
+    const Tile& tile = tiles.tiles[leaves_[leaf].tile];
+    const std::uint32_t* const vertices = tiles.vertices.data() + tile.first_vertex;
+    const std::uint8_t* const corners =
+        tiles.corners.data() + std::size_t{leaves_[leaf].tile} * 4 * tile_size;
     const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
     Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
 
     Box around[tile_size]; // each vertex
     for (std::size_t v = 0; v < tile.vertex_count; ++v) {
+        if (!mesh.rounded) {
+            const Vec3f& p = floats_[mesh.first_vertex + vertices[v]];
+            around[v] = {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}};
+            continue;
+        }
         const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
         around[v] = {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z), 0},
                      {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z), 0}};
     }
     Box all = empty_box, surface = empty_box;
     for (std::size_t i = 0; i < tile.tet_count; ++i) {
-        const std::array<std::uint8_t, 4> corner = corners[i];
+        const std::uint8_t corner[4] = {corners[i], corners[tile_size + i], corners[2 * tile_size + i],
+                                        corners[3 * tile_size + i]};
         Box box = around[corner[0]];
         for (std::size_t c = 1; c < 4; ++c) vox::add(box, around[corner[c]]);
         boxes[i] = box3f(box);
@@ -127,6 +153,18 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
     }
     leaf_boxes_[leaf] = box3f(all);
     surface_boxes_[leaf] = box3f(surface);
+    tile_boxes_[leaf] = all;
+}
+
+// The boxes of groups and meshes, and how large tiles are.
+void Queries::join_tiles() noexcept {
+    std::fill(groups_.begin(), groups_.end(), empty_box);
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+        Mesh& mesh = meshes_[leaves_[l].mesh];
+        vox::add(groups_[mesh.first_group + leaves_[l].tile / super_tile_size], tile_boxes_[l]);
+        vox::add(mesh.box, tile_boxes_[l]);
+        mesh.tile_size.add(tile_boxes_[l]);
+    }
 }
 
 } // namespace vox

@@ -2,8 +2,10 @@
 // only read, by any number of threads.
 #pragma once
 
+#include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
+#include "mesh/tile_sides.hpp"
 #include "mesh/tiles.hpp"
 #include "query/box_tree.hpp"
 #include "query/tets.hpp"
@@ -47,10 +49,10 @@ public:
     // Throws Error(INVALID_HANDLE) for a mesh that took no part.
     std::uint64_t user_data(vox_mesh mesh) const;
 
-    // The hits of points[0], points[1], ... in canonical order, into an empty `hits`, whose memory resource
-    // is used for everything.
-    void points(std::span<const Vec3d> points, QueryMeshes which,
-                std::pmr::vector<vox_point_hit>& hits) const;
+    // Writes the first `capacity` hits of points[0], points[1], ... in canonical order and returns how many
+    // there are; `memory` is for temporary use.
+    std::uint64_t points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                         vox_point_hit* hits, std::uint64_t capacity) const;
     // The tetrahedra sorted by mesh and tet, into an empty `hits`.
     void box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
              std::pmr::vector<vox_tet_hit>& hits) const;
@@ -70,7 +72,11 @@ private:
         vox_mesh id;
         std::uint64_t category, user_data;
         std::shared_ptr<const QueryTets> tets;
-        std::size_t first_vertex, first_tet; // in vertices_ and boxes_
+        std::size_t first_vertex, first_tet, first_leaf; // in vertices_, boxes_ and leaves_
+        std::size_t first_group;                         // in groups_
+        bool rounded;                                    // whether floats_ are not exact
+        Box box = empty_box;
+        TileSize tile_size{};
     };
     // A tile of a mesh, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
@@ -86,19 +92,32 @@ private:
         std::uint32_t point, mesh, tet; // the mesh in meshes_
         bool interior;
         std::uint32_t leaf, place; // where the tetrahedron is, in leaves_ and in the tile
+        Weights weights = Weights::unknown();
     };
+    class Batch;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
     struct ClosestFacet;
 
     void copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept;
     void make_boxes(std::uint32_t leaf) noexcept;
-    bool wants(const Leaf& leaf, QueryMeshes which) const noexcept {
-        const Mesh& mesh = meshes_[leaf.mesh];
+    static bool wants(const Mesh& mesh, QueryMeshes which) noexcept {
         return (mesh.category & which.mask) != 0 && mesh.id != which.excluded;
     }
+    bool wants(const Leaf& leaf, QueryMeshes which) const noexcept {
+        return wants(meshes_[leaf.mesh], which);
+    }
     LeafTets tets_of(const Leaf& leaf) const noexcept;
-    std::pmr::vector<PointHit> find_points(std::span<const Vec3d> points, QueryMeshes which,
-                                           std::pmr::memory_resource* memory) const;
+    void join_tiles() noexcept;
+    // Calls visit(point, found) for each mesh that each point is in, in canonical order.
+    template <class Visit>
+    void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                   Visit&& visit) const;
+    static void sort_found(std::pmr::vector<PointHit>& found, std::size_t points);
+    // Sets what `hits`, of the closest points, say of meshes that the points are in.
+    void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                      vox_closest_hit* hits) const;
+    void find_few(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                  std::pmr::vector<PointHit>& found) const;
     void find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
               std::pmr::vector<PointHit>& found) const;
     void find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
@@ -113,6 +132,7 @@ private:
 
     std::pmr::vector<Mesh> meshes_;    // ascending by id
     std::pmr::vector<Vec3d> vertices_; // mesh after mesh
+    std::pmr::vector<Vec3f> floats_;   // the nearest floats
     // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
     // that they miss nothing that doubles decide.
     std::pmr::vector<Box3f> boxes_;
@@ -120,25 +140,28 @@ private:
     BoxTree tree_;                  // over leaves_
     BoxTree surface_tree_;          // over the facets on the surface of those that have some
     std::pmr::vector<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
+    // For many points at once: the boxes of leaves_ again, and of groups of some that follow each other.
+    std::pmr::vector<Box> tile_boxes_, groups_;
     bool prepared_ = false;
 };
 
 // The tetrahedra of a leaf, 0 to size() - 1.
 class Queries::LeafTets {
 public:
-    LeafTets(const Mesh& mesh, const Tile& tile, const Vec3d* vertices, const Box3f* boxes) noexcept
-        : tets_(*mesh.tets), tile_(tile), positions_(vertices + mesh.first_vertex),
-          boxes_(boxes + mesh.first_tet + tile.first_tet) {}
+    LeafTets(const Mesh& mesh, std::uint32_t tile, const Vec3d* vertices, const Box3f* boxes) noexcept
+        : tets_(*mesh.tets), tile_(tets_.tiles.tiles[tile]),
+          corners_(tets_.tiles.corners.data() + std::size_t{tile} * 4 * tile_size),
+          positions_(vertices + mesh.first_vertex), boxes_(boxes + mesh.first_tet + tile_.first_tet) {}
 
     std::size_t size() const noexcept { return tile_.tet_count; }
     const Box3f& box(std::size_t i) const noexcept { return boxes_[i]; }
     std::uint32_t index(std::size_t i) const noexcept {
-        return tets_.tets[tile_.first_tet + i];
+        return tets_.tiles.tets[tile_.first_tet + i];
     } // in its mesh
     // Bit f is set when facet f is on the surface.
     unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
     std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept { // in its mesh
-        return tets_.vertices[tile_.first_vertex + tets_.corners[tile_.first_tet + i][corner]];
+        return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];
     }
     const Vec3d& at(std::uint32_t vertex) const noexcept { return positions_[vertex]; }
     const Vec3d& corner(std::size_t i, std::size_t corner) const noexcept { return at(vertex(i, corner)); }
@@ -146,13 +169,14 @@ public:
 private:
     const QueryTets& tets_;
     const Tile& tile_;
+    const std::uint8_t* corners_;
     const Vec3d* positions_;
     const Box3f* boxes_;
 };
 
 inline Queries::LeafTets Queries::tets_of(const Leaf& leaf) const noexcept {
     const Mesh& mesh = meshes_[leaf.mesh];
-    return {mesh, mesh.tets->tiles[leaf.tile], vertices_.data(), boxes_.data()};
+    return {mesh, leaf.tile, vertices_.data(), boxes_.data()};
 }
 
 } // namespace vox

@@ -73,7 +73,6 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, QueryMeshes whic
 
 void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                              std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
-    const std::pmr::vector<PointHit> inside = find_points(points, which, memory);
     const double most = max_distance * max_distance;
     ClosestFacet closest{.squared = most};
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,12 +95,7 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
         }
         hits[i] = hit;
     }
-    for (std::size_t i = 0; i < inside.size(); ++i) {
-        if (i > 0 && inside[i].point == inside[i - 1].point && inside[i].mesh == inside[i - 1].mesh) continue;
-        vox_closest_hit& hit = hits[inside[i].point];
-        ++hit.inside;
-        if (hit.mesh == meshes_[inside[i].mesh].id && hit.distance > 0) hit.distance = -hit.distance;
-    }
+    count_inside(points, which, memory, hits);
 }
 
 } // namespace vox

@@ -18,34 +18,35 @@ std::uint8_t surface_facets(const std::array<std::uint32_t, 4>& across) noexcept
 std::shared_ptr<const QueryTets> make_query_tets(const Tiles& tiles, const Topology& topology,
                                                  std::pmr::memory_resource* memory) {
     auto made = std::allocate_shared<QueryTets>(std::pmr::polymorphic_allocator<QueryTets>(memory), memory);
+    const auto padded = [](const Tile& tile) { return (tile.vertex_count + 3u) & ~3u; };
     std::size_t count = 0, vertices = 0, used = 0;
     for (const Tile& tile : tiles.tiles) {
+        if (tile.tet_count == 0) continue; // all its tetrahedra are off
         count += tile.tet_count;
-        if (tile.tet_count > 0) vertices += tile.vertex_count;
-        used += tile.tet_count > 0;
+        vertices += padded(tile);
+        ++used;
     }
-    made->tiles.reserve(used);
-    made->tets.reserve(count);
-    made->corners.reserve(count);
+    Tiles& to = made->tiles;
+    to.tiles.reserve(used);
+    to.tets.reserve(count);
+    to.corners.reserve(used * 4 * tile_size);
+    to.vertices.reserve(vertices);
     made->facets.reserve(count);
-    made->vertices.reserve(vertices);
     for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
         Tile tile = tiles.tiles[t];
-        if (tile.tet_count == 0) continue; // all its tetrahedra are off
+        if (tile.tet_count == 0) continue;
         const std::uint32_t *const tets = tiles.tets.data() + tile.first_tet, *const of_tile =
                                                                                   tiles.vertices.data() +
                                                                                   tile.first_vertex;
-        const std::uint8_t* const corner = tiles.corners.data() + t * 4 * tile_size;
-        tile.first_tet = static_cast<std::uint32_t>(made->tets.size());
-        tile.first_vertex = static_cast<std::uint32_t>(made->vertices.size());
-        made->tiles.push_back(tile);
-        made->tets.insert(made->tets.end(), tets, tets + tile.tet_count);
-        made->vertices.insert(made->vertices.end(), of_tile, of_tile + tile.vertex_count);
-        for (std::size_t i = 0; i < tile.tet_count; ++i) {
-            made->corners.push_back(
-                {corner[i], corner[tile_size + i], corner[2 * tile_size + i], corner[3 * tile_size + i]});
+        const std::uint8_t* const corners = tiles.corners.data() + t * 4 * tile_size;
+        tile.first_tet = static_cast<std::uint32_t>(to.tets.size());
+        tile.first_vertex = static_cast<std::uint32_t>(to.vertices.size());
+        to.tiles.push_back(tile);
+        to.tets.insert(to.tets.end(), tets, tets + tile.tet_count);
+        to.corners.insert(to.corners.end(), corners, corners + 4 * tile_size);
+        to.vertices.insert(to.vertices.end(), of_tile, of_tile + padded(tile));
+        for (std::size_t i = 0; i < tile.tet_count; ++i)
             made->facets.push_back(surface_facets(topology.across[tets[i]]));
-        }
     }
     return made;
 }

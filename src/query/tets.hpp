@@ -4,7 +4,6 @@
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
@@ -14,16 +13,11 @@ namespace vox {
 
 // Never changed once it is made, so that all that is prepared of the same tetrahedra shares it.
 struct QueryTets {
-    explicit QueryTets(std::pmr::memory_resource* memory) noexcept
-        : tiles(memory), tets(memory), corners(memory), facets(memory), vertices(memory) {}
+    explicit QueryTets(std::pmr::memory_resource* memory) noexcept : tiles(memory), facets(memory) {}
 
-    std::pmr::vector<Tile> tiles;         // those that hold tetrahedra
-    std::pmr::vector<std::uint32_t> tets; // the caller's tet index, tile after tile
-    // Of each of `tets`: its corners, in the vertices of its tile, and a bit for each facet (facet_corners)
-    // on the surface.
-    std::pmr::vector<std::array<std::uint8_t, 4>> corners;
+    Tiles tiles; // those that hold tetrahedra: tiles, corners, tets and vertices
+    // Of each of tiles.tets: a bit for each facet (facet_corners) on the surface.
     std::pmr::vector<std::uint8_t> facets;
-    std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
 };
 
 // Throws what the memory throws.

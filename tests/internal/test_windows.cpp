@@ -267,7 +267,7 @@ std::vector<Found> look_up(const std::vector<Mesh>& meshes, const std::vector<Bo
     fast::TiledBody q{};
     q.tiles = &tiles;
     q.positions = packed(mesh);
-    q.boxes = boxes.data();
+    q.boxes = q.made = boxes.data();
     q.known = known.data();
     q.stamps = stamped ? stamps.data() : nullptr;
     const auto scratch = std::make_unique<fast::LookupScratch>();

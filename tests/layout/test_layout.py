@@ -12,12 +12,13 @@ LEVELS = [
     ["base"],
     ["exact"],
     ["mesh"],
-    ["reference", "fast", "depth", "query"],
+    ["reference", "fast", "depth"],
+    ["query"],
     ["cell_size"],
     ["grid"],
     ["api"],
 ]
-# Edges allowed inside one level: none. Depth and queries share what they need through base, exact and mesh.
+# Edges allowed inside one level: none.
 SIDEWAYS = set()
 # Libraries of their own, over the public headers, each with the core's folders that it may include.
 BESIDE = {"io": {"base", "exact"}, "sim": {"base"}}

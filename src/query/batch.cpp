@@ -1,0 +1,141 @@
+#include "query/batch.hpp"
+
+#include "base/vectors.hpp"
+#include "exact/predicates.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace vox {
+
+namespace {
+
+// Edge length of a cell, in harmonic mean box sides of tiles, as in a step (fast/windows.cpp).
+constexpr double cell_in_tile_sides = 0.6;
+
+} // namespace
+
+Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
+                      std::pmr::vector<PointHit>& found)
+    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), near_(memory),
+      scratch_(1, memory) {
+    for (const Mesh& mesh : queries.meshes_)
+        if (wants(mesh, which)) add(region_, mesh.box);
+}
+
+void Queries::Batch::find(std::span<const Vec3d> points) {
+    points_ = points;
+    if (!collect(points)) return;
+    const Box around = fast::bounds(collected_);
+    TileSize size;
+    for (const Mesh& mesh : queries_.meshes_)
+        if (wants(mesh, which_) && overlap(mesh.box, around)) size.add(mesh.tile_size);
+    bins_.clear();
+    const std::uint32_t root = fast::bin_tree(collected_, cell_in_tile_sides * size.mean(), bins_);
+    for (std::uint32_t m = 0; m < queries_.meshes_.size(); ++m)
+        if (wants(queries_.meshes_[m], which_) && overlap(queries_.meshes_[m].box, around))
+            find_in_mesh(m, root);
+}
+
+// Rounds the points to floats and drops those that are in no mesh's box. Returns whether any are left.
+bool Queries::Batch::collect(std::span<const Vec3d> points) {
+    collected_.reserve(points.size(), points.size());
+    std::uint32_t n = 0;
+    bool exact = true;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Vec3d& exactly = points[i];
+        const Vec3f p = nearest_floats(exactly);
+        collected_.x[n] = p.x;
+        collected_.y[n] = p.y;
+        collected_.z[n] = p.z;
+        collected_.id[n] = i;
+        exact &= (double{p.x} == exactly.x) & (double{p.y} == exactly.y) & (double{p.z} == exactly.z);
+        n += (p.x >= region_.lo[0]) & (p.x <= region_.hi[0]) & (p.y >= region_.lo[1]) &
+             (p.y <= region_.hi[1]) & (p.z >= region_.lo[2]) & (p.z <= region_.hi[2]);
+    }
+    collected_.count = n;
+    rounded_ = !exact;
+    return n > 0;
+}
+
+void Queries::Batch::find_in_mesh(std::uint32_t m, std::uint32_t root) {
+    const Mesh& mesh = queries_.meshes_[m];
+    const Tiles& tiles = mesh.tets->tiles;
+    const auto count = static_cast<std::uint32_t>(tiles.tiles.size());
+    fast::TiledBody body{};
+    body.tiles = &tiles;
+    body.positions = &queries_.floats_[mesh.first_vertex].x;
+    body.boxes = queries_.tile_boxes_.data() + mesh.first_leaf;
+    body.rounded = mesh.rounded || rounded_;
+    body.by_place = true;
+    mesh_ = m;
+    tile_ = 0;
+    tets_.reset();
+    for (std::uint32_t first = 0, group = 0; first < count; first += super_tile_size, ++group) {
+        near_.clear();
+        fast::for_windows(bins_, root, queries_.groups_[mesh.first_group + group],
+                          [&](const fast::Window& window) { near_.push_back({window, window.box, 0}); });
+        if (near_.empty()) continue;
+        fast::look_up_tiles(body, near_, first, std::min(first + super_tile_size, count), scratch_[0], *this);
+    }
+    fast::flush(scratch_[0], *this);
+}
+
+// The lookup goes from tile to tile, so that the tile of a finding is that of the one before, or one of the
+// next.
+void Queries::Batch::take(std::span<const fast::Finding> findings) {
+    const Mesh& mesh = queries_.meshes_[mesh_];
+    const std::pmr::vector<Tile>& tiles = mesh.tets->tiles.tiles;
+    std::uint64_t exact_tests = 0;
+    for (const fast::Finding& f : findings) {
+        const std::uint32_t before = tile_;
+        while (f.tet - tiles[tile_].first_tet >= tiles[tile_].tet_count) ++tile_;
+        const auto leaf = static_cast<std::uint32_t>(mesh.first_leaf) + tile_;
+        if (!tets_ || tile_ != before) tets_.emplace(queries_.tets_of(queries_.leaves_[leaf]));
+        const LeafTets& tets = *tets_;
+        const std::uint32_t i = f.tet - tiles[tile_].first_tet;
+        const Vec3d& p = points_[f.vertex];
+        Containment where = Containment::interior;
+        if (!f.certain) {
+            where = locate_in_solid(p, tets.corner(i, 0), tets.corner(i, 1), tets.corner(i, 2),
+                                    tets.corner(i, 3), exact_tests);
+            if (where == Containment::outside || where == Containment::degenerate) continue;
+        }
+        found_.push_back({f.vertex, mesh_, tets.index(i), where == Containment::interior, leaf, i, f.weights});
+        if (!f.weights.known()) weigh(static_cast<std::uint32_t>(found_.size() - 1), p, tets);
+    }
+    weigh_all();
+}
+
+void Queries::Batch::weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets) {
+    const std::size_t i = waiting_count_++;
+    waiting_[i] = hit;
+    block_.point[0][i] = p.x;
+    block_.point[1][i] = p.y;
+    block_.point[2][i] = p.z;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Vec3d& q = tets.corner(found_[hit].place, c);
+        block_.corner[c][0][i] = q.x;
+        block_.corner[c][1][i] = q.y;
+        block_.corner[c][2][i] = q.z;
+    }
+    if (waiting_count_ == barycentric_block) weigh_all();
+}
+
+// What is uncertain stays unknown.
+void Queries::Batch::weigh_all() {
+    const std::size_t count = waiting_count_;
+    waiting_count_ = 0;
+    if (count == 0) return;
+    for (std::size_t i = count; i % 8; ++i) // whole registers are computed
+        for (std::size_t a = 0; a < 3; ++a) {
+            block_.point[a][i] = block_.point[a][0];
+            for (std::size_t c = 0; c < 4; ++c) block_.corner[c][a][i] = block_.corner[c][a][0];
+        }
+    Weights weights[barycentric_block];
+    const std::uint64_t uncertain = barycentric(block_, count, weights[0].of);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!(uncertain >> i & 1)) found_[waiting_[i]].weights = weights[i];
+}
+
+} // namespace vox

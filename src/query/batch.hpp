@@ -1,0 +1,52 @@
+// Many points at once against the tiles of all meshes, by stages of the fast engine.
+#pragma once
+
+#include "exact/barycentric.hpp"
+#include "fast/lookup.hpp"
+#include "fast/window.hpp"
+#include "query/queries.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class Queries::Batch final : public fast::Findings {
+public:
+    // Appends what it finds to `found`, in no particular order.
+    Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
+          std::pmr::vector<PointHit>& found);
+
+    void find(std::span<const Vec3d> points);
+
+private:
+    bool collect(std::span<const Vec3d> points);
+    void find_in_mesh(std::uint32_t mesh, std::uint32_t root);
+    void take(std::span<const fast::Finding> findings) override;
+    void weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets);
+    void weigh_all();
+
+    const Queries& queries_;
+    const QueryMeshes which_;
+    std::pmr::vector<PointHit>& found_;
+    Box region_ = empty_box;        // around the meshes
+    std::span<const Vec3d> points_; // those asked for
+    bool rounded_ = false;          // whether the nearest floats are not all exact
+    fast::Points collected_;        // those of them in the region
+    fast::Bins bins_;
+    std::pmr::vector<fast::Source> near_;
+    std::pmr::vector<fast::LookupScratch> scratch_; // one
+    // While findings are taken, in the order of tiles: where they are.
+    std::uint32_t mesh_ = 0, tile_ = 0;
+    std::optional<LeafTets> tets_;
+    // Hits that wait for their weights.
+    std::uint32_t waiting_[barycentric_block];
+    std::size_t waiting_count_ = 0;
+    BarycentricBlock<double> block_;
+};
+
+} // namespace vox
