@@ -18,7 +18,7 @@ constexpr double cell_in_tile_sides = 0.6;
 Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
                       std::pmr::vector<PointHit>& found)
     : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), near_(memory),
-      scratch_(1, memory) {
+      on_boundary_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
         if (wants(mesh, which)) add(region_, mesh.box);
 }
@@ -55,6 +55,7 @@ bool Queries::Batch::collect(std::span<const Vec3d> points) {
     }
     collected_.count = n;
     rounded_ = !exact;
+    on_boundary_.assign(points.size(), none);
     return n > 0;
 }
 
@@ -101,10 +102,26 @@ void Queries::Batch::take(std::span<const fast::Finding> findings) {
                                     tets.corner(i, 3), exact_tests);
             if (where == Containment::outside || where == Containment::degenerate) continue;
         }
-        found_.push_back({f.vertex, mesh_, tets.index(i), where == Containment::interior, leaf, i, f.weights});
+        if (where == Containment::boundary) {
+            keep_lowest({f.vertex, mesh_, tets.index(i), false, leaf, i});
+            continue;
+        }
+        found_.push_back({f.vertex, mesh_, tets.index(i), true, leaf, i, f.weights});
         if (!f.weights.known()) weigh(static_cast<std::uint32_t>(found_.size() - 1), p, tets);
     }
     weigh_all();
+}
+
+// Of the tetrahedra of a mesh that have a point on their boundary, no more than the lowest is asked for: a
+// vertex has dozens.
+void Queries::Batch::keep_lowest(const PointHit& hit) {
+    std::uint32_t& kept = on_boundary_[hit.point];
+    if (kept == none || found_[kept].mesh != hit.mesh) {
+        kept = static_cast<std::uint32_t>(found_.size());
+        found_.push_back(hit);
+    } else if (hit.tet < found_[kept].tet) {
+        found_[kept] = hit;
+    }
 }
 
 void Queries::Batch::weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets) {

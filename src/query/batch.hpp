@@ -17,7 +17,8 @@ namespace vox {
 
 class Queries::Batch final : public fast::Findings {
 public:
-    // Appends what it finds to `found`, in no particular order.
+    // Appends what it finds to `found`, in no particular order; of tetrahedra of a mesh with a point on their
+    // boundary, the lowest only.
     Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
           std::pmr::vector<PointHit>& found);
 
@@ -27,6 +28,7 @@ private:
     bool collect(std::span<const Vec3d> points);
     void find_in_mesh(std::uint32_t mesh, std::uint32_t root);
     void take(std::span<const fast::Finding> findings) override;
+    void keep_lowest(const PointHit& hit);
     void weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets);
     void weigh_all();
 
@@ -39,6 +41,9 @@ private:
     fast::Points collected_;        // those of them in the region
     fast::Bins bins_;
     std::pmr::vector<fast::Source> near_;
+    // Of each of points_: its last hit on a boundary, in found_.
+    static constexpr std::uint32_t none = ~0u;
+    std::pmr::vector<std::uint32_t> on_boundary_;
     std::pmr::vector<fast::LookupScratch> scratch_; // one
     // While findings are taken, in the order of tiles: where they are.
     std::uint32_t mesh_ = 0, tile_ = 0;

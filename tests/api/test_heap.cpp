@@ -3,6 +3,7 @@
 #include "scenes/bodies.h"
 #include "support/failing_heap.hpp"
 
+#include <iterator>
 #include <vector>
 
 namespace {
@@ -17,6 +18,11 @@ void finish(void*, void*) {}
 
 struct Scene {
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
+    double many[300][3]; // along a diagonal of the boxes
+    Scene() {
+        for (std::size_t i = 0; i < std::size(many); ++i)
+            many[i][0] = many[i][1] = many[i][2] = 1.2 * double(i) / double(std::size(many)) - 0.1;
+    }
     ~Scene() {
         free_body(&box);
         free_body(&other);
@@ -67,6 +73,10 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
         life([&] {
             return vox_grid_query_points(held.grid, point, VOX_FORMAT_DOUBLE3, 0, 1, UINT64_MAX, nullptr, 0,
                                          &count);
+        }) &&
+        life([&] {
+            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE3, 0,
+                                         std::size(scene.many), UINT64_MAX, nullptr, 0, &count);
         }) &&
         life([&] { return vox_grid_query_box(held.grid, point, far, UINT64_MAX, nullptr, 0, &count); }) &&
         life([&] {

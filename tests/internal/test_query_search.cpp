@@ -1,6 +1,8 @@
 // What queries stand on: rounding outwards, the tree of boxes, and answers for shapes as bad as can be, all
 // by definition.
 #include "base/boxes.hpp"
+#include "base/vectors.hpp"
+#include "internal/meshes.hpp"
 #include "internal/query_definition.hpp"
 #include "query/box_tree.hpp"
 #include "query/rounding.hpp"
@@ -152,6 +154,51 @@ void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
     }
 }
 
+// So many points that they are asked another way: hits and closest points are those of each point alone, all
+// bits.
+void check_together(const vox_grid* grid, const std::vector<Vec3d>& points, std::uint64_t mask = UINT64_MAX) {
+    std::vector<vox_point_hit> together(16), singly, of_one(4096);
+    std::uint64_t count = 0, found = 0;
+    const auto ask = [&](std::uint64_t capacity) {
+        ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), mask,
+                                    together.data(), capacity, &count));
+    };
+    ask(16);
+    together.assign(count + 1, vox_point_hit{});
+    ask(count);
+    std::vector<vox_closest_hit> closest(points.size());
+    vox_closest_desc desc = vox_default_closest_desc();
+    desc.points = points.data();
+    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.point_count = points.size();
+    desc.mask = mask;
+    desc.max_distance = 1;
+    ck_ok(vox_grid_query_closest_points(grid, &desc, closest.data()));
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        ck_ok(vox_grid_query_point(grid, &points[i].x, mask, of_one.data(), of_one.size(), &found));
+        for (std::uint64_t h = 0; h < found; ++h) {
+            singly.push_back(of_one[h]);
+            singly.back().point = i;
+        }
+        vox_closest_hit alone;
+        desc.points = &points[i];
+        desc.point_count = 1;
+        if (i % 16 == 0) {
+            ck_ok(vox_grid_query_closest_points(grid, &desc, &alone));
+            ck_assert_mem_eq(&alone, &closest[i], sizeof alone);
+        }
+    }
+    ck_assert_uint_eq(count, singly.size());
+    ck_assert_uint_eq(together[count].mesh, VOX_NULL_MESH);
+    ck_assert_mem_eq(together.data(), singly.data(), count * sizeof singly[0]);
+    together.assign(count + 1, vox_point_hit{}); // room for some
+    const std::uint64_t half = count / 2;
+    ask(half);
+    ck_assert_uint_eq(count, singly.size());
+    ck_assert_mem_eq(together.data(), singly.data(), half * sizeof singly[0]);
+    ck_assert_uint_eq(together[half].mesh, VOX_NULL_MESH);
+}
+
 void check_segment(const Asked& asked, const Vec3d& from, const Vec3d& to) {
     std::vector<vox_facet_hit> hits(4 * asked.mesh.tets().size());
     std::vector<QueryDefinition::Facet> found;
@@ -236,6 +283,10 @@ START_TEST(bad_shapes_by_definition) {
             const Asked asked{grid, soup};
             vox_grid* other = grid_with_other_tiles(soup, mesh, random);
             check_points(asked, points);
+            std::vector<Vec3d> many;
+            while (many.size() < 400) many.push_back(points[random.below(std::uint32_t(points.size()))]);
+            check_together(grid, many);
+            check_together(other, many);
             check_closest(asked, points);
             check_closest({other, soup}, points);
             for (std::size_t i = 1; i < points.size(); ++i) {
@@ -249,7 +300,135 @@ START_TEST(bad_shapes_by_definition) {
 }
 END_TEST
 
-void add_tests(TCase* tests) { tcase_add_test(tests, bad_shapes_by_definition); }
+// Meshes of all kinds that overlap, and points in many places; in the end, more points than are handled at a
+// time.
+START_TEST(many_points_as_alone) {
+    Random random{11};
+    vox_grid* grid = engine_grid();
+    std::vector<Mesh> bodies;
+    std::vector<std::vector<Vec3d>> doubles;
+    for (int b = 0; b < 40; ++b) {
+        Mesh body = b < 3 ? jittered(ball(b == 0 ? 4000 : 700), random, 0.2) : block(1, 1, 1);
+        move(body, b < 3 ? 0.5 : 0.25, 4 * random.unit(), 4 * random.unit(), 4 * random.unit());
+        if (b == 5) move(body, 0, 2, 2, 2); // of no size
+        if (b == 6)
+            for (Tet& tet : body.tets) std::swap(tet.v[0], tet.v[1]);
+        bodies.push_back(std::move(body));
+        doubles.emplace_back(bodies.back().positions.begin(), bodies.back().positions.end());
+        for (Vec3d& p : doubles.back()) p.x *= 1 + 1e-12;
+    }
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        vox_mesh_desc desc = vox_default_mesh_desc();
+        desc.position_format = b % 3 == 1 ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        if (b % 3 == 1)
+            desc.positions = doubles[b].data();
+        else
+            desc.positions = bodies[b].positions.data();
+        desc.vertex_count = bodies[b].positions.size();
+        desc.tets = bodies[b].tets.front().v;
+        desc.tet_count = bodies[b].tets.size();
+        desc.flags = VOX_MESH_COPY_POSITIONS;
+        const vox_mesh mesh = insert_mesh(grid, &desc);
+        vox_filter filter = vox_default_filter();
+        filter.category = 1u << b % 4;
+        ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+        const double turned[12] = {0.8, -0.6, 0, 1, 0.6, 0.8, 0, -1, 0, 0, 1, 0.1};
+        if (b % 7 == 2) ck_ok(vox_mesh_set_transform(grid, mesh, turned));
+        if (b == 8) ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+        const std::uint32_t off[] = {0, 3, 4};
+        if (b == 9) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, off, 3, 0));
+    }
+    ck_ok(vox_grid_prepare_queries(grid));
+    const auto place = [&](int kind) {
+        const Mesh& body = bodies[random.below(std::uint32_t(bodies.size()))];
+        const Tet& tet = body.tets[random.below(std::uint32_t(body.tets.size()))];
+        const Vec3d a = body.positions[tet.v[0]], b = body.positions[tet.v[1]], c = body.positions[tet.v[2]];
+        switch (kind) {
+        case 0: return 4 * Vec3d{random.unit(), random.unit(), random.unit()};
+        case 1: return Vec3d(nearest_floats(4 * Vec3d{random.unit(), random.unit(), random.unit()}));
+        case 2: return a; // a vertex
+        case 3: return 0.5 * a + 0.25 * b + 0.25 * c;
+        case 4: return Vec3d{2, 2, 2} + random_vector(random, 1e-3);
+        case 5: return Vec3d{2, 2, 2};
+        case 6: return Vec3d{4 * random.unit(), 2, 2};
+        case 7: return random_vector(random, 1000);
+        case 8: return random_vector(random, std::ldexp(1.0, 127));
+        default: return Vec3d{random.below(2) ? 1 : -1 - 1e-300, 1e-310 * random.unit(), -0.0};
+        }
+    };
+    for (int kind = 0; kind < 11; ++kind)
+        for (const std::size_t count : {63u, 64u, 65u, 1000u}) {
+            std::vector<Vec3d> points;
+            while (points.size() < count) points.push_back(place(kind < 10 ? kind : int(random.below(10))));
+            check_together(grid, points);
+            check_together(grid, points, 2);
+        }
+    std::vector<Vec3d> points;
+    while (points.size() < 150000) points.push_back(place(int(random.below(10))));
+    std::vector<vox_point_hit> all(4 * points.size()), some(all.size());
+    std::uint64_t count = 0, done = 0, next = 0;
+    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX, all.data(),
+                                all.size(), &count));
+    ck_assert_uint_le(count, all.size());
+    for (std::size_t first = 0; first < points.size(); first += 10000) {
+        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE3, 0, 10000, UINT64_MAX, some.data(),
+                                    some.size(), &done));
+        for (std::uint64_t h = 0; h < done; ++h) some[h].point += std::uint32_t(first);
+        ck_assert_uint_le(next + done, count);
+        ck_assert_mem_eq(&all[next], some.data(), done * sizeof some[0]);
+        next += done;
+    }
+    ck_assert_uint_eq(next, count);
+    points[149999].y = std::nan("");
+    ck_fails(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX,
+                                   all.data(), all.size(), &count),
+             VOX_ERROR_NON_FINITE, "point 149999");
+    ck_assert_uint_eq(count, next);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+// Coordinates of meshes as large as may be, and of points beyond: their nearest floats are infinite.
+START_TEST(many_points_beyond_floats) {
+    Random random{12};
+    const double most = std::nextafter(0x1p128 - 0x1p103, 0), beyond = 0x1.fffffffffffffp127;
+    std::vector<Vec3d> positions;
+    std::vector<Tet> tets;
+    for (std::uint32_t t = 0; t < 200; ++t) {
+        for (int c = 0; c < 4; ++c) {
+            const auto number = [&] {
+                const double x = random.below(3) ? most * (2 * random.unit() - 1) : random.uniform(-1, 1);
+                return random.below(4) ? x : std::copysign(most, x);
+            };
+            positions.push_back({number(), number(), number()});
+        }
+        tets.push_back({{4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3}});
+    }
+    vox_grid* grid = engine_grid();
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = positions.data();
+    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.vertex_count = positions.size();
+    desc.tets = tets.front().v;
+    desc.tet_count = tets.size();
+    insert_mesh(grid, &desc);
+    ck_ok(vox_grid_prepare_queries(grid));
+    std::vector<Vec3d> points;
+    while (points.size() < 2000) {
+        const std::size_t i = random.below(std::uint32_t(positions.size()));
+        Vec3d p = 0.5 * positions[i] + 0.5 * positions[i / 4 * 4];
+        if (i % 3 == 0) p = 0.5 * p + 0.25 * positions[i / 4 * 4 + 1] + 0.25 * positions[i / 4 * 4 + 2];
+        if (i % 7 == 0) p.x = std::copysign(beyond, p.x);
+        points.push_back(p);
+    }
+    check_together(grid, points);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
+void add_tests(TCase* tests) {
+    tcase_add_each(tests, bad_shapes_by_definition, many_points_as_alone, many_points_beyond_floats);
+}
 
 } // namespace
 
