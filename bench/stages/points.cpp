@@ -1,11 +1,11 @@
-// Many points at once (vox_grid_query_points), beside one by one: which tetrahedra they are in, for points and
-// meshes from harmless to as bad as can be.
+// Many points at once (vox_grid_query_points), beside one by one: which tetrahedra they are in, for points
+// and meshes from harmless to as bad as can be.
 //
 //   bench_points [--tets N] [--rounds K]
 //
 // A line for each mesh, kind of points and number of points: ns a point at once and one by one (least of K
-// rounds, one thread), and a hash of all hits. The hits at once are compared with those one by one. To compare
-// two versions of the library, run the program with each by turns (LD_LIBRARY_PATH).
+// rounds, one thread), and a hash of all hits. The hits at once are compared with those one by one. To
+// compare two versions of the library, run the program with each by turns (LD_LIBRARY_PATH).
 #include "internal/meshes.hpp"
 #include "program.hpp"
 #include "timing.h"
@@ -79,13 +79,15 @@ std::vector<Scene> make_scenes(double tets, Random& random) {
     return scenes;
 }
 
-constexpr const char* kinds[] = {"anywhere", "floats", "inside", "in rows", "cluster", "two clusters", "one place",
-                                 "line",     "far",    "around", "facets",  "vertices"};
+constexpr const char* kinds[] = {"anywhere",  "floats", "inside", "in rows", "cluster", "two clusters",
+                                 "one place", "line",   "far",    "around",  "facets",  "vertices"};
 
-std::vector<Vec3d> make_points(const Scene& scene, const std::string& kind, std::size_t count, Random& random) {
+std::vector<Vec3d> make_points(const Scene& scene, const std::string& kind, std::size_t count,
+                               Random& random) {
     const double r = scene.radius;
     const auto anywhere = [&](double size) {
-        return Vec3d{size * random.uniform(-1, 1), size * random.uniform(-1, 1), size * random.uniform(-1, 1)};
+        return Vec3d{size * random.uniform(-1, 1), size * random.uniform(-1, 1),
+                     size * random.uniform(-1, 1)};
     };
     const auto moved = [](const Vec3d& a, const Vec3d& b) { return Vec3d{a.x + b.x, a.y + b.y, a.z + b.z}; };
     std::vector<Vec3d> points;
@@ -146,12 +148,13 @@ std::uint64_t hash_of(const vox_point_hit* hits, std::size_t count) { // FNV-1a
     return hash;
 }
 
-void time_points(const vox_grid* grid, const std::string& name, const std::vector<Vec3d>& points, int rounds) {
+void time_points(const vox_grid* grid, const std::string& name, const std::vector<Vec3d>& points,
+                 int rounds) {
     std::vector<vox_point_hit> hits(4 * points.size() + 64), singly;
     std::uint64_t count = 0;
     const auto ask = [&] {
-        must(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), all_meshes, hits.data(),
-                                   hits.size(), &count));
+        must(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), all_meshes,
+                                   hits.data(), hits.size(), &count));
     };
     ask();
     if (count > hits.size()) {
@@ -164,14 +167,14 @@ void time_points(const vox_grid* grid, const std::string& name, const std::vecto
     for (int round = 0; round < rounds; ++round) {
         const int times = int(1 + 4096 / points.size()); // short ones some times
         together = std::min(together, seconds_of([&] {
-                                for (int i = 0; i < times; ++i) ask();
-                            }) / times);
+                                          for (int i = 0; i < times; ++i) ask();
+                                      }) / times);
         singly.clear();
         alone = std::min(alone, seconds_of([&] {
                              for (std::size_t i = 0; i < some; ++i) {
                                  std::uint64_t found = 0;
-                                 must(vox_grid_query_point(grid, &points[i].x, all_meshes, one.data(), one.size(),
-                                                           &found));
+                                 must(vox_grid_query_point(grid, &points[i].x, all_meshes, one.data(),
+                                                           one.size(), &found));
                                  for (std::size_t h = 0; h < found && round == 0; ++h) {
                                      singly.push_back(one[h]);
                                      singly.back().point = std::uint32_t(i);
@@ -181,7 +184,8 @@ void time_points(const vox_grid* grid, const std::string& name, const std::vecto
         if (round > 0) continue;
         std::size_t same = 0;
         while (same < count && hits[same].point < some) ++same;
-        if (same != singly.size() || std::memcmp(hits.data(), singly.data(), same * sizeof(vox_point_hit)) != 0)
+        if (same != singly.size() ||
+            std::memcmp(hits.data(), singly.data(), same * sizeof(vox_point_hit)) != 0)
             throw std::runtime_error("hits at once are not those one by one: " + name);
     }
     std::printf("%-32s %8zu %8.0f %8.0f %9llu %016llx\n", name.c_str(), points.size(),
@@ -202,7 +206,8 @@ int main(int argc, char** argv) {
             vox_grid* grid = grid_of(scene);
             for (const char* kind : kinds)
                 for (const std::size_t count : {32u, 256u, 2048u, 20000u, 200000u})
-                    time_points(grid, scene.name + ", " + kind, make_points(scene, kind, count, random), size.rounds);
+                    time_points(grid, scene.name + ", " + kind, make_points(scene, kind, count, random),
+                                size.rounds);
             vox_grid_destroy(grid);
         }
         return 0;

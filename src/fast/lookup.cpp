@@ -135,7 +135,8 @@ HWY_NOINLINE void Process(TileWork& w, std::uint32_t count, std::uint32_t own_co
     Quantise(s.candidate_x, count, w.scales[0], s.candidate_quantised[0]);
     Quantise(s.candidate_y, count, w.scales[1], s.candidate_quantised[1]);
     Quantise(s.candidate_z, count, w.scales[2], s.candidate_quantised[2]);
-    const TetNames tets{w.body.by_place ? nullptr : w.body.tiles->tets.data() + tile.first_tet, tile.first_tet};
+    const TetNames tets{w.body.by_place ? nullptr : w.body.tiles->tets.data() + tile.first_tet,
+                        tile.first_tet};
     const std::uint32_t* stamps = w.body.stamps;
     const std::uint32_t left_of_own =
         TestBoxes(s, 0, own_count, 0, tile.all_tets(), [&](std::uint32_t i) -> std::uint64_t {

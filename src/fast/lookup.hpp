@@ -17,9 +17,9 @@ namespace vox::fast {
 
 // A vertex in the box of a tetrahedron that the float filter did not exclude.
 struct Finding {
-    std::uint32_t body;   // of the vertex
-    std::uint32_t vertex; // the caller's indices
-    std::uint32_t tet : 31; // or its place in Tiles::tets (TiledBody)
+    std::uint32_t body;        // of the vertex
+    std::uint32_t vertex;      // the caller's indices
+    std::uint32_t tet : 31;    // or its place in Tiles::tets (TiledBody)
     std::uint32_t certain : 1; // strictly inside; else exact arithmetic has to decide
     Weights weights;           // or Weights::unknown()
 };

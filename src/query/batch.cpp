@@ -75,7 +75,9 @@ void Queries::Batch::find_in_mesh(std::uint32_t m, std::uint32_t root) {
     for (std::uint32_t first = 0, group = 0; first < count; first += super_tile_size, ++group) {
         near_.clear();
         fast::for_windows(bins_, root, queries_.groups_[mesh.first_group + group],
-                          [&](const fast::Window& window) { near_.push_back({window, window.box, 0}); });
+                          [&](const fast::Window& window) {
+                              near_.push_back({window, window.box, 0});
+                          });
         if (near_.empty()) continue;
         fast::look_up_tiles(body, near_, first, std::min(first + super_tile_size, count), scratch_[0], *this);
     }

@@ -19,7 +19,7 @@ namespace vox {
 namespace {
 
 // So many points are worth windows, and one for so many tiles.
-constexpr std::size_t least_batch = 64, most_tiles_a_point = 16;
+constexpr std::size_t least_batch = 64, most_tiles_a_point = 8;
 // Points handled at a time, so that their buffers stay in the cache, and for each tile at least: a tile takes
 // as long to prepare as some points.
 constexpr std::size_t points_at_once = 65536, points_a_tile = 16;
@@ -105,11 +105,14 @@ std::uint64_t Queries::points(std::span<const Vec3d> points, QueryMeshes which,
             if (!w.known()) {
                 const LeafTets tets = tets_of(leaves_[hit.leaf]);
                 const std::size_t t = hit.place;
-                const std::array<float, 4> of = barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1),
-                                                            tets.corner(t, 2), tets.corner(t, 3));
+                const std::array<float, 4> of =
+                    barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1), tets.corner(t, 2),
+                                tets.corner(t, 3));
                 std::copy(of.begin(), of.end(), w.of);
             }
-            hits[count - 1] = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet,
+            hits[count - 1] = {static_cast<std::uint32_t>(point),
+                               meshes_[hit.mesh].id,
+                               hit.tet,
                                {w.of[0], w.of[1], w.of[2], w.of[3]}};
         }
     });

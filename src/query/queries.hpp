@@ -108,8 +108,8 @@ private:
     }
     LeafTets tets_of(const Leaf& leaf) const noexcept;
     void join_tiles() noexcept;
-    // Calls visit(point, found) for each mesh that each point is in, in canonical order. Of tetrahedra with the
-    // point on their boundary, some after the lowest may be missing.
+    // Calls visit(point, found) for each mesh that each point is in, in canonical order. Of tetrahedra with
+    // the point on their boundary, some after the lowest may be missing.
     template <class Visit>
     void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                    Visit&& visit) const;
