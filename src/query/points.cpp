@@ -19,7 +19,7 @@ namespace vox {
 namespace {
 
 // So many points are worth windows, and one for so many tiles.
-constexpr std::size_t least_batch = 64, most_tiles_a_point = 8;
+constexpr std::size_t least_batch = 64, most_tiles_a_point = 4;
 // Points handled at a time, so that their buffers stay in the cache, and for each tile at least: a tile takes
 // as long to prepare as some points.
 constexpr std::size_t points_at_once = 65536, points_a_tile = 16;

@@ -128,28 +128,31 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
     Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
 
     Box around[tile_size]; // each vertex
-    for (std::size_t v = 0; v < tile.vertex_count; ++v) {
-        if (!mesh.rounded) {
+    if (mesh.rounded) {
+        for (std::size_t v = 0; v < tile.vertex_count; ++v) {
+            const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
+            around[v] = {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z), 0},
+                         {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z), 0}};
+        }
+    } else {
+        for (std::size_t v = 0; v < tile.vertex_count; ++v) {
             const Vec3f& p = floats_[mesh.first_vertex + vertices[v]];
             around[v] = {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}};
-            continue;
         }
-        const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
-        around[v] = {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z), 0},
-                     {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z), 0}};
     }
     Box all = empty_box, surface = empty_box;
     for (std::size_t i = 0; i < tile.tet_count; ++i) {
-        const std::uint8_t corner[4] = {corners[i], corners[tile_size + i], corners[2 * tile_size + i],
-                                        corners[3 * tile_size + i]};
-        Box box = around[corner[0]];
-        for (std::size_t c = 1; c < 4; ++c) vox::add(box, around[corner[c]]);
+        const auto corner = [&](std::size_t c) -> const Box& { return around[corners[c * tile_size + i]]; };
+        Box box = corner(0);
+        vox::add(box, corner(1));
+        vox::add(box, corner(2));
+        vox::add(box, corner(3));
         boxes[i] = box3f(box);
         vox::add(all, box);
         if (facets[i] == 0) continue;
         for (std::size_t c = 0; c < 4; ++c)
             // A corner belongs to the three facets that are not opposite to it.
-            if (facets[i] & ~(1u << c)) vox::add(surface, around[corner[c]]);
+            if (facets[i] & ~(1u << c)) vox::add(surface, corner(c));
     }
     leaf_boxes_[leaf] = box3f(all);
     surface_boxes_[leaf] = box3f(surface);
