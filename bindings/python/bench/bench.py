@@ -1,7 +1,7 @@
 """What Python costs over C, and point location beside VTK. Runs that are compared are interleaved, and the least times of many are
 taken, so that a busy machine changes little; for point location, of the processor time.
 
-usage: bench.py [calls] [locate] [scenes]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
+usage: bench.py [calls] [locate] [warp] [scenes]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
 """
 
 import ctypes
@@ -134,6 +134,57 @@ def locate():
     print(f"points on facets: {np.count_nonzero((found < 0) | ~beside | (found > own))} of {len(points)} wrong")
 
 
+def warp():
+    """Points in tetrahedra beside Warp's BVH on the processor, which runs its kernels on one thread: in single precision,
+    with the tetrahedron found last."""
+    import warp as wp
+    wp.config.quiet = True
+
+    @wp.kernel
+    def find(bvh: wp.uint64, positions: wp.array(dtype=wp.vec3), tets: wp.array(dtype=wp.vec4i),
+             points: wp.array(dtype=wp.vec3), found: wp.array(dtype=int)):
+        i = wp.tid()
+        p = points[i]
+        query = wp.bvh_query_aabb(bvh, p, p)
+        t = int(0)
+        best = int(-1)
+        while wp.bvh_query_next(query, t):
+            c = tets[t]
+            a = positions[c[0]] - p
+            b = positions[c[1]] - p
+            d = positions[c[2]] - p
+            e = positions[c[3]] - p
+            v0 = wp.dot(b, wp.cross(d, e))
+            v1 = -wp.dot(a, wp.cross(d, e))
+            v2 = wp.dot(a, wp.cross(b, e))
+            v3 = -wp.dot(a, wp.cross(b, d))
+            low = wp.min(wp.min(v0, v1), wp.min(v2, v3))
+            high = wp.max(wp.max(v0, v1), wp.max(v2, v3))
+            if low >= 0.0 or high <= 0.0:
+                best = t
+        found[i] = best
+
+    for cells in [14, 20, 34]:
+        positions, tets = box(cells)
+        positions += np.random.default_rng(0).uniform(-.2, .2, positions.shape).astype(np.float32) / cells
+        points = np.random.default_rng(1).uniform(0, 1, (100000, 3)).astype(np.float32)
+        locator = voxtet.Locator(positions, tets)
+        corners = positions[tets]
+        bvh = wp.Bvh(wp.array(corners.min(axis=1), dtype=wp.vec3, device="cpu"),
+                     wp.array(corners.max(axis=1), dtype=wp.vec3, device="cpu"))
+        arguments = [bvh.id, *(wp.array(a, dtype=d, device="cpu") for a, d in [
+            (positions, wp.vec3), (tets.astype(np.int32), wp.vec4i), (points, wp.vec3)])]
+        found = wp.zeros(len(points), dtype=int, device="cpu")
+        inputs = [*arguments, found]
+        ours, query, theirs = least([lambda: locator.locate(points), lambda: locator._view.query_points(points),
+                                     lambda: wp.launch(find, len(points), inputs, device="cpu")], 1, 9,
+                                    time.process_time_ns)
+        ours, query, theirs = ours / len(points), query / len(points), theirs / len(points)
+        other = np.count_nonzero(locator.locate(points).tet != found.numpy())
+        print(f"{len(tets)} tets, us a point: locate {ours:.3f}, query_points {query:.3f}, Warp's BVH {theirs:.3f} "
+              f"({theirs / ours:.1f} and {theirs / query:.1f} times); {other} of {len(points)} found in another one")
+
+
 if __name__ == "__main__":
     for name in sys.argv[1:] or ["calls", "locate", "scenes"]:
-        {"calls": calls, "locate": locate, "scenes": scenes}[name]()
+        {"calls": calls, "locate": locate, "warp": warp, "scenes": scenes}[name]()
