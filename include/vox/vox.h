@@ -1666,6 +1666,299 @@ VOX_API vox_result vox_cost_minimise_terms(VOX_ARRAY(term_count) const vox_cost_
 VOX_API vox_result vox_zone_distance(double n, double n_min, double n_opt, double n_max,
                                      double* out_epsilon);
 
+/* ---- the cell size of any grid ---------------------------------------------------------------- */
+
+/* The method for uniform grids that are not this library's, whatever is in them. A run of such a grid puts primitives
+ * into cells; then each of those that ask looks at cells and reads the lists there. How often it does each of that at a
+ * cell size follows from the boxes of the primitives (docs/your-own-grid.md derives it). What each takes is known for
+ * some grids, or follows from a few timings of the caller's own.
+ *   vox_suggest_for   the best cell size for a grid that is described
+ *   vox_cost_fit      the same from timings at three cell sizes or more
+ *   vox_cost_tune     runs the grid itself, at the cell sizes that it chooses
+ * All functions here: any thread. What the arguments point to is read during the call. */
+
+typedef enum vox_primitive_type {
+    VOX_PRIMITIVE_POINT = 0,    /* one vertex */
+    VOX_PRIMITIVE_EDGE = 1,     /* two */
+    VOX_PRIMITIVE_TRIANGLE = 2, /* three */
+    VOX_PRIMITIVE_TET = 3,      /* four */
+    VOX_PRIMITIVE_BOX = 4,      /* two: opposite corners of a box along the axes, in any order */
+    VOX_PRIMITIVE_TYPE_FORCE_32_BITS = 0x7fffffff
+} vox_primitive_type;
+
+/* Primitives: each is a few vertices. Only its box counts: that of its vertices, grown by its radius on all sides. */
+typedef struct vox_primitives {
+    uint32_t struct_size;
+    vox_primitive_type type;
+    VOX_ARRAY(vertex_count) const void* positions; /* as in vox_mesh_desc */
+    uint64_t position_byte_stride;
+    uint64_t position_component_byte_stride;
+    uint64_t vertex_count;
+    vox_format position_format;
+    vox_format radius_format; /* FLOAT3 stands for one single, DOUBLE3 for one double */
+    /* The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
+     * Null: 0, 1, 2, and so on, without sharing. */
+    VOX_OPTIONAL VOX_ARRAY(count times the vertices of one) const uint32_t* indices;
+    uint64_t index_byte_stride; /* from one primitive to the next; 0: tightly packed */
+    uint64_t count;             /* primitives, at most 2^32 - 1 */
+    VOX_OPTIONAL VOX_ARRAY(count) const void* radii; /* of each primitive, >= 0 */
+    uint64_t radius_byte_stride;                     /* 0: tightly packed */
+    double radius;                                   /* of all primitives, added to their own, >= 0; default 0 */
+} vox_primitives;
+
+/* Fills `primitives` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_primitives_init(vox_primitives* primitives, uint32_t struct_size);
+
+static inline vox_primitives vox_default_primitives(void) {
+    vox_primitives primitives;
+    (void)vox_primitives_init(&primitives, (uint32_t)sizeof primitives);
+    return primitives;
+}
+
+/* Which cells hold a primitive. */
+typedef enum vox_cell_content {
+    VOX_CELLS_HOLD_CENTRES = 0, /* the one with the centre of its box; for a point, with the point */
+    VOX_CELLS_HOLD_BOXES = 1,   /* all that its box meets */
+    VOX_CELL_CONTENT_FORCE_32_BITS = 0x7fffffff
+} vox_cell_content;
+
+/* Which cells a primitive that asks looks at. */
+typedef enum vox_cell_look {
+    VOX_LOOK_BOX = 0,    /* those that its box meets: one for a point, those of the ball's box for one with a radius */
+    VOX_LOOK_AROUND = 1, /* 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only
+                            legal where a cell is as large as the distance that matters along any axis */
+    VOX_LOOK_PAIRS = 2,  /* nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both
+                            are put into cells, and pairs are of one of each */
+    VOX_CELL_LOOK_FORCE_32_BITS = 0x7fffffff
+} vox_cell_look;
+
+/* What a run of a grid does at one cell size. The means over all positions of the lattice. */
+typedef struct vox_grid_work {
+    double entries;  /* primitives put into a cell */
+    double visits;   /* cells looked at; with PAIRS, those that hold something */
+    double empty;    /* visits of a cell that holds nothing */
+    double reads;    /* entries of the cells looked at; with PAIRS, pairs in a cell */
+    double occupied; /* cells that hold something */
+    double cells;    /* of the box of all that is held: cells of a dense grid */
+} vox_grid_work;
+
+/* Nanoseconds for one of each, >= 0. */
+typedef struct vox_grid_weights {
+    double fixed;    /* a run, whatever the cell size */
+    double entries;
+    double visits;
+    double found;    /* what a visit of a cell that holds something takes more than one of an empty cell */
+    double reads;
+    double occupied; /* making and forgetting a cell */
+    double cells;    /* for grids with dense storage: clearing one */
+} vox_grid_weights;
+
+/* Grids that weights are shipped for, each measured by bench/foreign. */
+typedef enum vox_known_grid {
+    VOX_KNOWN_GRID_ANY = 0,          /* nothing is known: weights that lose least in the worst of the grids below */
+    VOX_KNOWN_GRID_SORTED = 1,       /* a plain grid in C++: a counting sort into a dense lattice */
+    VOX_KNOWN_GRID_HASHED = 2,       /* a plain grid in C++: std::unordered_map from cell to list */
+    VOX_KNOWN_GRID_WARP = 3,         /* NVIDIA Warp's HashGrid on the processor: points, asked by balls */
+    VOX_KNOWN_GRID_IPC = 4,          /* IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes */
+    VOX_KNOWN_GRID_IPC_PAIRS = 5,    /* IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell */
+    VOX_KNOWN_GRID_VTK = 6,          /* VTK's vtkStaticCellLocator: boxes in all their cells, asked by points */
+    VOX_KNOWN_GRID_PBAT = 7,         /* PBAT's HashGrid3: centres of boxes, asked from 27 cells */
+    VOX_KNOWN_GRID_POINT_VOXELS = 8, /* hashed voxels of points asked by balls, as in PCL and Open3D */
+    VOX_KNOWN_GRID_NUMPY = 9,        /* a grid of sorted keys in numpy */
+    VOX_KNOWN_GRID_FORCE_32_BITS = 0x7fffffff
+} vox_known_grid;
+
+typedef enum vox_foreign_flags {
+    VOX_FOREIGN_DENSE = 1, /* the grid keeps a list for each cell of the box of all that it holds */
+    VOX_FOREIGN_FLAGS_FORCE_32_BITS = 0x7fffffff
+} vox_foreign_flags;
+
+/* A uniform grid that is not this library's. */
+typedef struct vox_foreign_grid {
+    uint32_t struct_size;
+    uint32_t flags; /* vox_foreign_flags, combined with | */
+    vox_cell_content content; /* default HOLD_BOXES */
+    vox_cell_look look;       /* default BOX */
+    const vox_primitives* held;                 /* what is put into cells */
+    VOX_OPTIONAL const vox_primitives* asking;  /* null: those held ask themselves, each of all, itself included */
+    double radius;          /* boxes that ask are larger by this on all sides, >= 0; default 0 */
+    /* The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
+     * held, and half that of one that asks with its radius; otherwise none. */
+    double least_cell_size;
+    double zone_loss;       /* as vox_suggest_desc.zone_loss; default 0.05 */
+    vox_known_grid known;   /* whose weights are used where `weights` are all 0; default ANY */
+    uint32_t reserved;      /* 0 */
+    vox_grid_weights weights; /* all 0 (the default): those of `known` */
+    vox_allocator allocator;  /* where the memory of the call comes from; default: the C++ runtime's heap */
+} vox_foreign_grid;
+
+/* Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be set. */
+VOX_API vox_result vox_foreign_grid_init(vox_foreign_grid* grid, uint32_t struct_size);
+
+static inline vox_foreign_grid vox_default_foreign_grid(void) {
+    vox_foreign_grid grid;
+    (void)vox_foreign_grid_init(&grid, (uint32_t)sizeof grid);
+    return grid;
+}
+
+/* Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
+ * values. Set grid->struct_size first, e.g. by vox_foreign_grid_init. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_grid known);
+
+/* What an answer was based on, combined with |. `note` says the same in words, with numbers. */
+typedef enum vox_foreign_warnings {
+    VOX_FOREIGN_WEIGHTS_UNKNOWN = 1,   /* nothing is known of the grid's times: a few timings would help */
+    VOX_FOREIGN_BY_RULE = 2,           /* the model says too little here: cell_size is that of `rule` */
+    VOX_FOREIGN_AT_LEAST_SIZE = 4,     /* the least legal size; a smaller one would be faster */
+    VOX_FOREIGN_NO_SIZE = 8,           /* the primitives have no size: the cell size follows from their distances */
+    VOX_FOREIGN_ONE_PLACE = 16,        /* all are in one place: any cell size that is large enough does */
+    VOX_FOREIGN_MODEL_DISAGREES = 32,  /* the timings do not follow the counts of the described grid */
+    VOX_FOREIGN_TIMINGS_DISAGREE = 64, /* timings at the same cell size differ widely */
+    VOX_FOREIGN_OUT_OF_RANGE = 128,    /* the best cell size is beyond those timed */
+    VOX_FOREIGN_STOPPED = 256,         /* the callback stopped, or failed at a cell size */
+    VOX_FOREIGN_WARNINGS_FORCE_32_BITS = 0x7fffffff
+} vox_foreign_warnings;
+
+/* Cell sizes that other rules would choose; 0 where a rule does not apply. */
+typedef struct vox_foreign_rules {
+    double mean_edge;       /* mean length of the edges of the primitives held, shared ones counted each time */
+    double mean_box_side;   /* mean of the longest sides of their boxes */
+    double median_box_side; /* median of these */
+    double spacing;         /* cube root of the volume of the box of all, over their number */
+    double radius;          /* mean radius of those that ask */
+} vox_foreign_rules;
+
+typedef enum vox_foreign_rule {
+    VOX_RULE_NONE = 0, /* the model's minimum */
+    VOX_RULE_MEAN_EDGE = 1,
+    VOX_RULE_MEAN_BOX_SIDE = 2,
+    VOX_RULE_MEDIAN_BOX_SIDE = 3,
+    VOX_RULE_SPACING = 4,
+    VOX_RULE_RADIUS = 5,
+    VOX_FOREIGN_RULE_FORCE_32_BITS = 0x7fffffff
+} vox_foreign_rule;
+
+#define VOX_NOTE_CAPACITY 256u /* bytes of a note, its zero included */
+
+/* A cell size for a foreign grid, and the reasons for it. Costs are nanoseconds of a run. */
+typedef struct vox_foreign_suggestion {
+    uint32_t struct_size;
+    uint32_t warnings; /* vox_foreign_warnings */
+    double cell_size;
+    double zone_min; /* as in vox_suggestion, and not below least_cell_size */
+    double zone_max;
+    double predicted_cost; /* at cell_size */
+    double least_cell_size; /* the smallest legal size; 0: any */
+    vox_grid_work work;     /* at cell_size */
+    vox_grid_weights weights; /* that were used */
+    vox_foreign_rules rules;
+    vox_foreign_rules rule_costs; /* predicted cost at the cell size of each rule; 0 if it does not apply */
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* ascending in cell_size, evenly spaced in its logarithm */
+    uint32_t curve_count;
+    uint32_t term_count;
+    vox_cost_share terms[VOX_COST_TERM_CAPACITY]; /* at cell_size; their costs add up to predicted_cost */
+    vox_foreign_rule rule; /* whose size it is */
+    uint32_t reserved;
+    char note[VOX_NOTE_CAPACITY]; /* zero-terminated; "" if there is no warning */
+} vox_foreign_suggestion;
+
+/* The cell size that costs this grid least. Set out->struct_size first; the fields it covers are written.
+ * Works on a sample of the primitives where there are many (docs/your-own-grid.md has its loss). Memory (from
+ * grid->allocator, released at the end of the call) in proportion to the sample.
+ * Errors: INVALID_ARGUMENT (also for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a vertex
+ * that does not exist), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
+VOX_API vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion* out);
+
+/* What a run of this grid does at one cell size. Errors: as vox_suggest_for; also INVALID_ARGUMENT for a cell size that
+ * is not a finite number above 0. */
+VOX_API vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size, vox_grid_work* out);
+
+/* One timing of a grid: a run at this cell size took so long. */
+typedef struct vox_grid_timing {
+    double cell_size; /* > 0 */
+    double seconds;   /* > 0 */
+} vox_grid_timing;
+
+/* Weights from timings, and the cell size they lead to. */
+typedef struct vox_grid_fit {
+    uint32_t struct_size;
+    uint32_t warnings; /* vox_foreign_warnings */
+    vox_grid_weights weights; /* >= 0; the best fit to the timings. To be put into vox_foreign_grid.weights, also for
+                                 other scenes of the same grid */
+    double residual;          /* root mean square of (fitted time / measured time - 1) over the timings */
+    double cell_size;
+    double zone_min;
+    double zone_max;
+    double predicted_seconds; /* at cell_size */
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* in seconds */
+    uint32_t curve_count;
+    uint32_t reserved;
+    char note[VOX_NOTE_CAPACITY];
+} vox_grid_fit;
+
+/* Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
+ * mean edges do), by non-negative least squares, and minimises the cost. Of several timings at one cell size the
+ * shortest counts. What few timings cannot tell apart is divided as in the weights that the grid has (`weights`, else
+ * `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell sizes, sizes below the
+ * least legal one, and timings that are not finite numbers above 0. */
+VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, VOX_ARRAY(count) const vox_grid_timing* timings,
+                                uint64_t count, vox_grid_fit* out);
+
+/* Runs the caller's grid once at a cell size. Returns how many seconds that took, infinity if it cannot run at this
+ * size (it is then tried at others), or a negative number or NaN to stop. Called on the thread that calls
+ * vox_cost_tune. Must not throw. */
+typedef double vox_grid_run(double cell_size, void* user);
+
+#define VOX_TUNE_RUN_CAPACITY 32u /* most runs of vox_cost_tune */
+
+/* How to tune. */
+typedef struct vox_tune_desc {
+    uint32_t struct_size;
+    uint32_t most_runs; /* 3 to VOX_TUNE_RUN_CAPACITY; default 7 */
+    double min;         /* cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first */
+    double max;
+    double first;       /* the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where
+                           there is no grid */
+    double zone_loss;   /* as vox_suggest_desc.zone_loss; default 0.05 */
+    double wanted_loss; /* stops where the cell size is within this of the best one, as far as it can tell; default
+                           0.02 */
+} vox_tune_desc;
+
+/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
+VOX_API vox_result vox_tune_desc_init(vox_tune_desc* desc, uint32_t struct_size);
+
+static inline vox_tune_desc vox_default_tune_desc(void) {
+    vox_tune_desc desc;
+    (void)vox_tune_desc_init(&desc, (uint32_t)sizeof desc);
+    return desc;
+}
+
+/* What tuning found. */
+typedef struct vox_tuning {
+    uint32_t struct_size;
+    uint32_t warnings; /* vox_foreign_warnings */
+    double cell_size;
+    double zone_min;
+    double zone_max;
+    double seconds;       /* of a run at cell_size, as fitted */
+    double expected_loss; /* how much longer a run may take than at the best cell size, as far as it can tell: 0.03
+                             for 3 % */
+    double noise;         /* relative: how far timings are from the fitted curve, root mean square */
+    vox_grid_weights weights; /* as in vox_grid_fit; all 0 where there is no grid */
+    vox_grid_timing runs[VOX_TUNE_RUN_CAPACITY]; /* run_count runs, in order; seconds may be infinite */
+    uint32_t run_count;
+    uint32_t curve_count;
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* in seconds */
+    char note[VOX_NOTE_CAPACITY];
+} vox_tuning;
+
+/* Finds the best cell size by running the grid: at three cell sizes first, then where the fit to all timings so far is
+ * lowest or least sure, until that is sure enough (desc->wanted_loss) or desc->most_runs are made.
+ * grid: what is known of it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be
+ * set. desc null: defaults. Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded. */
+VOX_API vox_result vox_cost_tune(VOX_OPTIONAL const vox_foreign_grid* grid, VOX_OPTIONAL const vox_tune_desc* desc,
+                                 vox_grid_run* run, void* user, vox_tuning* out);
+
 #ifdef __cplusplus
 }
 #endif

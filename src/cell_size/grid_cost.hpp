@@ -1,0 +1,20 @@
+// The cost of a run of a grid that is described (vox_foreign_grid), from what it does and what each of that
+// takes.
+#pragma once
+
+#include <vox/vox.h>
+
+#include <functional>
+
+namespace vox {
+
+// What a run of a grid does at a cell size. Counts are 0 or more, and finite for the sizes that are asked.
+using WorkAt = std::function<vox_grid_work(double cell_size)>;
+
+inline double grid_cost(const vox_grid_work& work, const vox_grid_weights& weights) noexcept {
+    return weights.fixed + weights.entries * work.entries + weights.visits * work.visits +
+           weights.found * (work.visits - work.empty) + weights.reads * work.reads +
+           weights.occupied * work.occupied + weights.cells * work.cells;
+}
+
+} // namespace vox
