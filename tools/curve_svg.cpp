@@ -33,9 +33,9 @@ add(std::string& text, const char* pattern, ...) {
 
 class Axes {
 public:
-    explicit Axes(const vox_suggestion& s)
-        : first_(std::log(s.curve[0].cell_size)), last_(std::log(s.curve[s.curve_count - 1].cell_size)),
-          least_(s.predicted_cost) {}
+    explicit Axes(const CostCurve& c)
+        : first_(std::log(c.samples.front().cell_size)), last_(std::log(c.samples.back().cell_size)),
+          least_(c.cost) {}
 
     double x(double cell_size) const {
         const double part = (std::log(cell_size) - first_) / (last_ - first_);
@@ -55,9 +55,9 @@ private:
 };
 
 // The numbers 1, 2, 5, 10, ... within the range of the axis.
-std::vector<double> round_sizes(const vox_suggestion& s) {
+std::vector<double> round_sizes(const CostCurve& c) {
     std::vector<double> sizes;
-    const double from = s.curve[0].cell_size, to = s.curve[s.curve_count - 1].cell_size;
+    const double from = c.samples.front().cell_size, to = c.samples.back().cell_size;
     for (int exponent = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, exponent) <= to;
          ++exponent)
         for (const double digit : {1.0, 2.0, 5.0}) {
@@ -67,7 +67,22 @@ std::vector<double> round_sizes(const vox_suggestion& s) {
     return sizes;
 }
 
-// The names of up to three files without their folders.
+} // namespace
+
+CostCurve curve_of(const vox_suggestion& s) {
+    return {{s.curve, s.curve_count},
+            s.cell_size,
+            s.predicted_cost,
+            s.zone_min,
+            s.zone_max,
+            {{"mean edge", s.rules.mean_edge, s.rule_costs.mean_edge},
+             {"mean edge, multiple", s.rules.mean_edge_multiple, s.rule_costs.mean_edge_multiple},
+             {"512 an object", s.rules.object_512, s.rule_costs.object_512},
+             {"resolution", s.rules.resolution, s.rule_costs.resolution},
+             {"mean volume", s.rules.mean_volume, s.rule_costs.mean_volume},
+             {"median box side", s.rules.median_box_side, s.rule_costs.median_box_side}}};
+}
+
 std::string short_names(const std::vector<std::string>& files) {
     constexpr std::size_t most = 3;
     std::string names;
@@ -77,20 +92,8 @@ std::string short_names(const std::vector<std::string>& files) {
     return names;
 }
 
-std::string model_words(vox_cost_model model) {
-    return model == VOX_COST_MODEL_PAPER ? "cost model of the paper"
-                                         : "cost model of the " + std::string(model_name(model)) + " engine";
-}
-
-struct Rule {
-    const char* name;
-    double cell_size, cost;
-};
-
-} // namespace
-
-std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& files) {
-    const Axes axes(s);
+std::string curve_svg(const CostCurve& c, const std::string& words) {
+    const Axes axes(c);
     const double floor_y = height - below;
     std::string text;
     add(text,
@@ -100,20 +103,20 @@ std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& f
         width, height, width, height);
     add(text, "<text x=\"%g\" y=\"24\" font-size=\"17\">Predicted cost over cell size</text>\n", left);
     add(text, "<text x=\"%g\" y=\"46\" fill=\"#555\">", left);
-    text += xml_text(short_names(files)) + "; " + model_words(s.model) + "</text>\n";
+    text += xml_text(words) + "</text>\n";
     add(text,
         "<text transform=\"translate(20 %g) rotate(-90)\" text-anchor=\"middle\">cost, in units of the "
         "least</text>\n",
         (above + floor_y) / 2);
     add(text, "<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%.2f\" fill=\"#dcebdc\"/>\n",
-        axes.x(s.zone_min), above, axes.x(s.zone_max) - axes.x(s.zone_min), floor_y - above);
+        axes.x(c.zone_min), above, axes.x(c.zone_max) - axes.x(c.zone_min), floor_y - above);
     for (int times = 0; times <= static_cast<int>(top); ++times) {
         const double y = axes.y(times * axes.least());
         add(text, "<line x1=\"%g\" y1=\"%.2f\" x2=\"%g\" y2=\"%.2f\" stroke=\"#ddd\"/>\n", left, y,
             width - right, y);
         add(text, "<text x=\"%g\" y=\"%.2f\" text-anchor=\"end\">%d&#215;</text>\n", left - 8, y + 4, times);
     }
-    for (const double size : round_sizes(s)) {
+    for (const double size : round_sizes(c)) {
         add(text, "<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\" stroke=\"#888\"/>\n", axes.x(size),
             floor_y, axes.x(size), floor_y + 5);
         add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\">%g</text>\n", axes.x(size),
@@ -122,19 +125,12 @@ std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& f
     add(text, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">cell size</text>\n", (left + width - right) / 2,
         height - 12);
     text += "<polyline fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"2.5\" points=\"";
-    for (std::uint32_t i = 0; i < s.curve_count; ++i)
-        add(text, "%.2f,%.2f ", axes.x(s.curve[i].cell_size), axes.y(s.curve[i].cost));
+    for (const vox_cost_sample& sample : c.samples)
+        add(text, "%.2f,%.2f ", axes.x(sample.cell_size), axes.y(sample.cost));
     text += "\"/>\n";
 
-    const Rule rules[] = {
-        {"mean edge", s.rules.mean_edge, s.rule_costs.mean_edge},
-        {"mean edge, multiple", s.rules.mean_edge_multiple, s.rule_costs.mean_edge_multiple},
-        {"512 an object", s.rules.object_512, s.rule_costs.object_512},
-        {"resolution", s.rules.resolution, s.rule_costs.resolution},
-        {"mean volume", s.rules.mean_volume, s.rule_costs.mean_volume},
-        {"median box side", s.rules.median_box_side, s.rule_costs.median_box_side}};
     double label = above + 16; // labels are placed one below the other, so that they never overlap
-    for (const Rule& rule : rules) {
+    for (const CostCurve::Rule& rule : c.rules) {
         if (!axes.shows(rule.cell_size)) continue;
         const double x = axes.x(rule.cell_size), y = axes.y(rule.cost);
         add(text,
@@ -148,10 +144,10 @@ std::string curve_svg(const vox_suggestion& s, const std::vector<std::string>& f
             100 * (rule.cost / axes.least() - 1));
         label += 18;
     }
-    add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" fill=\"#2c7a2c\"/>\n", axes.x(s.cell_size),
-        axes.y(s.predicted_cost));
+    add(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"6\" fill=\"#2c7a2c\"/>\n", axes.x(c.cell_size),
+        axes.y(c.cost));
     add(text, "<text x=\"%.2f\" y=\"%.2f\" text-anchor=\"middle\" fill=\"#1f5c1f\">%.4g</text>\n",
-        axes.x(s.cell_size), axes.y(s.predicted_cost) + 22, s.cell_size);
+        axes.x(c.cell_size), axes.y(c.cost) + 22, c.cell_size);
     text += "</svg>\n";
     return text;
 }

@@ -32,6 +32,11 @@ const Choices<vox_area_reading> area_readings = {{"unique-facets", VOX_AREA_UNIQ
                                                  {"tet-facets", VOX_AREA_TET_FACETS},
                                                  {"boundary-facets", VOX_AREA_BOUNDARY_FACETS}};
 
+std::string model_words(vox_cost_model model) {
+    return model == VOX_COST_MODEL_PAPER ? "cost model of the paper"
+                                         : "cost model of the " + std::string(model_name(model)) + " engine";
+}
+
 void print_rule(const char* name, double cell_size, double cost, const vox_suggestion& found,
                 const char* source) {
     if (!(cell_size > 0)) return;
@@ -73,7 +78,7 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
     std::printf("Between %.9g and %.9g the predicted cost stays near its minimum.\n\n", found.zone_min,
                 found.zone_max);
     std::printf("Predicted cost over cell size, in units of the minimum (logarithmic in cell size):\n%s\n",
-                cost_curve(found).c_str());
+                cost_curve(curve_of(found)).c_str());
     std::printf("  %-22s %-12s %6s %9s\n", "rule", "cell size", "edges", "cost");
     const vox_cell_size_rules& rules = found.rules;
     const vox_cell_size_rules& costs = found.rule_costs;
@@ -114,7 +119,8 @@ void run(const Options& options) {
     if (!options.svg.empty()) {
         if (!collides(found))
             throw Failure(options.svg + ": nothing collides, so that there is no cost to draw");
-        write_file(options.svg, curve_svg(found, options.files));
+        write_file(options.svg,
+                   curve_svg(curve_of(found), short_names(options.files) + "; " + model_words(found.model)));
     }
     if (!options.json) return print_text(found, meshes.size());
     Json json;

@@ -1,6 +1,8 @@
 // Output for people: progress on standard error, and bars and curves made of characters.
 #pragma once
 
+#include "curve_svg.hpp"
+
 #include <vox/vox.h>
 
 #include <chrono>
@@ -44,6 +46,6 @@ bool locale_is_utf8();
 std::string bar(double fraction, int width);
 
 // The predicted cost over the cell size, one column a sample, with the zone and the suggestion marked below.
-std::string cost_curve(const vox_suggestion& suggestion);
+std::string cost_curve(const CostCurve& curve);
 
 } // namespace tool
