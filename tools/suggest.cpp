@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "curve_svg.hpp"
 #include "failure.hpp"
+#include "foreign.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "report.hpp"
@@ -21,6 +22,7 @@ struct Options {
     vox_suggest_desc desc = vox_default_suggest_desc();
     std::string svg; // path of the picture to write; empty: none
     bool self = false, calibrate = false, json = false;
+    ForeignOptions foreign;
 };
 
 const Choices<vox_cost_model> models = {
@@ -106,6 +108,10 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
 
 void run(const Options& options) {
     if (!options.svg.empty()) check_output(options.svg);
+    if (options.files.empty() && options.foreign.tune.empty()) throw WrongUsage("MESH is required");
+    if (options.foreign.any() || (!options.fill.surfaces && without_tets(options.files)))
+        return suggest_foreign(options.foreign, options.files, options.desc.zone_loss, options.svg,
+                               options.json);
     std::vector<Body> bodies;
     std::vector<vox_mesh_desc> meshes;
     for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
@@ -134,7 +140,7 @@ void add_suggest(CommandLine& line) {
     const auto options = std::make_shared<Options>();
     vox_suggest_desc& desc = options->desc;
     Command command = line.add("suggest", "Find the best cell size for meshes and explain it");
-    command.option("MESH", options->files, "Mesh files with tetrahedra").required();
+    command.option("MESH", options->files, "Mesh files: tetrahedra, surfaces or points");
     add_fill(command, options->fill);
     command.choice("--model", desc.model, models, "Cost model to minimise");
     command.option("--p-nc", desc.p_nc, "Probability that a tetrahedron has no collision, between 0 and 1")
@@ -157,6 +163,7 @@ void add_suggest(CommandLine& line) {
     command.flag("--self", options->self, "The bodies also collide with themselves");
     command.flag("--calibrate", options->calibrate,
                  "First measure on this machine the costs that the engines' models use");
+    add_foreign(command, options->foreign);
     command.option("--svg", options->svg, "Write the cost curve as a picture to this file");
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run(*options); });

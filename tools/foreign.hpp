@@ -1,0 +1,39 @@
+// vox suggest for grids that are not vox's: any primitives, and a program of the user's that is run at cell
+// sizes.
+#pragma once
+
+#include "command_line.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tool {
+
+struct ForeignOptions {
+    vox_known_grid known = VOX_KNOWN_GRID_ANY;
+    std::string given_known; // as the user named it; empty: not named
+    bool points = false, triangles = false;
+    std::vector<std::string> asking; // files whose primitives ask; none: those held ask themselves
+    double radius = 0, first = 0;
+    std::string tune; // command to run; empty: none
+    std::uint32_t most_runs = 7;
+
+    bool any() const {
+        return !given_known.empty() || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
+    }
+};
+
+void add_foreign(Command& command, ForeignOptions& options);
+
+// Whether none of these files has a tetrahedron: then there is nothing that vox's own grids could be tuned
+// for.
+bool without_tets(const std::vector<std::string>& files);
+
+// Prints the suggestion for what these files hold, or what tuning found.
+void suggest_foreign(const ForeignOptions& options, const std::vector<std::string>& files, double zone_loss,
+                     const std::string& svg, bool json);
+
+} // namespace tool
