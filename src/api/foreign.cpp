@@ -1,0 +1,56 @@
+// The C border of vox.h's section on the cell size of any grid. What needs timings is in tune.cpp.
+
+#include "base/border.hpp"
+#include "base/caller_memory.hpp"
+#include "base/structs.hpp"
+#include "cell_size/foreign_grid.hpp"
+#include "cell_size/foreign_suggest.hpp"
+#include "cell_size/known_grids.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+using namespace vox;
+
+vox_result vox_primitives_init(vox_primitives* primitives, uint32_t struct_size) {
+    return border([&] { init_struct(primitives, struct_size, primitives_defaults(), "vox_primitives"); });
+}
+
+vox_result vox_foreign_grid_init(vox_foreign_grid* grid, uint32_t struct_size) {
+    return border([&] { init_struct(grid, struct_size, foreign_grid_defaults(), "vox_foreign_grid"); });
+}
+
+vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_grid known) {
+    return border([&] {
+        vox_foreign_grid filled = read_struct(grid, foreign_grid_defaults(), "grid");
+        check_enum(known, VOX_KNOWN_GRID_NUMPY, "known");
+        const KnownGrid& described = known_grid(known);
+        filled.content = described.content;
+        filled.look = described.look;
+        filled.flags = described.flags;
+        filled.known = known;
+        filled.weights = described.weights;
+        write_struct(grid, filled, "grid");
+    });
+}
+
+vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        const ForeignGrid described(grid);
+        CallerMemory memory(described.desc.allocator);
+        ForeignWork work(described, quick_look, &memory);
+        write_struct(out, suggest_for(described, work), "out");
+    });
+}
+
+vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size, vox_grid_work* out) {
+    return border([&] {
+        require(out, "out");
+        const ForeignGrid described(grid);
+        if (!(cell_size > 0) || !std::isfinite(cell_size))
+            refuse(format("cell_size is %.9g, expected a number above 0", cell_size));
+        CallerMemory memory(described.desc.allocator);
+        *out = ForeignWork(described, thorough_look, &memory).exactly_at(cell_size);
+    });
+}

@@ -1,0 +1,314 @@
+#include "cell_size/foreign_grid.hpp"
+
+#include "base/caller_memory.hpp"
+#include "base/sampling.hpp"
+#include "base/structs.hpp"
+#include "cell_size/known_grids.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+namespace vox {
+
+// ---- the caller's description ---------------------------------------------------------------------
+
+vox_foreign_grid foreign_grid_defaults() {
+    vox_foreign_grid grid{};
+    grid.struct_size = sizeof grid;
+    grid.content = VOX_CELLS_HOLD_BOXES;
+    grid.look = VOX_LOOK_BOX;
+    grid.zone_loss = 0.05;
+    return grid;
+}
+
+namespace {
+
+constexpr struct {
+    const char* name;
+    double vox_grid_weights::*field;
+} weight_fields[] = {
+    {"fixed", &vox_grid_weights::fixed},       {"entries", &vox_grid_weights::entries},
+    {"visits", &vox_grid_weights::visits},     {"found", &vox_grid_weights::found},
+    {"reads", &vox_grid_weights::reads},       {"occupied", &vox_grid_weights::occupied},
+    {"cells", &vox_grid_weights::cells},
+};
+
+void check_grid_number(bool good, double value, const char* name, const char* expected) {
+    if (!good || !std::isfinite(value))
+        refuse(format("grid %s is %.9g, expected %s", name, value, expected));
+}
+
+vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
+    check_enum(grid.content, VOX_CELLS_HOLD_BOXES, "grid content");
+    check_enum(grid.look, VOX_LOOK_PAIRS, "grid look");
+    check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
+    if (grid.look == VOX_LOOK_AROUND && grid.content != VOX_CELLS_HOLD_CENTRES)
+        refuse("grid look is AROUND and content HOLD_BOXES: 27 cells around are looked at where cells hold centres");
+    constexpr std::uint32_t known_flags = VOX_FOREIGN_DENSE;
+    if (grid.flags & ~known_flags)
+        refuse(format("grid flags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", grid.flags,
+                      grid.flags & ~known_flags));
+    if (grid.reserved != 0) refuse(format("grid reserved is %" PRIu32 ", expected 0", grid.reserved));
+    check_grid_number(grid.radius >= 0, grid.radius, "radius", "0 or a length");
+    check_grid_number(grid.least_cell_size >= 0, grid.least_cell_size, "least_cell_size", "0 or a length");
+    check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
+                 "a number from 0 to 1e6");
+    weights_known = false;
+    for (const auto& [name, field] : weight_fields) {
+        const double weight = grid.weights.*field;
+        check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(), "0 or more nanoseconds");
+        weights_known |= weight > 0;
+    }
+    if (!weights_known) grid.weights = known_grid(grid.known).weights;
+    // Those of nothing known may come from vox_foreign_grid_set_known, too.
+    const vox_grid_weights& unknown = known_grid(VOX_KNOWN_GRID_ANY).weights;
+    weights_known = !std::all_of(std::begin(weight_fields), std::end(weight_fields), [&](const auto& f) {
+        return grid.weights.*f.field == unknown.*f.field;
+    });
+    if (!(grid.flags & VOX_FOREIGN_DENSE)) grid.weights.cells = 0;
+    check_allocator(grid.allocator, "grid.allocator");
+    require(grid.held, "grid.held");
+    return grid;
+}
+
+} // namespace
+
+ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
+    : desc(checked(read_struct(from_caller, foreign_grid_defaults(), "grid"), weights_known)),
+      held(read_struct(desc.held, primitives_defaults(), "held"), "held: ") {
+    if (desc.asking) asking.emplace(read_struct(desc.asking, primitives_defaults(), "asking"), "asking: ");
+}
+
+// ---- looking at the primitives --------------------------------------------------------------------
+
+namespace {
+
+BoxTree make_tree(const Primitives& primitives, double grown, bool centres, std::uint64_t most,
+                  std::uint64_t seed, std::pmr::memory_resource* memory) {
+    const BoxSample sample = sample_boxes(primitives, grown, most, seed, memory);
+    const double share = static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
+    return {sample, centres, share, memory};
+}
+
+double mean_edge(const Primitives& primitives) {
+    if (primitives.corners() < 2) return 0;
+    double sum = 0, count = 0;
+    for_stratified(primitives.count(), 2048, 0.5, [&](std::uint64_t i) {
+        if (primitives.is_box()) {
+            const PlainBox box = primitives.box(i);
+            sum += box.side(0) + box.side(1) + box.side(2);
+            count += 3;
+            return;
+        }
+        Vec3d at[4];
+        for (int k = 0; k < primitives.corners(); ++k) at[k] = primitives.corner(i, k);
+        for (int k = 1; k < primitives.corners(); ++k)
+            for (int j = 0; j < k; ++j) {
+                sum += std::hypot(at[k].x - at[j].x, at[k].y - at[j].y, at[k].z - at[j].z);
+                count += 1;
+            }
+    });
+    return sum / count;
+}
+
+void set_sides(const ForeignGrid& grid, vox_foreign_rules& rules, std::pmr::memory_resource* memory) {
+    std::pmr::vector<double> sides(memory);
+    double sum = 0;
+    for_stratified(grid.held.count(), 2048, 0.5, [&](std::uint64_t i) {
+        PlainBox box = grid.held.box(i);
+        box.grow(grid.held.radius(i) + grid.held_grown());
+        sides.push_back(box.longest_side());
+        sum += sides.back();
+    });
+    rules.mean_box_side = sum / static_cast<double>(sides.size());
+    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+    std::nth_element(sides.begin(), middle, sides.end());
+    rules.median_box_side = *middle;
+}
+
+} // namespace
+
+ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, std::pmr::memory_resource* memory)
+    : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
+      around_(grid.desc.look == VOX_LOOK_AROUND), looked_cells_(budget.cells),
+      held_sums_(sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed,
+                           around_ && grid.desc.least_cell_size == 0)),
+      asking_sums_(sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed,
+                             around_ && grid.desc.least_cell_size == 0)),
+      held_(make_tree(grid.held, grid.held_grown(), centres_, budget.held, 1, memory)),
+      asking_(make_tree(grid.those_asking(), grid.desc.radius, around_ || (pairs_ && centres_), budget.asking, 2,
+                        memory)),
+      asking_chosen_(choose_asking(asking_, budget.chosen, memory)),
+      held_chosen_(choose_asking(held_, budget.chosen, memory)),
+      read_(sum_pairs(asking_, asking_chosen_, held_, around_ ? Meeting::in_neighbours : Meeting::in_cells,
+                      same_set_, memory)),
+      table_(memory) {
+    PlainBox bounds = held_sums_.bounds;
+    bounds.include(asking_sums_.bounds);
+    bounds.include(held_.bounds());
+    bounds.include(asking_.bounds());
+    extent_ = bounds.longest_side();
+    longest_side_ = std::max(held_sums_.longest, asking_sums_.longest);
+    if (centres_ && !around_) longest_side_ = pairs_ ? 0 : asking_sums_.longest;
+    least_ = grid.desc.least_cell_size;
+    if (around_ && least_ == 0) least_ = (held_sums_.longest + asking_sums_.longest) / 2;
+    if (extent_ > 0)
+        range_ = {std::max(extent_ * 0x1p-28, least_), std::max(2 * extent_, least_)};
+    else if (least_ > 0)
+        range_ = {least_, least_};
+
+    set_sides(grid, rules_, memory);
+    rules_.mean_edge = mean_edge(grid.held);
+    const PlainBox& all = held_sums_.bounds;
+    rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
+    rules_.radius = asking_sums_.radius;
+    const double octaves = std::log2(range_.max / range_.min);
+    table_.resize(static_cast<std::size_t>(2 * octaves) + 3);
+}
+
+// ---- counts ---------------------------------------------------------------------------------------
+
+vox_grid_work ForeignWork::smooth_at(double d) const noexcept {
+    vox_grid_work work{};
+    const double held_cells = centres_ ? held_sums_.count : held_sums_.cells.at(d);
+    work.entries = held_cells;
+    const double others = read_.at(d);
+    if (pairs_) {
+        if (!same_set_) work.entries += centres_ ? asking_sums_.count : asking_sums_.cells.at(d);
+        work.visits = work.entries;
+        work.reads = same_set_ ? others / 2 : others;
+    } else {
+        work.visits = around_ ? 27 * asking_sums_.count : asking_sums_.cells.at(d);
+        // Its own cells are what a box finds itself in.
+        work.reads = same_set_ ? held_cells + others : others;
+    }
+    work.empty = work.visits;
+    PlainBox all = held_sums_.bounds;
+    if (pairs_) all.include(asking_sums_.bounds);
+    work.cells = cells_met({all.side(0), all.side(1), all.side(2)}).at(d);
+    return work;
+}
+
+vox_grid_work ForeignWork::with_shares(double d, const Shares& shares) const noexcept {
+    vox_grid_work work = smooth_at(d);
+    work.occupied = shares.occupied * work.entries;
+    if (pairs_) work.visits = work.occupied;
+    work.empty = pairs_ ? 0 : shares.empty * work.visits;
+    return work;
+}
+
+vox_grid_work ForeignWork::exactly_at(double d) const { return with_shares(d, count_shares(d)); }
+
+vox_grid_work ForeignWork::at(double d) {
+    const double place = 2 * std::log2(d / range_.min);
+    if (!(place >= 0 && place < static_cast<double>(table_.size() - 1))) return exactly_at(d);
+    const auto node = static_cast<std::size_t>(place);
+    const auto known = [&](std::size_t i) {
+        if (!table_[i]) table_[i] = count_shares(range_.min * std::exp2(static_cast<double>(i) / 2));
+        return *table_[i];
+    };
+    const Shares below = known(node), above = known(node + 1);
+    const double part = place - static_cast<double>(node);
+    const auto between = [&](double a, double b) {
+        // The logarithm is more nearly straight, where there is one.
+        return a > 0 && b > 0 ? a * std::pow(b / a, part) : a + part * (b - a);
+    };
+    return with_shares(d, {between(below.empty, above.empty), between(below.occupied, above.occupied)});
+}
+
+ForeignWork::Shares ForeignWork::count_shares(double d) const { return {empty_share(d), occupied_share(d)}; }
+
+namespace {
+
+// Of a lattice, for counting the cells in it one by one.
+constexpr double least_positions = 4;
+
+// One of the cells that a box meets in a lattice of some position, all equally likely.
+struct SomeCell {
+    double lo[3];
+    double of; // how many there are
+};
+
+double random_unit(std::uint64_t& random) noexcept {
+    return static_cast<double>(next_random(random) >> 11) * 0x1p-53;
+}
+
+SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& random) noexcept {
+    SomeCell cell{{}, 1};
+    for (int a = 0; a < 3; ++a) {
+        const double before = random_unit(random) * d; // from a plane of the lattice to the box
+        double first = 0, count = std::floor((before + box.side(a)) / d) + 1;
+        if (around) {
+            first = -1;
+            count += 2;
+        }
+        cell.lo[a] = box.lo[a] - before + (first + std::floor(random_unit(random) * count)) * d;
+        cell.of *= count;
+    }
+    return cell;
+}
+
+} // namespace
+
+double ForeignWork::empty_share(double d) const {
+    if (pairs_) return 0;
+    std::uint64_t random = 3;
+    double all = 0, empty = 0;
+    for (std::size_t i = 0; i < looked_cells_; ++i) {
+        const Asking& ask = asking_chosen_[i * asking_chosen_.size() / looked_cells_];
+        const SomeCell cell = some_cell(asking_.box(ask.index), d, around_, random);
+        const double weight = ask.weight * cell.of;
+        all += weight;
+        if (!held_.meets_any(cell.lo, d)) empty += weight;
+    }
+    return empty / all;
+}
+
+// Where all lie in a few cells, these are looked at one by one, in as many positions of the lattice as there is time for.
+double ForeignWork::occupied_of_few(double d, double cells_there) const {
+    const bool both = pairs_ && !same_set_;
+    PlainBox all = held_.bounds();
+    if (both) all.include(asking_.bounds());
+    std::uint64_t random = 5;
+    const auto positions = static_cast<std::size_t>(static_cast<double>(looked_cells_) / cells_there);
+    double occupied = 0;
+    for (std::size_t p = 0; p < positions; ++p) {
+        double first[3];
+        for (int a = 0; a < 3; ++a) first[a] = all.lo[a] - random_unit(random) * d;
+        double lo[3];
+        for (lo[0] = first[0]; lo[0] <= all.hi[0]; lo[0] += d)
+            for (lo[1] = first[1]; lo[1] <= all.hi[1]; lo[1] += d)
+                for (lo[2] = first[2]; lo[2] <= all.hi[2]; lo[2] += d)
+                    occupied += held_.meets_any(lo, d) || (both && asking_.meets_any(lo, d));
+    }
+    return occupied / static_cast<double>(positions);
+}
+
+double ForeignWork::occupied_share(double d) const {
+    const vox_grid_work smooth = smooth_at(d);
+    if (smooth.cells * least_positions <= static_cast<double>(looked_cells_))
+        return occupied_of_few(d, smooth.cells) / smooth.entries;
+    std::uint64_t random = 4;
+    double entries = 0, cells = 0;
+    const auto count_from = [&](const BoxTree& own, const BoxTree* other, const auto& chosen) {
+        for (std::size_t i = 0; i < looked_cells_; ++i) {
+            // Where all are looked at more than once, or not all are.
+            const Asking& one = chosen[i * chosen.size() / looked_cells_];
+            const SomeCell cell = some_cell(own.box(one.index), d, false, random);
+            const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
+            double there = 1 + (own.count_meeting(cell.lo, d) - 1) / own.share();
+            if (other) there += other->count_meeting(cell.lo, d) / other->share();
+            entries += weight;
+            cells += weight / std::max(there, 1.0);
+        }
+    };
+    const bool both = pairs_ && !same_set_;
+    count_from(held_, both ? &asking_ : nullptr, held_chosen_);
+    if (both) count_from(asking_, &held_, asking_chosen_);
+    return cells / entries;
+}
+
+} // namespace vox

@@ -1,0 +1,99 @@
+// A uniform grid that is not this library's, as its user describes it (vox_foreign_grid), and what a run of it does at
+// a cell size.
+#pragma once
+
+#include "cell_size/foreign_pairs.hpp"
+#include "cell_size/foreign_primitives.hpp"
+#include "cell_size/search.hpp"
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+namespace vox {
+
+vox_foreign_grid foreign_grid_defaults();
+
+// The caller's description, read and checked. The arrays of primitives are borrowed.
+struct ForeignGrid {
+    // Throws INVALID_ARGUMENT, INVALID_MESH, LIMIT.
+    explicit ForeignGrid(const vox_foreign_grid* from_caller);
+
+    vox_foreign_grid desc; // with the weights that are in use
+    bool weights_known;    // whether they are of some grid, not those for any
+    Primitives held;
+    std::optional<Primitives> asking; // another set
+
+    bool same_set() const noexcept { return !asking; }
+    const Primitives& those_asking() const noexcept { return asking ? *asking : held; }
+    bool pairs() const noexcept { return desc.look == VOX_LOOK_PAIRS; }
+    bool centres() const noexcept { return desc.content == VOX_CELLS_HOLD_CENTRES; }
+    // By how much boxes are larger than their primitives with radii. Where the same boxes are put into cells and
+    // paired there, the radius of the grid is theirs.
+    double held_grown() const noexcept { return pairs() && same_set() ? desc.radius : 0; }
+};
+
+// How closely the primitives are looked at.
+struct ForeignBudget {
+    std::uint64_t summed;    // primitives whose boxes are summed up
+    std::uint64_t held;      // boxes that are kept, of those held
+    std::uint64_t asking;    // and of those that ask, of which
+    std::size_t chosen;      // so many are looked at with what is around them
+    std::size_t cells;       // cells looked at for what is in them, at each size
+};
+inline constexpr ForeignBudget quick_look{std::uint64_t{1} << 16, 8192, 2048, 160, 64};
+inline constexpr ForeignBudget thorough_look{~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 8192};
+
+// What a run does, as a function of the cell size.
+class ForeignWork {
+public:
+    // Looks at the primitives. All memory, also that of at(), comes from `memory`. Throws INVALID_ARGUMENT,
+    // INVALID_MESH, NON_FINITE, LIMIT.
+    ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, std::pmr::memory_resource* memory);
+    ForeignWork(const ForeignWork&) = delete;
+    ForeignWork& operator=(const ForeignWork&) = delete;
+
+    // All counts. Occupied and empty cells come from a table over the sizes that fills as it is asked.
+    vox_grid_work at(double cell_size);
+    // The same with occupied and empty cells counted at this very size.
+    vox_grid_work exactly_at(double cell_size) const;
+    // All but occupied and empty cells, of which the former are 0 here and the latter as many as visits.
+    vox_grid_work smooth_at(double cell_size) const noexcept;
+
+    double least_cell_size() const noexcept { return least_; } // that is legal; 0: any
+    // Cell sizes that can matter, none below the least one: from tiny ones to one cell that holds all. Where all are in
+    // one place and have no size, min and max are the least size, or 1.
+    const CellSizeRange& range() const noexcept { return range_; }
+    const vox_foreign_rules& rules() const noexcept { return rules_; }
+    bool without_size() const noexcept { return !(longest_side_ > 0); } // points that ask points
+    bool in_one_place() const noexcept { return !(extent_ > 0); }
+    double asking_count() const noexcept { return asking_sums_.count; }
+
+private:
+    struct Shares {
+        double empty = 0;    // of visits
+        double occupied = 0; // of entries
+    };
+    Shares count_shares(double cell_size) const;
+    double empty_share(double cell_size) const;
+    double occupied_share(double cell_size) const;
+    double occupied_of_few(double cell_size, double cells_there) const;
+    vox_grid_work with_shares(double cell_size, const Shares& shares) const noexcept;
+
+    bool centres_, pairs_, same_set_, around_;
+    std::size_t looked_cells_;
+    PrimitiveSums held_sums_, asking_sums_;
+    BoxTree held_, asking_;
+    std::pmr::vector<Asking> asking_chosen_, held_chosen_;
+    PiecewiseMoments read_; // by pairs of unlike ones
+    double extent_ = 0, longest_side_ = 0, least_ = 0;
+    CellSizeRange range_{1, 1};
+    vox_foreign_rules rules_{};
+    std::pmr::vector<std::optional<Shares>> table_; // at two sizes an octave, from range_.min on
+};
+
+} // namespace vox

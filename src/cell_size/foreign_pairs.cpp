@@ -1,0 +1,282 @@
+// Groups of far boxes are represented by one as in J. Barnes, P. Hut, A hierarchical O(N log N) force-calculation
+// algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is biased. The order of boxes is that
+// of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
+#include "cell_size/foreign_pairs.hpp"
+
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace vox {
+
+// ---- sums -----------------------------------------------------------------------------------------
+
+void PiecewiseMoments::finish() noexcept {
+    for (std::size_t c = 1; c < classes; ++c) sums_[c].add(sums_[c - 1]);
+}
+
+// The class of the cell size itself is added in part, so that the sum is continuous.
+double PiecewiseMoments::at(double d) const noexcept {
+    const double ratio = d * inverse_least_;
+    const std::size_t c = class_of_ratio(ratio, step_bits);
+    if (c == 0) return sums_[0].at(d);
+    if (c >= classes) return sums_.back().at(d);
+    constexpr std::uint64_t rest = std::uint64_t{1} << (52 - step_bits);
+    const double part = static_cast<double>(std::bit_cast<std::uint64_t>(ratio) & (rest - 1)) / double{rest};
+    const double below = sums_[c - 1].at(d);
+    return std::max(below + part * (sums_[c].at(d) - below), 0.0);
+}
+
+// ---- tree -----------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::size_t longest_run = 8;   // of boxes whose order does not matter
+constexpr std::size_t least_for_radix = 256;
+
+struct Keyed {
+    std::uint32_t key, index;
+};
+
+std::uint32_t spread_bits(std::uint32_t v) noexcept { // ten bits, two zeros after each
+    v = (v | v << 16) & 0x030000ffu;
+    v = (v | v << 8) & 0x0300f00fu;
+    v = (v | v << 4) & 0x030c30c3u;
+    return (v | v << 2) & 0x09249249u;
+}
+
+void sort_keys(Keyed* keys, Keyed* other, std::size_t count) {
+    if (count < least_for_radix) {
+        std::sort(keys, keys + count, [](const Keyed& a, const Keyed& b) {
+            return a.key != b.key ? a.key < b.key : a.index < b.index;
+        });
+        return;
+    }
+    for (int shift = 0; shift < 30; shift += 10) {
+        std::array<std::uint32_t, 1025> begin{};
+        for (std::size_t i = 0; i < count; ++i) ++begin[(keys[i].key >> shift & 1023) + 1];
+        for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
+        for (std::size_t i = 0; i < count; ++i) other[begin[keys[i].key >> shift & 1023]++] = keys[i];
+        std::swap(keys, other);
+    }
+    // After three passes the sorted keys are in what was `other`.
+    std::copy_n(keys, count, other);
+}
+
+// Sorts by place, and those that are so close together that they have one key by their place among themselves.
+void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t count) {
+    if (count <= 1) return;
+    PlainBox bounds = boxes[keys[0].index].centre();
+    for (std::size_t i = 1; i < count; ++i) bounds.include(boxes[keys[i].index].centre());
+    const double longest = bounds.longest_side(), scale = 1023.99 / longest;
+    if (!(longest > 0) || !std::isfinite(scale)) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        const PlainBox at = boxes[keys[i].index].centre();
+        std::uint32_t key = 0;
+        for (int a = 0; a < 3; ++a)
+            key |= spread_bits(static_cast<std::uint32_t>((at.lo[a] - bounds.lo[a]) * scale)) << a;
+        keys[i].key = key;
+    }
+    sort_keys(keys, other, count);
+    for (std::size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && keys[end].key == keys[i].key; ++end) {}
+        if (end - i > longest_run) sort_by_place(boxes, keys + i, other + i, end - i);
+    }
+}
+
+} // namespace
+
+BoxTree::BoxTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
+    : levels_(memory), ids_(memory), share_(share) {
+    const std::size_t count = sample.boxes.size();
+    std::pmr::vector<Keyed> keys(count, memory), other(count, memory);
+    for (std::size_t i = 0; i < count; ++i) keys[i].index = static_cast<std::uint32_t>(i);
+    sort_by_place(sample.boxes.data(), keys.data(), other.data(), count);
+    levels_.reserve(static_cast<std::size_t>(std::bit_width(count)) / 2 + 2);
+    levels_.emplace_back(memory);
+    levels_[0].boxes.reserve(count);
+    ids_.reserve(count);
+    for (const Keyed& k : keys) {
+        const PlainBox& box = sample.boxes[k.index];
+        levels_[0].boxes.push_back(centres ? box.centre() : box);
+        ids_.push_back(sample.ids[k.index]);
+    }
+    while (levels_.back().boxes.size() > 1) {
+        levels_.emplace_back(memory);
+        const auto& below = levels_[levels_.size() - 2].boxes;
+        auto& boxes = levels_.back().boxes;
+        boxes.reserve((below.size() + 3) / 4);
+        for (std::size_t i = 0; i < below.size(); i += 4) {
+            PlainBox box = below[i];
+            for (std::size_t k = i + 1; k < std::min(i + 4, below.size()); ++k) box.include(below[k]);
+            boxes.push_back(box);
+        }
+    }
+}
+
+double BoxTree::crowd_side(std::size_t i) const noexcept {
+    const std::size_t level = std::min<std::size_t>(2, levels_.size() - 1);
+    return levels_[level].boxes[i >> (2 * level)].longest_side();
+}
+
+namespace {
+
+enum class Overlap : std::uint8_t { none, some, inside };
+
+Overlap overlap_of(const PlainBox& box, const double (&lo)[3], double side) noexcept {
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) {
+        const double hi = lo[a] + side;
+        if (!(box.lo[a] < hi && box.hi[a] >= lo[a])) return Overlap::none;
+        inside &= box.lo[a] >= lo[a] && box.hi[a] < hi;
+    }
+    return inside ? Overlap::inside : Overlap::some;
+}
+
+} // namespace
+
+double BoxTree::count_meeting(const double (&lo)[3], double side) const noexcept {
+    double count = 0;
+    Place stack[most_stacked];
+    int top = 0;
+    stack[top++] = {levels_.size() - 1, 0};
+    while (top > 0) {
+        const Place p = stack[--top];
+        const Overlap overlap = overlap_of(levels_[p.level].boxes[p.index], lo, side);
+        if (overlap == Overlap::none) continue;
+        if (overlap == Overlap::inside || p.level == 0) {
+            const std::size_t first = p.index << (2 * p.level), last = (p.index + 1) << (2 * p.level);
+            count += static_cast<double>(std::min(last, size()) - first);
+            continue;
+        }
+        const double most = static_cast<double>(std::size_t{1} << (2 * p.level));
+        if (most * 256 <= count)
+            count += most / 2;
+        else
+            push_children(p, stack, top);
+    }
+    return count;
+}
+
+bool BoxTree::meets_any(const double (&lo)[3], double side) const noexcept {
+    Place stack[most_stacked];
+    int top = 0;
+    stack[top++] = {levels_.size() - 1, 0};
+    while (top > 0) {
+        const Place p = stack[--top];
+        const Overlap overlap = overlap_of(levels_[p.level].boxes[p.index], lo, side);
+        if (overlap == Overlap::none) continue;
+        if (overlap == Overlap::inside || p.level == 0) return true;
+        push_children(p, stack, top);
+    }
+    return false;
+}
+
+// ---- asking ---------------------------------------------------------------------------------------
+
+std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
+                                       std::pmr::memory_resource* memory) {
+    std::pmr::vector<Asking> chosen(memory);
+    const std::size_t count = tree.size();
+    const double each = 1 / tree.share();
+    if (count <= wanted) {
+        chosen.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) chosen.push_back({i, each});
+        return chosen;
+    }
+    // By the octaves of the own size and of that of 16 neighbours; the order in a kind is that of places.
+    struct Kind {
+        std::int64_t kind;
+        std::uint32_t index;
+    };
+    const auto octave = [](double size) { return size > 0 ? std::clamp(std::ilogb(size), -512, 511) : -513; };
+    std::pmr::vector<Kind> kinds(memory);
+    kinds.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        kinds.push_back({std::int64_t{octave(tree.box(i).longest_side())} * 4096 + octave(tree.crowd_side(i)),
+                         static_cast<std::uint32_t>(i)});
+    std::sort(kinds.begin(), kinds.end(), [](const Kind& a, const Kind& b) {
+        return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
+    });
+    double number = 1;
+    for (std::size_t i = 1; i < count; ++i) number += kinds[i].kind != kinds[i - 1].kind;
+    std::uint64_t random = 1;
+    for (std::size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && kinds[end].kind == kinds[i].kind; ++end) {}
+        // Half of the places go to the kinds by their number, half evenly: a few large boxes, or few that are close
+        // together, can cost as much as many others.
+        const auto there = static_cast<double>(end - i);
+        const auto part = std::min(
+            end - i, static_cast<std::size_t>(static_cast<double>(wanted) * (there / static_cast<double>(count) + 1 / number) / 2) + 1);
+        const double step = there / static_cast<double>(part);
+        for (std::size_t k = 0; k < part; ++k) {
+            const double place = static_cast<double>(next_random(random) >> 11) * 0x1p-53;
+            const auto at = std::min(static_cast<std::size_t>((static_cast<double>(k) + place) * step), end - i - 1);
+            chosen.push_back({kinds[i + at].index, each * step});
+        }
+    }
+    return chosen;
+}
+
+// ---- pairs ----------------------------------------------------------------------------------------
+
+namespace {
+
+void add_common_cells(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) noexcept {
+    double gap[3];
+    for (int k = 0; k < 3; ++k) gap[k] = std::max(a.lo[k], b.lo[k]) - std::min(a.hi[k], b.hi[k]);
+    sums.add(std::max(std::max(gap[0], gap[1]), gap[2]), {1, 1, 1}, gap, weight);
+}
+
+void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) noexcept {
+    double x[3];
+    for (int k = 0; k < 3; ++k) x[k] = std::abs(a.lo[k] - b.lo[k]);
+    if (x[0] > x[1]) std::swap(x[0], x[1]);
+    if (x[1] > x[2]) std::swap(x[1], x[2]);
+    if (x[0] > x[1]) std::swap(x[0], x[1]);
+    // From half of the largest distance on, each factor is 2 - x/d, or 1 from x on.
+    const double from = x[2] / 2;
+    double c[3] = {2, 2, 2}, s[3] = {x[0], x[1], x[2]};
+    int k = 0;
+    for (; k < 3 && x[k] <= from; ++k) {
+        c[k] = 1;
+        s[k] = 0;
+    }
+    sums.add(from, c, s, weight);
+    for (; k < 3; ++k) {
+        c[k] = -1; // 1 instead of 2 - x/d, beside the others
+        s[k] = -x[k];
+        sums.add(x[k], c, s, weight);
+        c[k] = 1;
+        s[k] = 0;
+    }
+}
+
+} // namespace
+
+PiecewiseMoments sum_pairs(const BoxTree& from, const std::pmr::vector<Asking>& asking, const BoxTree& held,
+                           Meeting meeting, bool same_set, std::pmr::memory_resource* memory) {
+    PlainBox bounds = from.bounds();
+    bounds.include(held.bounds());
+    const double longest = bounds.longest_side();
+    PiecewiseMoments sums(longest > 0 ? longest : 1, memory);
+    std::uint64_t random = 2;
+    for (const Asking& ask : asking) {
+        const PlainBox& box = from.box(ask.index);
+        const std::uint32_t id = from.id(ask.index);
+        const double each = ask.weight / held.share();
+        held.sample_around(box, random, [&](std::size_t i, double weight) {
+            if (same_set && held.id(i) == id) return;
+            if (meeting == Meeting::in_cells)
+                add_common_cells(box, held.box(i), each * weight, sums);
+            else
+                add_neighbours(box, held.box(i), each * weight, sums);
+        });
+    }
+    sums.finish();
+    return sums;
+}
+
+} // namespace vox

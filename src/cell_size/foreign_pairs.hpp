@@ -1,0 +1,146 @@
+// How many cells two boxes have in common in a lattice of cubic cells, on average over all its positions and summed
+// over all pairs of a box that asks and a box that is held, as a function of the cell size d.
+//
+// Along an axis, two intervals that overlap by o have o/d + 1 cells in common. Two that are apart by g have one where
+// no plane of the lattice is between them: with probability 1 - g/d, or 0. With the signed gap e, which is -o or
+// g, both are max(0, 1 - e/d), and the axes are independent. Centres at a distance x along an axis are in the same cell
+// with probability max(0, 1 - x/d), and in cells that are the same or neighbours with max(0, 2 - x/d) -
+// max(0, 1 - x/d): 2 - x/d from d = x/2 on, and 1 from d = x on.
+//
+// So every pair is a polynomial in 1/d that changes at some sizes. Sums of such polynomials, in narrow classes of the
+// size where they change, give the sum over all pairs at every d at once.
+#pragma once
+
+#include "base/sampling.hpp"
+#include "cell_size/foreign_primitives.hpp"
+#include "cell_size/lookups.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+// A sum of polynomials in 1/d, each from a cell size on.
+class PiecewiseMoments {
+public:
+    // Sizes are told apart from `largest` down to 2^-32 of it.
+    PiecewiseMoments(double largest, std::pmr::memory_resource* memory)
+        : inverse_least_(0x1p32 / largest), sums_(classes, memory) {}
+
+    // Adds (c[0] - s[0]/d) (c[1] - s[1]/d) (c[2] - s[2]/d) for d >= from, `weight` times.
+    void add(double from, const double (&c)[3], const double (&s)[3], double weight) noexcept {
+        const std::size_t index = class_of_ratio(from * inverse_least_, step_bits);
+        if (index >= classes) return;
+        Moments& m = sums_[index];
+        const double one = c[0] * s[1] + s[0] * c[1], two = s[0] * s[1], none = c[0] * c[1];
+        m.sum[0] += weight * none * c[2];
+        m.sum[1] -= weight * (one * c[2] + none * s[2]);
+        m.sum[2] += weight * (two * c[2] + one * s[2]);
+        m.sum[3] -= weight * two * s[2];
+    }
+    // Call once, after the last add(): turns each class into the sum of all up to it.
+    void finish() noexcept;
+    double at(double d) const noexcept;
+
+private:
+    static constexpr int step_bits = 4; // sixteen classes an octave
+    static constexpr std::size_t classes = (std::size_t{34} << step_bits) + 1;
+
+    double inverse_least_;
+    std::pmr::vector<Moments> sums_;
+};
+
+// Boxes in an order along which neighbours are near, with the boxes of each 4, 16, 64, ... of them.
+class BoxTree {
+public:
+    // Of boxes that are `share` of all there are. With `centres`, of their centres.
+    BoxTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory);
+
+    std::size_t size() const noexcept { return levels_[0].boxes.size(); }
+    double share() const noexcept { return share_; }
+    const PlainBox& box(std::size_t i) const noexcept { return levels_[0].boxes[i]; }
+    std::uint32_t id(std::size_t i) const noexcept { return ids_[i]; }
+    const PlainBox& bounds() const noexcept { return levels_.back().boxes[0]; }
+    // Longest side of the box of the 16 or fewer boxes that this one is kept with.
+    double crowd_side(std::size_t i) const noexcept;
+
+    // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the given
+    // box, and one out of each group that is small for its distance from it or for its size.
+    template <class Visit>
+    void sample_around(const PlainBox& box, std::uint64_t& random, Visit&& visit) const {
+        const double half = box.longest_side() / 2;
+        Place stack[most_stacked];
+        int top = 0;
+        stack[top++] = {levels_.size() - 1, 0};
+        while (top > 0) {
+            const Place p = stack[--top];
+            const PlainBox& node = levels_[p.level].boxes[p.index];
+            if (p.level == 0) {
+                visit(p.index, 1.0);
+                continue;
+            }
+            if (node.longest_side() <= std::max(gap(node, box), half)) {
+                const std::size_t first = p.index << (2 * p.level),
+                                  last = std::min((p.index + 1) << (2 * p.level), size());
+                visit(first + static_cast<std::size_t>(next_below(random, last - first)),
+                      static_cast<double>(last - first));
+                continue;
+            }
+            push_children(p, stack, top);
+        }
+    }
+
+    // How many boxes meet a cube [lo, lo + side) along each axis; to within a sixteenth where they are many.
+    double count_meeting(const double (&lo)[3], double side) const noexcept;
+    bool meets_any(const double (&lo)[3], double side) const noexcept;
+
+private:
+    struct Place {
+        std::size_t level, index;
+    };
+    struct Level {
+        explicit Level(std::pmr::memory_resource* memory) : boxes(memory) {}
+        std::pmr::vector<PlainBox> boxes;
+    };
+    static constexpr int most_stacked = 4 * 20; // three of each level stay while the fourth is looked at
+
+    static double gap(const PlainBox& a, const PlainBox& b) noexcept {
+        double most = std::max(a.lo[0], b.lo[0]) - std::min(a.hi[0], b.hi[0]);
+        for (int k = 1; k < 3; ++k)
+            most = std::max(most, std::max(a.lo[k], b.lo[k]) - std::min(a.hi[k], b.hi[k]));
+        return most;
+    }
+    void push_children(const Place& p, Place (&stack)[most_stacked], int& top) const noexcept {
+        const std::size_t below = levels_[p.level - 1].boxes.size();
+        for (std::size_t c = 4 * p.index; c < std::min(4 * p.index + 4, below); ++c)
+            stack[top++] = {p.level - 1, c};
+    }
+
+    std::pmr::vector<Level> levels_; // the boxes themselves first
+    std::pmr::vector<std::uint32_t> ids_;
+    double share_;
+};
+
+// A box that asks, standing for `weight` like it.
+struct Asking {
+    std::size_t index; // in a tree
+    double weight;
+};
+
+// About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add up to the
+// number that the tree stands for.
+std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted, std::pmr::memory_resource* memory);
+
+enum class Meeting : std::uint8_t {
+    in_cells,      // of boxes: cells in common
+    in_neighbours, // of points: whether their cells are the same or neighbours
+};
+
+// Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`. With `same_set`, pairs of a
+// box with itself (the same id) are left out.
+PiecewiseMoments sum_pairs(const BoxTree& from, const std::pmr::vector<Asking>& asking, const BoxTree& held,
+                           Meeting meeting, bool same_set, std::pmr::memory_resource* memory);
+
+} // namespace vox

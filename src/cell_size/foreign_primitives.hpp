@@ -1,0 +1,106 @@
+// What a grid that is not this library's holds, or what asks it: vox_primitives, checked, each as its box.
+#pragma once
+
+#include "base/scene.hpp"
+#include "cell_size/lookups.hpp"
+
+#include <vox/vox.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace vox {
+
+struct PlainBox {
+    double lo[3], hi[3];
+
+    double side(int axis) const noexcept { return hi[axis] - lo[axis]; }
+    double longest_side() const noexcept { return std::max(std::max(side(0), side(1)), side(2)); }
+    void grow(double by) noexcept {
+        for (int a = 0; a < 3; ++a) {
+            lo[a] -= by;
+            hi[a] += by;
+        }
+    }
+    PlainBox centre() const noexcept { // as a box without sides
+        PlainBox point;
+        for (int a = 0; a < 3; ++a) point.lo[a] = point.hi[a] = lo[a] + (hi[a] - lo[a]) / 2;
+        return point;
+    }
+    void include(const PlainBox& other) noexcept {
+        for (int a = 0; a < 3; ++a) {
+            lo[a] = std::min(lo[a], other.lo[a]);
+            hi[a] = std::max(hi[a], other.hi[a]);
+        }
+    }
+};
+
+// The caller's primitives, borrowed.
+class Primitives {
+public:
+    // Reads and checks all but the arrays. `where` starts every error text, e.g. "held: ". Throws
+    // INVALID_ARGUMENT, LIMIT; INVALID_MESH where there are too few vertices.
+    Primitives(const vox_primitives& desc, const char* where);
+
+    std::uint64_t count() const noexcept { return count_; }
+    int corners() const noexcept { return corners_; } // vertices of one
+    bool is_box() const noexcept { return is_box_; }
+    bool has_radii() const noexcept { return radii_ != nullptr; }
+    double common_radius() const noexcept { return radius_; }
+
+    // Their own and the common one. Throws INVALID_ARGUMENT, NON_FINITE.
+    double radius(std::uint64_t primitive) const;
+    // The box of the vertices of one, without its radius. Throws INVALID_MESH for a vertex that does not
+    // exist, NON_FINITE or LIMIT for a position.
+    PlainBox box(std::uint64_t primitive) const;
+    Vec3d corner(std::uint64_t primitive, int corner) const; // of one that box() accepted
+
+private:
+    std::uint64_t vertex(std::uint64_t primitive, int corner) const noexcept;
+    [[noreturn]] void refuse_position(std::uint64_t primitive, std::uint64_t vertex) const;
+
+    const char* where_;
+    Positions positions_;
+    std::uint64_t vertex_count_;
+    const std::byte* indices_; // or null
+    std::size_t index_stride_;
+    std::uint64_t count_;
+    const std::byte* radii_; // or null
+    std::size_t radius_stride_;
+    bool double_radii_, is_box_;
+    double radius_;
+    int corners_;
+};
+
+vox_primitives primitives_defaults();
+
+// What is summed over primitives, from all of them or from a sample.
+struct PrimitiveSums {
+    double count = 0;     // of all
+    Moments cells;        // of the cells that their boxes meet
+    PlainBox bounds{};    // of their boxes
+    double longest = 0;   // side of a box
+    double radius = 0;    // mean
+    bool all = true;      // whether all were looked at
+};
+
+// Boxes with their radii and `grown` beyond. Looks at all primitives where that is cheap or `wants_all`, else at
+// about `most`. Throws as Primitives::box().
+// With `centres`, the bounds are those of the centres.
+PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t most,
+                        bool wants_all);
+
+// Boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of the list, at a
+// place that is independent from part to part and from seed to seed. So a pair of one primitive from
+// each of two samples is as likely as any other. Throws as Primitives::box().
+struct BoxSample {
+    explicit BoxSample(std::pmr::memory_resource* memory) : boxes(memory), ids(memory) {}
+    std::pmr::vector<PlainBox> boxes;
+    std::pmr::vector<std::uint32_t> ids; // ascending
+};
+BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
+                       std::pmr::memory_resource* memory);
+
+} // namespace vox

@@ -1,0 +1,143 @@
+#include "cell_size/foreign_suggest.hpp"
+
+#include "base/error.hpp"
+#include "cell_size/grid_cost.hpp"
+#include "cell_size/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace vox {
+
+namespace {
+
+constexpr Fineness foreign_fineness{.scans_per_octave = 5, .tolerance = 1e-4};
+
+// Whether the cost depends on how many cells are empty or occupied, which takes longer to find out than the rest.
+bool needs_cells(const ForeignGrid& grid) {
+    const vox_grid_weights& w = grid.desc.weights;
+    return w.occupied > 0 || w.found > 0 || (grid.pairs() && w.visits > 0);
+}
+
+// The sizes among which the least cost must be, as no cell costs less than an empty one that was never made, or more
+// than one of its own for each entry.
+CellSizeRange bracket(const ForeignGrid& grid, const ForeignWork& work) {
+    const vox_grid_weights& weights = grid.desc.weights;
+    const CellSizeRange& range = work.range();
+    const auto most = [&](double log_size) {
+        vox_grid_work w = work.smooth_at(std::exp2(log_size));
+        w.occupied = w.entries;
+        w.empty = 0;
+        return grid_cost(w, weights);
+    };
+    const auto least = [&](double log_size) {
+        vox_grid_work w = work.smooth_at(std::exp2(log_size));
+        if (grid.pairs()) w.visits = w.empty = 0;
+        return grid_cost(w, weights);
+    };
+    const CostMinimum best = minimise(most, range, foreign_fineness);
+    return zone_around(best, best.cost, least, range, foreign_fineness);
+}
+
+// Where nothing has a size, smaller cells are never worse. Below the size where one other in sixteen is found, they are
+// hardly better.
+double smallest_useful(const ForeignWork& work) {
+    const CellSizeRange& range = work.range();
+    const double own = work.smooth_at(range.min).reads;
+    double low = std::log2(range.min), high = std::log2(range.max);
+    while (high - low > 1e-3) {
+        const double middle = (low + high) / 2;
+        (work.smooth_at(std::exp2(middle)).reads - own < work.asking_count() / 16 ? low : high) = middle;
+    }
+    return std::exp2(high);
+}
+
+void add_to_note(std::string& note, const std::string& text) { note += note.empty() ? text : "; " + text; }
+
+CostTerms terms_of(const vox_grid_work& work, const vox_grid_weights& weights) {
+    CostTerms terms;
+    const auto add = [&](const char* name, double count, double weight) {
+        if (weight > 0) terms.add(name, count, weight);
+    };
+    add("run", 1, weights.fixed);
+    add("put into a cell", work.entries, weights.entries);
+    add("look at a cell", work.visits, weights.visits);
+    add("find a list there", work.visits - work.empty, weights.found);
+    add("read an entry", work.reads, weights.reads);
+    add("make a cell", work.occupied, weights.occupied);
+    add("clear a cell", work.cells, weights.cells);
+    return terms;
+}
+
+} // namespace
+
+vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
+    const vox_grid_weights& weights = grid.desc.weights;
+    vox_foreign_suggestion result{};
+    std::string note;
+    const auto warn = [&](vox_foreign_warnings warning, const std::string& text) {
+        result.warnings |= static_cast<std::uint32_t>(warning);
+        add_to_note(note, text);
+    };
+
+    const bool with_cells = needs_cells(grid);
+    const auto work_at = [&](double d) { return with_cells ? work.at(d) : work.smooth_at(d); };
+    const CostFunction cost = [&](double log_size) { return grid_cost(work_at(std::exp2(log_size)), weights); };
+
+    CellSizeRange range = work.range();
+    if (work.in_one_place()) {
+        warn(VOX_FOREIGN_ONE_PLACE, "all are in one place and have no size: any cell size does");
+    } else {
+        if (work.without_size()) {
+            range.min = std::max(range.min, smallest_useful(work));
+            warn(VOX_FOREIGN_NO_SIZE,
+                 format("no primitive has a size: below %g cells hold one each, and cost the same", range.min));
+        }
+        if (with_cells) {
+            const CellSizeRange near = bracket(grid, work);
+            range = {std::max(range.min, near.min), std::max(std::max(range.min, near.min), near.max)};
+        }
+    }
+    CostMinimum best = minimise(cost, range, foreign_fineness);
+    if (!std::isfinite(best.cost)) best = {range.max, cost(std::log2(range.max))};
+    const CellSizeRange zone = zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
+
+    result.cell_size = best.cell_size;
+    result.zone_min = zone.min;
+    result.zone_max = zone.max;
+    result.predicted_cost = best.cost;
+    result.least_cell_size = work.least_cell_size();
+    result.work = work.at(best.cell_size);
+    result.weights = weights;
+    if (!grid.weights_known)
+        warn(VOX_FOREIGN_WEIGHTS_UNKNOWN, "nothing is known of the grid's times: three timings would help");
+    if (result.least_cell_size > 0 && best.cell_size <= result.least_cell_size * 1.001)
+        warn(VOX_FOREIGN_AT_LEAST_SIZE, format("%g is the least legal size", result.least_cell_size));
+    if (!work.in_one_place() && best.cell_size >= work.range().max * 0.999)
+        warn(VOX_FOREIGN_ONE_PLACE, "one cell that holds all costs least: any larger one does");
+
+    result.rules = work.rules();
+    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
+    result.rule_costs = {cost_of(result.rules.mean_edge), cost_of(result.rules.mean_box_side),
+                         cost_of(result.rules.median_box_side), cost_of(result.rules.spacing),
+                         cost_of(result.rules.radius)};
+    // Sizes between those of the search may cost a little less.
+    const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
+    draw_curve(curve, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
+
+    const CostTerms terms = terms_of(work_at(best.cell_size), weights);
+    const double sum = terms.cost();
+    for (const CostTerm& term : terms) {
+        vox_cost_share& share = result.terms[result.term_count++];
+        *std::copy_n(term.name, std::min(std::strlen(term.name), sizeof share.name - 1), share.name) = '\0';
+        share.count = term.count;
+        share.cost = term.count * term.weight;
+        share.share = sum > 0 ? share.cost / sum : 0;
+    }
+    *std::copy_n(note.data(), std::min(note.size(), sizeof result.note - 1), result.note) = '\0';
+    return result;
+}
+
+} // namespace vox

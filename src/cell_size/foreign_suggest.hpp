@@ -1,0 +1,13 @@
+// The cell size of a described grid that costs a run least, and the reasons for it.
+#pragma once
+
+#include "cell_size/foreign_grid.hpp"
+
+#include <vox/vox.h>
+
+namespace vox {
+
+// Sets all fields but struct_size.
+vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work);
+
+} // namespace vox

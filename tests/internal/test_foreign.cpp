@@ -1,0 +1,266 @@
+// What a described grid does at a cell size, against a plain grid of that kind that is really filled, over many random
+// positions of its lattice; and how much a quick look loses against a thorough one.
+#include "cell_size/foreign_grid.hpp"
+#include "cell_size/foreign_suggest.hpp"
+#include "cell_size/grid_cost.hpp"
+#include "internal/random.hpp"
+#include "support/suite.h"
+
+#include <vox/vox.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+using namespace vox;
+
+namespace {
+
+std::pmr::memory_resource* const heap = std::pmr::new_delete_resource();
+
+// ---- scenes ---------------------------------------------------------------------------------------
+
+struct Boxes {
+    std::vector<double> corners; // two of each
+    void add(double x, double y, double z, double w, double h, double d) {
+        corners.insert(corners.end(), {x - w / 2, y - h / 2, z - d / 2, x + w / 2, y + h / 2, z + d / 2});
+    }
+    std::size_t count() const { return corners.size() / 6; }
+    PlainBox box(std::size_t i) const {
+        const double* c = corners.data() + 6 * i;
+        return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
+    }
+    vox_primitives describe() const {
+        vox_primitives p = vox_default_primitives();
+        p.type = VOX_PRIMITIVE_BOX;
+        p.positions = corners.data();
+        p.position_format = VOX_FORMAT_DOUBLE3;
+        p.vertex_count = 2 * count();
+        p.count = count();
+        return p;
+    }
+};
+
+enum Scene { body, shell, cloud, clumps, graded, wide, flat, sticks, overlap_free, scene_count };
+const char* const scene_names[] = {"body", "shell", "cloud", "clumps", "graded", "wide", "flat", "sticks", "lattice"};
+
+Boxes make(Scene scene, std::size_t count, std::uint64_t seed) {
+    Random random{seed};
+    const auto unit = [&] { return random.unit(); };
+    Boxes boxes;
+    const double edge = std::cbrt(1.0 / static_cast<double>(count));
+    const auto around = [&](double x, double y, double z, double size) {
+        boxes.add(x, y, z, size * (0.5 + unit()), size * (0.5 + unit()), size * (0.5 + unit()));
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(count);
+        switch (scene) {
+        case body: around(unit(), unit(), unit(), 1.7 * edge); break;
+        case shell: {
+            const double z = 2 * unit() - 1, a = 6.2831853 * unit(), r = std::sqrt(1 - z * z);
+            around(r * std::cos(a), r * std::sin(a), z, 4 / std::sqrt(static_cast<double>(count)));
+            break;
+        }
+        case cloud: boxes.add(unit(), unit(), unit(), 0, 0, 0); break;
+        case clumps: {
+            const double c = std::floor(unit() * 10), r = 0.02 * unit();
+            around(0.1 * c + r * unit(), std::fmod(c * 0.37, 1) + r * unit(), std::fmod(c * 0.61, 1) + r * unit(), 0.002);
+            break;
+        }
+        case graded: {
+            const double s = std::pow(10, -2 * part);
+            around(s * unit(), unit(), unit(), 0.3 * s * std::sqrt(edge));
+            break;
+        }
+        case wide: {
+            const double s = std::pow(10, -6 * part);
+            around(s * unit(), s * unit(), s * unit(), 0.1 * s);
+            break;
+        }
+        case flat: boxes.add(unit(), unit(), 0.5, 1.5 * std::sqrt(1 / double(count)), 1.5 * std::sqrt(1 / double(count)), 0); break;
+        case sticks: boxes.add(unit(), unit(), unit(), i % 3 == 0 ? 6 * edge : 0.1 * edge, i % 3 == 1 ? 6 * edge : 0.1 * edge, i % 3 == 2 ? 6 * edge : 0.1 * edge); break;
+        default: {
+            const auto n = static_cast<std::size_t>(std::cbrt(double(count))) + 1;
+            boxes.add(double(i % n) / double(n), double(i / n % n) / double(n), double(i / n / n) / double(n), 0.9 / double(n), 0.9 / double(n), 0.9 / double(n));
+        }
+        }
+    }
+    return boxes;
+}
+
+// ---- a plain grid ---------------------------------------------------------------------------------
+
+struct Key {
+    std::int64_t x, y, z;
+    bool operator==(const Key&) const = default;
+};
+struct KeyHash {
+    std::size_t operator()(const Key& k) const {
+        return static_cast<std::size_t>(k.x * 73856093 ^ k.y * 19349663 ^ k.z * 83492791);
+    }
+};
+
+struct Lattice {
+    double d, origin[3];
+    Key cell(const double (&p)[3]) const {
+        std::int64_t c[3];
+        for (int a = 0; a < 3; ++a) c[a] = static_cast<std::int64_t>(std::floor((p[a] - origin[a]) / d));
+        return {c[0], c[1], c[2]};
+    }
+    template <class Visit>
+    void cells(const PlainBox& box, Visit&& visit) const {
+        const Key lo = cell(box.lo), hi = cell(box.hi);
+        for (auto x = lo.x; x <= hi.x; ++x)
+            for (auto y = lo.y; y <= hi.y; ++y)
+                for (auto z = lo.z; z <= hi.z; ++z) visit(Key{x, y, z});
+    }
+};
+
+struct Kind {
+    const char* name;
+    vox_cell_content content;
+    vox_cell_look look;
+    bool two_sets;
+    double radius; // in mean box sides of the ones held; of points: in spacings
+};
+const Kind kinds[] = {
+    {"boxes in cells, boxes ask", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, false, 0},
+    {"boxes in cells, boxes ask around", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, false, 0.3},
+    {"boxes in cells, others ask", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, true, 0},
+    {"boxes in cells, pairs", VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, false, 0},
+    {"boxes in cells, pairs of two sets", VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, true, 0.1},
+    {"centres, balls ask", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, false, 0.7},
+    {"centres, others ask", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, true, 0.2},
+    {"centres, 27 around", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, false, 0},
+    {"centres, 27 around others", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, true, 0},
+    {"centres, pairs", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_PAIRS, false, 0},
+};
+
+vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& asking, double radius, const Lattice& lattice) {
+    vox_grid_work work{};
+    const bool pairs = kind.look == VOX_LOOK_PAIRS, centres = kind.content == VOX_CELLS_HOLD_CENTRES;
+    struct Cell { double held = 0, asking = 0; };
+    std::unordered_map<Key, Cell, KeyHash> cells;
+    const auto put = [&](const Boxes& boxes, double grown, bool second) {
+        for (std::size_t i = 0; i < boxes.count(); ++i) {
+            PlainBox box = boxes.box(i);
+            box.grow(grown);
+            lattice.cells(centres ? box.centre() : box, [&](const Key& k) {
+                ++(second ? cells[k].asking : cells[k].held);
+                ++work.entries;
+            });
+        }
+    };
+    put(held, pairs && !kind.two_sets ? radius : 0, false);
+    if (pairs && kind.two_sets) put(asking, radius, true);
+    work.occupied = static_cast<double>(cells.size());
+    if (pairs) {
+        for (const auto& [key, c] : cells) work.reads += kind.two_sets ? c.held * c.asking : c.held * (c.held - 1) / 2;
+        work.visits = work.occupied;
+        return work;
+    }
+    const auto look = [&](const Key& k) {
+        ++work.visits;
+        const auto found = cells.find(k);
+        if (found == cells.end()) ++work.empty;
+        else work.reads += found->second.held;
+    };
+    for (std::size_t i = 0; i < asking.count(); ++i) {
+        PlainBox box = asking.box(i);
+        box.grow(radius);
+        if (kind.look == VOX_LOOK_AROUND) {
+            const Key c = lattice.cell(box.centre().lo);
+            for (int x = -1; x <= 1; ++x)
+                for (int y = -1; y <= 1; ++y)
+                    for (int z = -1; z <= 1; ++z) look({c.x + x, c.y + y, c.z + z});
+        } else
+            lattice.cells(box, look);
+    }
+    return work;
+}
+
+vox_grid_work mean_count(const Kind& kind, const Boxes& held, const Boxes& asking, double radius, double d, int positions, std::uint64_t seed) {
+    // Additive recurrences with powers of the plastic number of three dimensions: evenly spread positions.
+    Random random{seed};
+    double at[3] = {random.unit(), random.unit(), random.unit()};
+    constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    vox_grid_work sum{};
+    for (int i = 0; i < positions; ++i) {
+        for (int a = 0; a < 3; ++a) at[a] = std::fmod(at[a] + step[a], 1);
+        const Lattice lattice{d, {at[0] * d, at[1] * d, at[2] * d}};
+        const vox_grid_work w = count_once(kind, held, asking, radius, lattice);
+        sum.entries += w.entries / positions;
+        sum.visits += w.visits / positions;
+        sum.empty += w.empty / positions;
+        sum.reads += w.reads / positions;
+        sum.occupied += w.occupied / positions;
+    }
+    return sum;
+}
+
+double typical_size(const Boxes& boxes) {
+    double sum = 0;
+    for (std::size_t i = 0; i < boxes.count(); ++i) sum += boxes.box(i).longest_side();
+    return sum > 0 ? sum / double(boxes.count()) : std::cbrt(1 / double(boxes.count()));
+}
+
+vox_foreign_grid describe(const Kind& kind, const vox_primitives& held, const vox_primitives& asking, double radius) {
+    vox_foreign_grid grid = vox_default_foreign_grid();
+    grid.content = kind.content;
+    grid.look = kind.look;
+    grid.held = &held;
+    if (kind.two_sets) grid.asking = &asking;
+    grid.radius = radius;
+    return grid;
+}
+
+START_TEST(counts_are_those_of_a_filled_grid) {
+    const Kind& kind = kinds[_i];
+    for (int s = 0; s < scene_count; ++s) {
+        const std::size_t count = 1500;
+        const Boxes held = make(Scene(s), count, 1), others = make(Scene(s), 700, 2);
+        const Boxes& asking = kind.two_sets ? others : held;
+        const double size = typical_size(held), radius = kind.radius * size;
+        const vox_primitives held_desc = held.describe(), asking_desc = asking.describe();
+        const vox_foreign_grid grid = describe(kind, held_desc, asking_desc, radius);
+        for (const double factor : {0.3, 1.0, 3.0}) {
+            const double d = factor * size;
+            vox_grid_work got{};
+            const double cells = [&] {
+                double sum = 0;
+                for (std::size_t i = 0; i < held.count(); ++i) { const PlainBox b = held.box(i); sum += cells_met({b.side(0), b.side(1), b.side(2)}).at(d); }
+                return sum;
+            }();
+            if (cells > 2e5) continue;
+            const int positions = int(std::clamp(2e6 / (cells + 27e3), 24.0, 200.0));
+            ck_assert_int_eq(vox_count_for(&grid, d, &got), VOX_OK);
+            const vox_grid_work real = mean_count(kind, held, asking, radius, d, positions, 7);
+            const auto near = [&](double a, double b, double whole, const char* what) {
+                const bool ok = std::abs(a - b) <= 0.05 * whole;
+                if (getenv("FOREIGN_PRINT") || !ok) std::printf("%s%-32s %-8s d %.1f %-9s %12.1f counted %12.1f (%+.1f %%)\n", ok ? "  " : "! ", kind.name, scene_names[s], factor, what, a, b, 100 * (a - b) / whole);
+                if (!getenv("FOREIGN_PRINT")) ck_assert_msg(ok, "%s", what);
+            };
+            near(got.entries, real.entries, real.entries, "entries");
+            near(got.visits, real.visits, real.visits, "visits");
+            near(got.reads, real.reads, real.reads, "reads");
+            near(got.empty, real.empty, real.visits, "empty");
+            near(got.occupied, real.occupied, real.occupied, "occupied");
+        }
+    }
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("foreign");
+    TCase* tests = tcase_create("foreign");
+    tcase_set_timeout(tests, 0);
+    tcase_add_loop_test(tests, counts_are_those_of_a_filled_grid, 0, int(std::size(kinds)));
+    suite_add_tcase(suite, tests);
+    return run_suite(suite);
+}
