@@ -86,17 +86,17 @@ ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
 
 namespace {
 
-BoxTree make_tree(const Primitives& primitives, double grown, bool centres, std::uint64_t most,
-                  std::uint64_t seed, std::pmr::memory_resource* memory) {
-    const BoxSample sample = sample_boxes(primitives, grown, most, seed, memory);
-    const double share = static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
-    return {sample, centres, share, memory};
+double share_of(const BoxSample& sample, const Primitives& primitives) {
+    return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
 }
+
+constexpr double per_octave = 1; // sizes of the table of shares
+constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
 
 double mean_edge(const Primitives& primitives) {
     if (primitives.corners() < 2) return 0;
     double sum = 0, count = 0;
-    for_stratified(primitives.count(), 2048, 0.5, [&](std::uint64_t i) {
+    for_stratified(primitives.count(), measured, 0.5, [&](std::uint64_t i) {
         if (primitives.is_box()) {
             const PlainBox box = primitives.box(i);
             sum += box.side(0) + box.side(1) + box.side(2);
@@ -114,13 +114,11 @@ double mean_edge(const Primitives& primitives) {
     return sum / count;
 }
 
-void set_sides(const ForeignGrid& grid, vox_foreign_rules& rules, std::pmr::memory_resource* memory) {
+void set_sides(const BoxSample& sample, vox_foreign_rules& rules, std::pmr::memory_resource* memory) {
     std::pmr::vector<double> sides(memory);
     double sum = 0;
-    for_stratified(grid.held.count(), 2048, 0.5, [&](std::uint64_t i) {
-        PlainBox box = grid.held.box(i);
-        box.grow(grid.held.radius(i) + grid.held_grown());
-        sides.push_back(box.longest_side());
+    for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
+        sides.push_back(sample.boxes[static_cast<std::size_t>(i)].longest_side());
         sum += sides.back();
     });
     rules.mean_box_side = sum / static_cast<double>(sides.size());
@@ -132,41 +130,46 @@ void set_sides(const ForeignGrid& grid, vox_foreign_rules& rules, std::pmr::memo
 } // namespace
 
 ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, std::pmr::memory_resource* memory)
+    : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
+                  sample_boxes(grid.those_asking(), grid.desc.radius, budget.asking, 2, memory), memory) {}
+
+ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
+                         const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.look == VOX_LOOK_AROUND), looked_cells_(budget.cells),
-      held_sums_(sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed,
-                           around_ && grid.desc.least_cell_size == 0)),
-      asking_sums_(sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed,
-                             around_ && grid.desc.least_cell_size == 0)),
-      held_(make_tree(grid.held, grid.held_grown(), centres_, budget.held, 1, memory)),
-      asking_(make_tree(grid.those_asking(), grid.desc.radius, around_ || (pairs_ && centres_), budget.asking, 2,
-                        memory)),
-      asking_chosen_(choose_asking(asking_, budget.chosen, memory)),
-      held_chosen_(choose_asking(held_, budget.chosen, memory)),
+      held_(held, centres_, share_of(held, grid.held), memory),
+      asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
+      asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
       read_(sum_pairs(asking_, asking_chosen_, held_, around_ ? Meeting::in_neighbours : Meeting::in_cells,
                       same_set_, memory)),
-      table_(memory) {
+      table_{std::pmr::vector<double>(memory), std::pmr::vector<double>(memory)} {
+    // The largest side must not be missed where it decides what is legal.
+    least_ = grid.desc.least_cell_size;
+    const std::uint64_t summed = around_ && least_ == 0 ? ~std::uint64_t{0} : budget.summed;
+    held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, summed);
+    asking_sums_ = same_set_ ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
+                             : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, summed);
+    if (around_ && least_ == 0) least_ = (held_sums_.longest + asking_sums_.longest) / 2;
     PlainBox bounds = held_sums_.bounds;
     bounds.include(asking_sums_.bounds);
     bounds.include(held_.bounds());
     bounds.include(asking_.bounds());
     extent_ = bounds.longest_side();
-    longest_side_ = std::max(held_sums_.longest, asking_sums_.longest);
-    if (centres_ && !around_) longest_side_ = pairs_ ? 0 : asking_sums_.longest;
-    least_ = grid.desc.least_cell_size;
-    if (around_ && least_ == 0) least_ = (held_sums_.longest + asking_sums_.longest) / 2;
+    has_size_ = centres_ ? !around_ && !pairs_ && asking_sums_.longest > 0
+                         : held_sums_.longest > 0 || asking_sums_.longest > 0;
     if (extent_ > 0)
         range_ = {std::max(extent_ * 0x1p-28, least_), std::max(2 * extent_, least_)};
     else if (least_ > 0)
         range_ = {least_, least_};
 
-    set_sides(grid, rules_, memory);
+    set_sides(held, rules_, memory);
     rules_.mean_edge = mean_edge(grid.held);
     const PlainBox& all = held_sums_.bounds;
     rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
     rules_.radius = asking_sums_.radius;
-    const double octaves = std::log2(range_.max / range_.min);
-    table_.resize(static_cast<std::size_t>(2 * octaves) + 3);
+    const auto nodes = static_cast<std::size_t>(per_octave * std::log2(range_.max / range_.min)) + 3;
+    for (auto& share : table_) share.resize(nodes, -1);
+    never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
 
 // ---- counts ---------------------------------------------------------------------------------------
@@ -192,34 +195,38 @@ vox_grid_work ForeignWork::smooth_at(double d) const noexcept {
     return work;
 }
 
-vox_grid_work ForeignWork::with_shares(double d, const Shares& shares) const noexcept {
+vox_grid_work ForeignWork::with_shares(double d, double empty_part, double occupied_part) const noexcept {
     vox_grid_work work = smooth_at(d);
-    work.occupied = shares.occupied * work.entries;
+    work.occupied = occupied_part * work.entries;
     if (pairs_) work.visits = work.occupied;
-    work.empty = pairs_ ? 0 : shares.empty * work.visits;
+    work.empty = pairs_ ? 0 : empty_part * work.visits;
     return work;
 }
 
-vox_grid_work ForeignWork::exactly_at(double d) const { return with_shares(d, count_shares(d)); }
-
-vox_grid_work ForeignWork::at(double d) {
-    const double place = 2 * std::log2(d / range_.min);
-    if (!(place >= 0 && place < static_cast<double>(table_.size() - 1))) return exactly_at(d);
-    const auto node = static_cast<std::size_t>(place);
-    const auto known = [&](std::size_t i) {
-        if (!table_[i]) table_[i] = count_shares(range_.min * std::exp2(static_cast<double>(i) / 2));
-        return *table_[i];
-    };
-    const Shares below = known(node), above = known(node + 1);
-    const double part = place - static_cast<double>(node);
-    const auto between = [&](double a, double b) {
-        // The logarithm is more nearly straight, where there is one.
-        return a > 0 && b > 0 ? a * std::pow(b / a, part) : a + part * (b - a);
-    };
-    return with_shares(d, {between(below.empty, above.empty), between(below.occupied, above.occupied)});
+vox_grid_work ForeignWork::exactly_at(double d) {
+    return with_shares(d, empty_share(d), occupied_share(d));
 }
 
-ForeignWork::Shares ForeignWork::count_shares(double d) const { return {empty_share(d), occupied_share(d)}; }
+vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
+    const auto share = [&](Share which) {
+        const double place = per_octave * std::log2(d / range_.min);
+        if (!(place >= 0 && place < static_cast<double>(table_[which].size() - 1)))
+            return which == empty ? empty_share(d) : occupied_share(d);
+        const auto node = static_cast<std::size_t>(place);
+        const auto known = [&](std::size_t i) {
+            double& value = table_[which][i];
+            if (value < 0) {
+                const double size = range_.min * std::exp2(static_cast<double>(i) / per_octave);
+                value = which == empty ? empty_share(size) : occupied_share(size);
+            }
+            return value;
+        };
+        const double below = known(node), above = known(node + 1), part = place - static_cast<double>(node);
+        // The logarithm is more nearly straight, where there is one.
+        return below > 0 && above > 0 ? below * std::pow(above / below, part) : below + part * (above - below);
+    };
+    return with_shares(d, wanted.empty ? share(empty) : 0, wanted.occupied ? share(occupied) : 0);
+}
 
 namespace {
 
@@ -253,18 +260,64 @@ SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& ra
 
 } // namespace
 
+namespace {
+
+// How many are in a cell, N, from cells in which only a part of all was counted. A count of a part p of them has p times
+// the mean of N, and p^2 times the mean of N (N - 1). With these two, N is taken to follow a negative binomial
+// distribution, or a binomial one where it varies less than by chance.
+class CellCounts {
+public:
+    void add(double weight, double n, double n_times_less_one) noexcept {
+        weight_ += weight;
+        mean_ += weight * n;
+        factorial_ += weight * n_times_less_one;
+    }
+    // Probability that N is 0.
+    double none() const noexcept {
+        const double m = mean_ / weight_, q = excess();
+        if (std::abs(q) < 1e-6) return std::exp(-m);
+        return std::exp(-m / q * std::log1p(q)); // (1 + q)^(-m / q)
+    }
+    // Mean of 1 / (1 + N): the integral of the generating function (1 + q (1 - s))^(-m / q) from 0 to 1.
+    double mean_inverse() const noexcept {
+        const double m = mean_ / weight_, q = excess();
+        if (m < 1e-9) return 1;
+        if (std::abs(q) < 1e-6) return -std::expm1(-m) / m;
+        const double power = 1 - m / q;
+        if (std::abs(power) < 1e-6) return std::log1p(q) / q;
+        return std::expm1(power * std::log1p(q)) / (power * q);
+    }
+
+private:
+    // The variance over the mean, less 1; at least what a number of things can have that are in the cell or not.
+    double excess() const noexcept {
+        const double m = mean_ / weight_;
+        return m > 0 ? std::max(factorial_ / weight_ / m - m, -0.9) : 0;
+    }
+    double weight_ = 0, mean_ = 0, factorial_ = 0;
+};
+
+} // namespace
+
 double ForeignWork::empty_share(double d) const {
-    if (pairs_) return 0;
+    if (pairs_ || never_empty_) return 0;
     std::uint64_t random = 3;
-    double all = 0, empty = 0;
+    double all = 0, empty_ones = 0;
+    CellCounts counts;
+    const double share = held_.share();
     for (std::size_t i = 0; i < looked_cells_; ++i) {
         const Asking& ask = asking_chosen_[i * asking_chosen_.size() / looked_cells_];
         const SomeCell cell = some_cell(asking_.box(ask.index), d, around_, random);
         const double weight = ask.weight * cell.of;
-        all += weight;
-        if (!held_.meets_any(cell.lo, d)) empty += weight;
+        if (share == 1) {
+            all += weight;
+            if (!held_.meets_any(cell.lo, d)) empty_ones += weight;
+        } else {
+            const double n = held_.count_meeting(cell.lo, d);
+            counts.add(weight, n / share, n * (n - 1) / (share * share));
+        }
     }
-    return empty / all;
+    return share == 1 ? empty_ones / all : counts.none();
 }
 
 // Where all lie in a few cells, these are looked at one by one, in as many positions of the lattice as there is time for.
@@ -272,12 +325,17 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
     const bool both = pairs_ && !same_set_;
     PlainBox all = held_.bounds();
     if (both) all.include(asking_.bounds());
-    std::uint64_t random = 5;
+    // Additive recurrences with powers of the plastic number of three dimensions: evenly spread positions.
+    double place[3] = {0.5, 0.5, 0.5};
+    constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
     const auto positions = static_cast<std::size_t>(static_cast<double>(looked_cells_) / cells_there);
     double occupied = 0;
     for (std::size_t p = 0; p < positions; ++p) {
         double first[3];
-        for (int a = 0; a < 3; ++a) first[a] = all.lo[a] - random_unit(random) * d;
+        for (int a = 0; a < 3; ++a) {
+            place[a] += step[a] - static_cast<double>(place[a] + step[a] >= 1);
+            first[a] = all.lo[a] - place[a] * d;
+        }
         double lo[3];
         for (lo[0] = first[0]; lo[0] <= all.hi[0]; lo[0] += d)
             for (lo[1] = first[1]; lo[1] <= all.hi[1]; lo[1] += d)
@@ -287,28 +345,31 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
     return occupied / static_cast<double>(positions);
 }
 
-double ForeignWork::occupied_share(double d) const {
+double ForeignWork::occupied_share(double d) {
+    if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, asking_chosen_.size(), table_[0].get_allocator().resource());
     const vox_grid_work smooth = smooth_at(d);
     if (smooth.cells * least_positions <= static_cast<double>(looked_cells_))
         return occupied_of_few(d, smooth.cells) / smooth.entries;
     std::uint64_t random = 4;
     double entries = 0, cells = 0;
+    CellCounts counts;
+    const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     const auto count_from = [&](const BoxTree& own, const BoxTree* other, const auto& chosen) {
         for (std::size_t i = 0; i < looked_cells_; ++i) {
-            // Where all are looked at more than once, or not all are.
             const Asking& one = chosen[i * chosen.size() / looked_cells_];
             const SomeCell cell = some_cell(own.box(one.index), d, false, random);
             const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
-            double there = 1 + (own.count_meeting(cell.lo, d) - 1) / own.share();
-            if (other) there += other->count_meeting(cell.lo, d) / other->share();
+            const double a = std::max(own.count_meeting(cell.lo, d) - 1, 0.0), p = own.share(); // beside itself
+            const double b = other ? other->count_meeting(cell.lo, d) : 0, q = other ? other->share() : 1;
             entries += weight;
-            cells += weight / std::max(there, 1.0);
+            cells += weight / (1 + a + b);
+            counts.add(weight, a / p + b / q,
+                       a * (a - 1) / (p * p) + 2 * a * b / (p * q) + b * (b - 1) / (q * q));
         }
     };
-    const bool both = pairs_ && !same_set_;
     count_from(held_, both ? &asking_ : nullptr, held_chosen_);
     if (both) count_from(asking_, &held_, asking_chosen_);
-    return cells / entries;
+    return all_kept ? cells / entries : counts.mean_inverse();
 }
 
 } // namespace vox

@@ -8,6 +8,7 @@
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -45,8 +46,13 @@ struct ForeignBudget {
     std::size_t chosen;      // so many are looked at with what is around them
     std::size_t cells;       // cells looked at for what is in them, at each size
 };
-inline constexpr ForeignBudget quick_look{std::uint64_t{1} << 16, 8192, 2048, 160, 64};
+inline constexpr ForeignBudget quick_look{std::uint64_t{1} << 16, 4096, 1024, 64, 48};
 inline constexpr ForeignBudget thorough_look{~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 8192};
+
+// Counts that take longer than the others.
+struct CellsWanted {
+    bool empty = true, occupied = true;
+};
 
 // What a run does, as a function of the cell size.
 class ForeignWork {
@@ -57,10 +63,11 @@ public:
     ForeignWork(const ForeignWork&) = delete;
     ForeignWork& operator=(const ForeignWork&) = delete;
 
-    // All counts. Occupied and empty cells come from a table over the sizes that fills as it is asked.
-    vox_grid_work at(double cell_size);
-    // The same with occupied and empty cells counted at this very size.
-    vox_grid_work exactly_at(double cell_size) const;
+    // All counts that are wanted; those not wanted are 0. They come from a table over the sizes that fills as it is
+    // asked.
+    vox_grid_work at(double cell_size, CellsWanted wanted = {});
+    // All, with occupied and empty cells counted at this very size.
+    vox_grid_work exactly_at(double cell_size);
     // All but occupied and empty cells, of which the former are 0 here and the latter as many as visits.
     vox_grid_work smooth_at(double cell_size) const noexcept;
 
@@ -69,20 +76,19 @@ public:
     // one place and have no size, min and max are the least size, or 1.
     const CellSizeRange& range() const noexcept { return range_; }
     const vox_foreign_rules& rules() const noexcept { return rules_; }
-    bool without_size() const noexcept { return !(longest_side_ > 0); } // points that ask points
+    bool without_size() const noexcept { return !has_size_; } // points that ask points
     bool in_one_place() const noexcept { return !(extent_ > 0); }
     double asking_count() const noexcept { return asking_sums_.count; }
 
 private:
-    struct Shares {
-        double empty = 0;    // of visits
-        double occupied = 0; // of entries
-    };
-    Shares count_shares(double cell_size) const;
+    enum Share { empty, occupied }; // of visits, of entries
+
+    ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
+                const BoxSample& asking, std::pmr::memory_resource* memory);
     double empty_share(double cell_size) const;
-    double occupied_share(double cell_size) const;
+    double occupied_share(double cell_size);
     double occupied_of_few(double cell_size, double cells_there) const;
-    vox_grid_work with_shares(double cell_size, const Shares& shares) const noexcept;
+    vox_grid_work with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
 
     bool centres_, pairs_, same_set_, around_;
     std::size_t looked_cells_;
@@ -90,10 +96,11 @@ private:
     BoxTree held_, asking_;
     std::pmr::vector<Asking> asking_chosen_, held_chosen_;
     PiecewiseMoments read_; // by pairs of unlike ones
-    double extent_ = 0, longest_side_ = 0, least_ = 0;
+    double extent_ = 0, least_ = 0;
+    bool has_size_ = false, never_empty_ = false;
     CellSizeRange range_{1, 1};
     vox_foreign_rules rules_{};
-    std::pmr::vector<std::optional<Shares>> table_; // at two sizes an octave, from range_.min on
+    std::array<std::pmr::vector<double>, 2> table_; // of each Share, from range_.min on; -1 where not known yet
 };
 
 } // namespace vox

@@ -152,7 +152,7 @@ double BoxTree::count_meeting(const double (&lo)[3], double side) const noexcept
             continue;
         }
         const double most = static_cast<double>(std::size_t{1} << (2 * p.level));
-        if (most * 256 <= count)
+        if (most * 64 <= count)
             count += most / 2;
         else
             push_children(p, stack, top);
@@ -187,35 +187,47 @@ std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
         return chosen;
     }
     // By the octaves of the own size and of that of 16 neighbours; the order in a kind is that of places.
-    struct Kind {
-        std::int64_t kind;
-        std::uint32_t index;
-    };
     const auto octave = [](double size) { return size > 0 ? std::clamp(std::ilogb(size), -512, 511) : -513; };
+    struct Kind {
+        int own, crowd;
+        std::uint32_t count;
+    };
     std::pmr::vector<Kind> kinds(memory);
-    kinds.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-        kinds.push_back({std::int64_t{octave(tree.box(i).longest_side())} * 4096 + octave(tree.crowd_side(i)),
-                         static_cast<std::uint32_t>(i)});
-    std::sort(kinds.begin(), kinds.end(), [](const Kind& a, const Kind& b) {
-        return a.kind != b.kind ? a.kind < b.kind : a.index < b.index;
-    });
-    double number = 1;
-    for (std::size_t i = 1; i < count; ++i) number += kinds[i].kind != kinds[i - 1].kind;
+    std::pmr::vector<std::uint32_t> kind_of(count, memory);
+    for (std::size_t i = 0; i < count; ++i) {
+        const int own = octave(tree.box(i).longest_side()), crowd = octave(tree.crowd_side(i));
+        std::size_t k = 0;
+        while (k < kinds.size() && !(kinds[k].own == own && kinds[k].crowd == crowd)) ++k;
+        if (k == kinds.size()) kinds.push_back({own, crowd, 0});
+        ++kinds[k].count;
+        kind_of[i] = static_cast<std::uint32_t>(k);
+    }
+    std::pmr::vector<std::uint32_t> begin(memory), sorted(count, memory);
+    begin.reserve(kinds.size());
+    std::uint32_t before = 0;
+    for (const Kind& kind : kinds) {
+        begin.push_back(before);
+        before += kind.count;
+    }
+    for (std::size_t i = 0; i < count; ++i) sorted[begin[kind_of[i]]++] = static_cast<std::uint32_t>(i);
+
     std::uint64_t random = 1;
-    for (std::size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && kinds[end].kind == kinds[i].kind; ++end) {}
+    std::size_t first = 0;
+    for (const Kind& kind : kinds) {
         // Half of the places go to the kinds by their number, half evenly: a few large boxes, or few that are close
         // together, can cost as much as many others.
-        const auto there = static_cast<double>(end - i);
-        const auto part = std::min(
-            end - i, static_cast<std::size_t>(static_cast<double>(wanted) * (there / static_cast<double>(count) + 1 / number) / 2) + 1);
-        const double step = there / static_cast<double>(part);
-        for (std::size_t k = 0; k < part; ++k) {
+        const auto there = static_cast<double>(kind.count);
+        const double part = (there / static_cast<double>(count) + 1 / static_cast<double>(kinds.size())) / 2;
+        const auto places =
+            std::min(std::size_t{kind.count}, static_cast<std::size_t>(static_cast<double>(wanted) * part) + 1);
+        const double step = there / static_cast<double>(places);
+        for (std::size_t k = 0; k < places; ++k) {
             const double place = static_cast<double>(next_random(random) >> 11) * 0x1p-53;
-            const auto at = std::min(static_cast<std::size_t>((static_cast<double>(k) + place) * step), end - i - 1);
-            chosen.push_back({kinds[i + at].index, each * step});
+            const auto at = std::min(static_cast<std::size_t>((static_cast<double>(k) + place) * step),
+                                     std::size_t{kind.count} - 1);
+            chosen.push_back({sorted[first + at], each * step});
         }
+        first += kind.count;
     }
     return chosen;
 }

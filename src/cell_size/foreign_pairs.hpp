@@ -67,7 +67,7 @@ public:
     double crowd_side(std::size_t i) const noexcept;
 
     // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the given
-    // box, and one out of each group that is small for its distance from it or for its size.
+    // box, and one out of each group that is small for its distance or for the given box.
     template <class Visit>
     void sample_around(const PlainBox& box, std::uint64_t& random, Visit&& visit) const {
         const double half = box.longest_side() / 2;
@@ -81,7 +81,7 @@ public:
                 visit(p.index, 1.0);
                 continue;
             }
-            if (node.longest_side() <= std::max(gap(node, box), half)) {
+            if (node.longest_side() <= coarse * std::max(gap(node, box), half)) {
                 const std::size_t first = p.index << (2 * p.level),
                                   last = std::min((p.index + 1) << (2 * p.level), size());
                 visit(first + static_cast<std::size_t>(next_below(random, last - first)),
@@ -104,6 +104,8 @@ private:
         explicit Level(std::pmr::memory_resource* memory) : boxes(memory) {}
         std::pmr::vector<PlainBox> boxes;
     };
+    // A group is represented by one of it where its longest side is at most this multiple of the distance.
+    static constexpr double coarse = 2;
     static constexpr int most_stacked = 4 * 20; // three of each level stay while the fourth is looked at
 
     static double gap(const PlainBox& a, const PlainBox& b) noexcept {

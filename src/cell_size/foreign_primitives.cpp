@@ -4,9 +4,15 @@
 #include "base/structs.hpp"
 #include "mesh/check.hpp"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace vox {
 
@@ -130,50 +136,307 @@ PlainBox Primitives::box(std::uint64_t primitive) const {
     return box;
 }
 
-PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t most,
-                        bool wants_all) {
+// ---- single precision -----------------------------------------------------------------------------
+
+namespace {
+
+// Four floats, the last of which is of no use. Compilers do not make vectors of plain loops over them.
+#if defined(__SSE2__)
+struct Four {
+    __m128 at;
+    static Four read(const std::byte* from) noexcept {
+        return {_mm_loadu_ps(reinterpret_cast<const float*>(from))};
+    }
+    void write(float (&to)[4]) const noexcept { _mm_storeu_ps(to, at); }
+};
+Four least_of(Four a, Four b) noexcept { return {_mm_min_ps(a.at, b.at)}; }
+Four most_of(Four a, Four b) noexcept { return {_mm_max_ps(a.at, b.at)}; }
+Four sum_of(Four a, Four b) noexcept { return {_mm_add_ps(a.at, b.at)}; }
+Four difference(Four a, Four b) noexcept { return {_mm_sub_ps(a.at, b.at)}; }
+Four product(Four a, Four b) noexcept { return {_mm_mul_ps(a.at, b.at)}; }
+Four turned(Four a) noexcept { return {_mm_shuffle_ps(a.at, a.at, _MM_SHUFFLE(3, 0, 2, 1))}; } // y z x
+Four all_equal(float value) noexcept { return {_mm_set1_ps(value)}; }
+#else
+struct Four {
+    float at[4];
+    static Four read(const std::byte* from) noexcept {
+        Four f;
+        std::memcpy(f.at, from, sizeof f.at);
+        return f;
+    }
+    void write(float (&to)[4]) const noexcept { std::memcpy(to, at, sizeof at); }
+};
+template <class Operation>
+Four each_of(const Four& a, const Four& b, Operation operation) noexcept {
+    Four r;
+    for (int i = 0; i < 4; ++i) r.at[i] = operation(a.at[i], b.at[i]);
+    return r;
+}
+Four least_of(Four a, Four b) noexcept {
+    return each_of(a, b, [](float x, float y) { return x < y ? x : y; });
+}
+Four most_of(Four a, Four b) noexcept {
+    return each_of(a, b, [](float x, float y) { return x > y ? x : y; });
+}
+Four sum_of(Four a, Four b) noexcept {
+    return each_of(a, b, [](float x, float y) { return x + y; });
+}
+Four difference(Four a, Four b) noexcept {
+    return each_of(a, b, [](float x, float y) { return x - y; });
+}
+Four product(Four a, Four b) noexcept {
+    return each_of(a, b, [](float x, float y) { return x * y; });
+}
+Four turned(Four a) noexcept { return {{a.at[1], a.at[2], a.at[0], a.at[3]}}; }
+Four all_equal(float value) noexcept { return {{value, value, value, value}}; }
+#endif
+
+} // namespace
+
+// Primitives whose positions are floats one after the other: a box is a few vectors.
+struct PackedPrimitives {
+    explicit PackedPrimitives(const Primitives& from)
+        : all(from), data(from.positions_.data), indexed(from.indices_), stride(from.positions_.byte_stride),
+          index_stride(from.index_stride_), safe(std::max<std::uint64_t>(from.vertex_count_, 1) - 1) {}
+
+    static bool fits(const Primitives& p) noexcept {
+        return !p.positions_.doubles && p.positions_.component_gap == 0;
+    }
+
+    // Its box, and the sum of its coordinates times 0, which is not 0 where one is not finite. False where it must be read in
+    // another way: four floats are read at a time, one of them from the next position.
+    template <int corners>
+    bool read(std::uint64_t primitive, Four& lo, Four& hi, Four& zero) const noexcept {
+        std::uint64_t v[corners], last = 0;
+        for (int c = 0; c < corners; ++c) {
+            v[c] = indexed ? index(primitive, c) : primitive * corners + static_cast<std::uint64_t>(c);
+            last = std::max(last, v[c]);
+        }
+        if (last >= safe) return false;
+        lo = hi = Four::read(data + v[0] * stride);
+        zero = product(lo, all_equal(0));
+        for (int c = 1; c < corners; ++c) {
+            const Four p = Four::read(data + v[c] * stride);
+            zero = sum_of(zero, product(p, all_equal(0)));
+            lo = least_of(lo, p);
+            hi = most_of(hi, p);
+        }
+        return true;
+    }
+
+    // Any; throws as Primitives::box().
+    template <int corners>
+    void box(std::uint64_t primitive, Four& lo, Four& hi) const {
+        Four zero;
+        if (read<corners>(primitive, lo, hi, zero) && is_zero(zero)) return;
+        const PlainBox exact = all.box(primitive);
+        float single[2][4]{};
+        for (int a = 0; a < 3; ++a) {
+            single[0][a] = static_cast<float>(exact.lo[a]);
+            single[1][a] = static_cast<float>(exact.hi[a]);
+        }
+        lo = Four::read(reinterpret_cast<const std::byte*>(single[0]));
+        hi = Four::read(reinterpret_cast<const std::byte*>(single[1]));
+    }
+
+    static bool is_zero(Four f) noexcept {
+        float at[4];
+        f.write(at);
+        return at[0] + at[1] + at[2] == 0;
+    }
+
+    std::uint32_t index(std::uint64_t primitive, int corner) const noexcept {
+        std::uint32_t i;
+        std::memcpy(&i, indexed + primitive * index_stride + static_cast<std::size_t>(corner) * sizeof i, sizeof i);
+        return i;
+    }
+
+    const Primitives& all;
+    const std::byte *data, *indexed; // the latter may be null
+    std::size_t stride, index_stride;
+    std::uint64_t safe; // vertices below are followed by another
+};
+
+namespace {
+
+// Boxes are summed up in runs of the list, each a part of it.
+constexpr std::uint64_t run_length = 32;
+
+template <class Visit>
+void for_runs(std::uint64_t count, std::uint64_t wanted, Visit&& visit) {
+    const std::uint64_t runs = (count + run_length - 1) / run_length;
+    for_stratified(runs, (std::min(count, wanted) + run_length - 1) / run_length, 0.5, [&](std::uint64_t run) {
+        visit(run * run_length, std::min((run + 1) * run_length, count));
+    });
+}
+
+// Sums in double of runs that are summed in single precision.
+template <int corners>
+void sum_packed(const PackedPrimitives& packed, double radius, bool centres, std::uint64_t wanted,
+                PrimitiveSums& sums) {
+    const Four grown = all_equal(static_cast<float>(2 * radius));
+    Four least = all_equal(std::numeric_limits<float>::infinity()), most = difference(all_equal(0), least);
+    Four longest = all_equal(0);
+    double looked = 0, sums_of[3] = {0, 0, 0};
+    for_runs(packed.all.count(), wanted, [&](std::uint64_t first, std::uint64_t last) {
+        Four one = all_equal(0), two = one, three = one, zeros = one;
+        for (std::uint64_t i = first; i < last; ++i) {
+            Four lo, hi, zero;
+            if (!packed.read<corners>(i, lo, hi, zero)) {
+                packed.box<corners>(i, lo, hi);
+                zero = all_equal(0);
+            }
+            zeros = sum_of(zeros, zero);
+            const Four sides = sum_of(difference(hi, lo), grown), next = turned(sides), both = product(sides, next);
+            one = sum_of(one, sides);
+            two = sum_of(two, both);
+            three = sum_of(three, product(both, turned(next)));
+            longest = most_of(longest, sides);
+            if (centres) lo = hi = product(sum_of(lo, hi), all_equal(0.5f));
+            least = least_of(least, lo);
+            most = most_of(most, hi);
+        }
+        if (!packed.is_zero(zeros)) // one of these is not finite: the error says which
+            for (std::uint64_t i = first; i < last; ++i) (void)packed.all.box(i);
+        looked += static_cast<double>(last - first);
+        float at[4];
+        one.write(at);
+        sums_of[0] += double{at[0]} + double{at[1]} + double{at[2]};
+        two.write(at);
+        sums_of[1] += double{at[0]} + double{at[1]} + double{at[2]};
+        three.write(at);
+        sums_of[2] += double{at[0]};
+    });
+    sums.cells = {{looked, sums_of[0], sums_of[1], sums_of[2]}};
+    float lo[4], hi[4], side[4];
+    least.write(lo);
+    most.write(hi);
+    longest.write(side);
+    for (int k = 0; k < 3; ++k) {
+        sums.bounds.lo[k] = double{lo[k]};
+        sums.bounds.hi[k] = double{hi[k]};
+        sums.longest = std::max(sums.longest, double{side[k]});
+    }
+    if (!centres) sums.bounds.grow(radius);
+    sums.radius = radius;
+}
+
+void sum_exactly(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted,
+                 PrimitiveSums& sums) {
+    double looked = 0, radii = 0;
+    for_runs(primitives.count(), wanted, [&](std::uint64_t begin, std::uint64_t end) {
+        for (std::uint64_t i = begin; i < end; ++i) {
+            PlainBox box = primitives.box(i);
+            const double radius = primitives.radius(i) + grown;
+            box.grow(radius);
+            radii += radius;
+            sums.cells.add(cells_met({box.side(0), box.side(1), box.side(2)}));
+            sums.longest = std::max(sums.longest, box.longest_side());
+            const PlainBox place = centres ? box.centre() : box;
+            if (looked == 0) sums.bounds = place;
+            sums.bounds.include(place);
+            ++looked;
+        }
+    });
+    sums.radius = radii / looked;
+}
+
+} // namespace
+
+PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted) {
     PrimitiveSums sums;
     sums.count = static_cast<double>(primitives.count());
-    const std::uint64_t wanted = wants_all ? primitives.count() : std::min(primitives.count(), most);
-    sums.all = wanted == primitives.count();
-    bool first = true;
-    double radii = 0;
-    for_stratified(primitives.count(), wanted, 0.5, [&](std::uint64_t i) {
-        PlainBox box = primitives.box(i);
-        const double radius = primitives.radius(i) + grown;
-        box.grow(radius);
-        radii += radius;
-        sums.cells.add(cells_met({box.side(0), box.side(1), box.side(2)}));
-        sums.longest = std::max(sums.longest, box.longest_side());
-        const PlainBox place = centres ? box.centre() : box;
-        if (first) sums.bounds = place;
-        first = false;
-        sums.bounds.include(place);
+    if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
+        const PackedPrimitives packed(primitives);
+        const double radius = primitives.common_radius() + grown;
+        switch (primitives.corners()) {
+        case 1: sum_packed<1>(packed, radius, centres, wanted, sums); break;
+        case 2: sum_packed<2>(packed, radius, centres, wanted, sums); break;
+        case 3: sum_packed<3>(packed, radius, centres, wanted, sums); break;
+        default: sum_packed<4>(packed, radius, centres, wanted, sums); break;
+        }
+    }
+    // Products of very large or very small sides are out of the range of floats.
+    const bool in_range = sums.longest == 0 || (sums.longest > 0x1p-30 && sums.longest < 0x1p30);
+    if (!(sums.cells.sum[0] > 0 && in_range)) {
+        sums.cells = {};
+        sums.longest = 0;
+        sum_exactly(primitives, grown, centres, wanted, sums);
+    }
+    const double each = sums.count / sums.cells.sum[0];
+    for (double& sum : sums.cells.sum) sum *= each;
+    return sums;
+}
+
+namespace {
+
+// Calls visit(index) for one place of each part of the list.
+template <class Visit>
+void for_random_places(std::uint64_t count, std::uint64_t wanted, std::uint64_t seed, Visit&& visit) {
+    if (count <= wanted) {
+        for (std::uint64_t i = 0; i < count; ++i) visit(i);
+        return;
+    }
+    const double part = static_cast<double>(count) / static_cast<double>(wanted);
+    for (std::uint64_t i = 0; i < wanted; ++i) {
+        const double place = static_cast<double>(next_random(seed) >> 11) * 0x1p-53;
+        visit(std::min(static_cast<std::uint64_t>((static_cast<double>(i) + place) * part), count - 1));
+    }
+}
+
+template <int corners>
+void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t wanted, std::uint64_t seed,
+                   BoxSample& sample) {
+    for_random_places(packed.all.count(), wanted, seed, [&](std::uint64_t i) {
+        Four lo, hi;
+        packed.box<corners>(i, lo, hi);
+        float low[4], high[4];
+        lo.write(low);
+        hi.write(high);
+        PlainBox box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = double{low[k]} - radius;
+            box.hi[k] = double{high[k]} + radius;
+        }
+        sample.boxes.push_back(box);
+        sample.ids.push_back(static_cast<std::uint32_t>(i));
     });
-    const double each = 1 / static_cast<double>(wanted);
-    sums.radius = radii * each;
-    for (double& sum : sums.cells.sum) sum *= sums.count * each;
+}
+
+} // namespace
+
+PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept {
+    const double w = 2 * by, (&m)[4] = sums.cells.sum;
+    sums.cells = {{m[0], m[1] + 3 * w * m[0], m[2] + w * (2 * m[1] + 3 * w * m[0]),
+                   m[3] + w * (m[2] + w * (m[1] + w * m[0]))}};
+    sums.longest += w;
+    sums.radius += by;
     return sums;
 }
 
 BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
                        std::pmr::memory_resource* memory) {
     BoxSample sample(memory);
-    const std::uint64_t count = primitives.count(), size = std::min(count, wanted);
-    sample.boxes.reserve(static_cast<std::size_t>(size));
-    sample.ids.reserve(static_cast<std::size_t>(size));
-    const double part = static_cast<double>(count) / static_cast<double>(size);
-    for (std::uint64_t i = 0; i < size; ++i) {
-        std::uint64_t at = i;
-        if (size < count) {
-            const double place = static_cast<double>(next_random(seed) >> 11) * 0x1p-53;
-            at = std::min(static_cast<std::uint64_t>((static_cast<double>(i) + place) * part), count - 1);
+    const auto size = static_cast<std::size_t>(std::min(primitives.count(), wanted));
+    sample.boxes.reserve(size);
+    sample.ids.reserve(size);
+    if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
+        const PackedPrimitives packed(primitives);
+        const double radius = primitives.common_radius() + grown;
+        switch (primitives.corners()) {
+        case 1: sample_packed<1>(packed, radius, wanted, seed, sample); break;
+        case 2: sample_packed<2>(packed, radius, wanted, seed, sample); break;
+        case 3: sample_packed<3>(packed, radius, wanted, seed, sample); break;
+        default: sample_packed<4>(packed, radius, wanted, seed, sample); break;
         }
-        PlainBox box = primitives.box(at);
-        box.grow(primitives.radius(at) + grown);
-        sample.boxes.push_back(box);
-        sample.ids.push_back(static_cast<std::uint32_t>(at));
+        return sample;
     }
+    for_random_places(primitives.count(), wanted, seed, [&](std::uint64_t i) {
+        PlainBox box = primitives.box(i);
+        box.grow(primitives.radius(i) + grown);
+        sample.boxes.push_back(box);
+        sample.ids.push_back(static_cast<std::uint32_t>(i));
+    });
     return sample;
 }
 

@@ -58,6 +58,7 @@ public:
     Vec3d corner(std::uint64_t primitive, int corner) const; // of one that box() accepted
 
 private:
+    friend struct PackedPrimitives;
     std::uint64_t vertex(std::uint64_t primitive, int corner) const noexcept;
     [[noreturn]] void refuse_position(std::uint64_t primitive, std::uint64_t vertex) const;
 
@@ -83,14 +84,14 @@ struct PrimitiveSums {
     PlainBox bounds{};    // of their boxes
     double longest = 0;   // side of a box
     double radius = 0;    // mean
-    bool all = true;      // whether all were looked at
 };
 
-// Boxes with their radii and `grown` beyond. Looks at all primitives where that is cheap or `wants_all`, else at
-// about `most`. Throws as Primitives::box().
-// With `centres`, the bounds are those of the centres.
-PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t most,
-                        bool wants_all);
+// Boxes with their radii and `grown` beyond, of about `wanted` primitives, all over the list. With `centres`, the
+// bounds are those of the centres. Throws as Primitives::box().
+PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres, std::uint64_t wanted);
+
+// The same for boxes that are larger by `by` on all sides, with the bounds as they were.
+PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept;
 
 // Boxes of about `wanted` primitives, with radii and `grown` beyond: all of them, or one of each part of the list, at a
 // place that is independent from part to part and from seed to seed. So a pair of one primitive from

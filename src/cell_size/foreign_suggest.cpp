@@ -15,10 +15,11 @@ namespace {
 
 constexpr Fineness foreign_fineness{.scans_per_octave = 5, .tolerance = 1e-4};
 
-// Whether the cost depends on how many cells are empty or occupied, which takes longer to find out than the rest.
-bool needs_cells(const ForeignGrid& grid) {
+// Empty and occupied cells take longer to count than the rest.
+CellsWanted cells_wanted(const ForeignGrid& grid) {
     const vox_grid_weights& w = grid.desc.weights;
-    return w.occupied > 0 || w.found > 0 || (grid.pairs() && w.visits > 0);
+    if (grid.pairs()) return {false, w.occupied > 0 || w.visits > 0 || w.found > 0};
+    return {w.found > 0, w.occupied > 0};
 }
 
 // The sizes among which the least cost must be, as no cell costs less than an empty one that was never made, or more
@@ -38,7 +39,8 @@ CellSizeRange bracket(const ForeignGrid& grid, const ForeignWork& work) {
         return grid_cost(w, weights);
     };
     const CostMinimum best = minimise(most, range, foreign_fineness);
-    return zone_around(best, best.cost, least, range, foreign_fineness);
+    const double limit = best.cost * (1 + 1e-6); // beyond rounding
+    return zone_around({best.cell_size, least(std::log2(best.cell_size))}, limit, least, range, foreign_fineness);
 }
 
 // Where nothing has a size, smaller cells are never worse. Below the size where one other in sixteen is found, they are
@@ -82,8 +84,8 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
         add_to_note(note, text);
     };
 
-    const bool with_cells = needs_cells(grid);
-    const auto work_at = [&](double d) { return with_cells ? work.at(d) : work.smooth_at(d); };
+    const CellsWanted cells = cells_wanted(grid);
+    const auto work_at = [&](double d) { return work.at(d, cells); };
     const CostFunction cost = [&](double log_size) { return grid_cost(work_at(std::exp2(log_size)), weights); };
 
     CellSizeRange range = work.range();
@@ -95,7 +97,7 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
             warn(VOX_FOREIGN_NO_SIZE,
                  format("no primitive has a size: below %g cells hold one each, and cost the same", range.min));
         }
-        if (with_cells) {
+        if (cells.empty || cells.occupied) {
             const CellSizeRange near = bracket(grid, work);
             range = {std::max(range.min, near.min), std::max(std::max(range.min, near.min), near.max)};
         }
@@ -109,7 +111,7 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
     result.zone_max = zone.max;
     result.predicted_cost = best.cost;
     result.least_cell_size = work.least_cell_size();
-    result.work = work.at(best.cell_size);
+    result.work = work.exactly_at(best.cell_size);
     result.weights = weights;
     if (!grid.weights_known)
         warn(VOX_FOREIGN_WEIGHTS_UNKNOWN, "nothing is known of the grid's times: three timings would help");
