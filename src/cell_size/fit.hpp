@@ -1,0 +1,98 @@
+// A cost as a sum of terms with coefficients >= 0, fitted to timings. The terms are the counts of a grid that is
+// described, and their coefficients its weights, or powers of the cell size where nothing is known.
+#pragma once
+
+#include "cell_size/grid_cost.hpp"
+#include "cell_size/least_squares.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+#include <span>
+#include <string>
+
+namespace vox {
+
+using Coefficients = NonNegativeLeastSquares::Coefficients;
+
+// What a cost is a sum of.
+struct CostBasis {
+    std::size_t count = 0;                                // of the terms
+    std::function<Coefficients(double cell_size)> values; // of the terms, >= 0
+    Coefficients expected{}; // coefficients in any unit: what timings cannot tell apart is divided like these
+};
+
+// The terms of vox_grid_weights, in its order.
+CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected);
+
+// Powers -3 to 3 of the cell size. A sum of them is convex in the logarithm. That of the expected coefficients is
+// least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
+CostBasis power_basis(double middle);
+
+double cost_of(const Coefficients& values, const Coefficients& coefficients) noexcept;
+vox_grid_weights weights_of(const Coefficients& seconds) noexcept; // of described_basis; in nanoseconds
+
+// A timing, and the terms at its cell size.
+struct TimedTerms {
+    double seconds; // from least_seconds to most_seconds
+    Coefficients values;
+    double weight = 1; // of its squared error
+};
+
+// Squares of ratios of such times are finite.
+inline constexpr double least_seconds = 1e-30, most_seconds = 1e30;
+
+// Coefficients by least squares of the relative errors (fitted / measured - 1).
+class CostFit {
+public:
+    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing would. This
+    // settles what timings cannot tell apart. `middle` has the terms at one cell size.
+    CostFit(const CostBasis& basis, const Coefficients& middle) noexcept;
+
+    // In seconds. At least one timing.
+    Coefficients operator()(std::span<const TimedTerms> timings) const noexcept;
+
+private:
+    std::size_t count_;
+    Coefficients scale_{};    // of a term, so that it is 1 at `middle`; 0 where it is 0 there
+    Coefficients expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one
+};
+
+// Sets the weights of the timings. Slow ones count less, as only the curve around its minimum matters, and so do those
+// far above the curve, as something else was running then. Returns the noise: the relative error of a timing.
+double weigh(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
+
+// Root mean square of the relative errors, by weight or of all alike.
+double weighted_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
+double plain_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
+
+// Beyond this error the counts do not describe the grid.
+inline constexpr double disagreeing_model = 0.15;
+// Timings at one cell size disagree beyond this ratio.
+inline constexpr double disagreeing_timings = 1.25;
+
+// Warnings with their texts.
+class Notes {
+public:
+    void add(vox_foreign_warnings warning, const std::string& text);
+    std::uint32_t warnings() const noexcept { return warnings_; }
+    void write(char (&note)[VOX_NOTE_CAPACITY]) const noexcept;
+
+private:
+    std::uint32_t warnings_ = 0;
+    std::string text_;
+};
+
+// What vox_cost_fit is asked.
+struct FitSettings {
+    double least_cell_size = 0; // that is legal; 0: any
+    double zone_loss = 0.05;
+};
+
+// Throws INVALID_ARGUMENT for timings that vox.h does not allow.
+vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings,
+                         std::span<const vox_grid_timing> timings, std::pmr::memory_resource* memory);
+
+} // namespace vox

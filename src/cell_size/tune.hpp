@@ -1,0 +1,41 @@
+// The best cell size of a grid, by running it at few of them.
+#pragma once
+
+#include "cell_size/fit.hpp"
+#include "cell_size/search.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+
+namespace vox {
+
+vox_tune_desc tune_defaults();
+
+// Throws INVALID_ARGUMENT for what vox.h does not allow, whatever the grid.
+void check_tune_desc(const vox_tune_desc& desc);
+
+// Where to look, from a desc that was checked. `suggested`: the first cell size where the caller has set none; 0: none.
+// `least`: the least legal size, or 0. Throws INVALID_ARGUMENT where no cell size is left.
+struct TuneSettings {
+    TuneSettings(const vox_tune_desc& desc, double suggested, double least);
+
+    std::uint32_t most_runs;
+    double zone_loss;
+    double wanted_loss;
+    double least; // legal size, or 0
+    double first;
+    CellSizeRange range;
+};
+
+// As vox_grid_run.
+using GridRun = std::function<double(double cell_size)>;
+
+// `described` is null where nothing is known of the grid. Throws INVALID_STATE if no run succeeded, INVALID_ARGUMENT
+// for times that cannot be.
+vox_tuning tune(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
+                std::pmr::memory_resource* memory);
+
+} // namespace vox
