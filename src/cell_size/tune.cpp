@@ -95,8 +95,9 @@ public:
                         format("no run succeeded: %u could not run, the first at cell size %g%s", run_count_,
                                settings_.first, stopped_ ? ", then the callback stopped" : ""));
         for (judge(); !stopped_ && run_count_ < settings_.most_runs; judge()) {
-            const bool sure = run_count_ >= least_runs && loss_ <= settings_.wanted_loss;
-            if (sure || low_ == high_) break;
+            const bool within = chosen_ >= smallest() && chosen_ <= largest();
+            if (run_count_ >= least_runs && within && loss_ <= settings_.wanted_loss) break;
+            if (low_ == high_) break;
             time(next());
         }
         return answer();
@@ -105,12 +106,16 @@ public:
 private:
     static constexpr std::uint32_t least_runs = 4;
 
-    int node_of(double cell_size) const { // towards the first
+    // The last node may be closer to the one before, at the end of the range.
+    int node_of(double end) const {
         constexpr double most = nodes_per_octave * most_octaves_away;
-        const double nodes = nodes_per_octave * (std::log2(cell_size) - std::log2(settings_.first));
-        return static_cast<int>(std::clamp(nodes, -most, most));
+        const double nodes = nodes_per_octave * (std::log2(end) - std::log2(settings_.first));
+        return static_cast<int>(std::clamp(nodes < 0 ? std::floor(nodes) : std::ceil(nodes), -most, most));
     }
-    double size(int node) const { return settings_.first * std::exp2(double(node) / nodes_per_octave); }
+    double size(int node) const {
+        return std::clamp(settings_.first * std::exp2(double(node) / nodes_per_octave), settings_.range.min,
+                          settings_.range.max);
+    }
 
     // ---- runs -----------------------------------------------------------------------------------------
 
@@ -119,8 +124,8 @@ private:
         const int step = std::clamp((high_ - low_) / 2, 1, nodes_per_octave);
         for (const int steps : {0, -1, 1, 2, -2, 3, -3}) {
             if (stopped_ || run_count_ == settings_.most_runs || timed_.size() == 3) break;
-            const int node = steps * step;
-            if (node >= low_ && node <= high_) time(node);
+            const int node = std::clamp(steps * step, low_, high_);
+            if (std::find(nodes_.begin(), nodes_.end(), node) == nodes_.end()) time(node);
         }
     }
 
@@ -299,7 +304,8 @@ private:
         const Fineness fineness{.least_scans = 3, .tolerance = 1e-4};
         const CellSizeRange around{size(std::max(node - 1, smallest())), size(std::min(node + 1, largest()))};
         const CellSizeRange view{size(view_low_), size(view_high_)};
-        const CostMinimum best = minimise(cost, around, fineness);
+        CostMinimum best = minimise(cost, around, fineness);
+        prefer_run(best, cost);
         const CellSizeRange zone =
             zone_around(best, (1 + settings_.zone_loss) * best.cost, cost, view, fineness);
 
@@ -325,6 +331,17 @@ private:
         result.warnings = notes_.warnings();
         notes_.write(result.note);
         return result;
+    }
+
+    // A size that was run, where the fits see no difference: real costs are not as smooth as theirs.
+    void prefer_run(CostMinimum& best, const CostFunction& cost) const {
+        double least = without_end;
+        const double limit = best.cost * (1 + settings_.wanted_loss / 2);
+        for (std::size_t i = 0; i < timed_.size(); ++i)
+            if (const double fitted = cost(std::log2(size(nodes_[i]))); fitted <= limit && timed_[i].seconds < least) {
+                least = timed_[i].seconds;
+                best = {size(nodes_[i]), fitted};
+            }
     }
 
     void compare_timings(double noise) {
